@@ -1,0 +1,253 @@
+//! The seam between an energy and everything else: what `#[piola::material]` writes and the rest of piola reads.
+//!
+//! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches
+//! λ1 ≥ λ2 ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second derivatives
+//! in the stretches and, for each pair of them, two difference quotients (names after [SGK19]):
+//!
+//! ```text
+//! flip   D⁻ij = (ψi − ψj) / (λi − λj)
+//! twist  D⁺ij = (ψi + ψj) / (λi + λj)
+//! ```
+//!
+//! Pairs are ordered (1,2), (1,3), (2,3) everywhere: [`PAIRS`].
+//!
+//! [SGK19] Smith, de Goes, Kim, *Analytic Eigensystems for Isotropic Distortion Energies*, 2019.
+//!
+//! This module knows no matrices: how the derivatives become a stress is the business of [`crate::point`].
+
+use std::fmt;
+
+use crate::lanes::Real;
+
+/// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
+pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// First and second derivatives of an energy density at one triple of stretches, with its quotients. All in Pa.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blocks<R> {
+    /// ψ1, ψ2, ψ3.
+    pub gradient: [R; 3],
+    /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23.
+    pub hessian: [R; 6],
+    /// D⁻ of the [`PAIRS`].
+    pub flip: [R; 3],
+    /// D⁺ of the [`PAIRS`].
+    pub twist: [R; 3],
+}
+
+/// An isotropic hyperelastic energy in principal stretches, usually written by `#[piola::material]`.
+///
+/// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
+/// ([`Material::admits`]) results are meaningless and may be NaN.
+pub trait Material: Send + Sync {
+    /// ψ, J/m³ of rest volume.
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R;
+
+    /// ψ1, ψ2, ψ3, Pa.
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
+
+    /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
+
+    /// Where the energy in use is defined.
+    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
+
+    /// Whether some twist has a true pole at λi + λj = 0, where the stress itself jumps.
+    ///
+    /// The denominator is then bounded from below by [`pole_floor`](crate::quotient::pole_floor), and the point says so.
+    fn has_pole(&self) -> bool;
+
+    /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact determinant.
+    fn ends_at_zero_volume(&self) -> bool;
+}
+
+/// What a material with a domain does outside it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Inversion {
+    /// The point's status says so, and a line search takes a shorter step.
+    #[default]
+    Refuse,
+    /// ln λ and real or negative powers of a stretch continue below `epsilon` as their quadratic Taylor polynomials.
+    ///
+    /// The energy stays twice continuously differentiable, isotropic and restoring, and stress and tangent stay its
+    /// exact derivatives.
+    Extend {
+        /// The stretch below which the polynomials are in use, 0 < ε < 1.
+        epsilon: f64,
+    },
+}
+
+/// What the evaluation at a point says beside its numbers: one truth value for each point of a batch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Status<M> {
+    /// The deformation lies outside the domain of the energy; the numbers are meaningless.
+    pub refused: M,
+    /// λ2 + λ3 is at a pole of the twist; the tangent has a bounded value in place of an infinite one.
+    pub bounded: M,
+    /// The deformation gradient or a result is infinite or NaN.
+    pub nonfinite: M,
+}
+
+/// Small-strain moduli of an isotropic solid, Pa.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moduli {
+    /// Shear modulus μ.
+    pub mu: f64,
+    /// First Lamé parameter λ.
+    pub lambda: f64,
+}
+
+impl Moduli {
+    /// From Young's modulus E, Pa, and Poisson's ratio ν.
+    #[must_use]
+    pub fn from_young_poisson(young: f64, poisson: f64) -> Self {
+        Self {
+            mu: young / (2.0 * (1.0 + poisson)),
+            lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
+        }
+    }
+
+    /// Bulk modulus K = λ + 2μ/3, Pa.
+    #[must_use]
+    pub fn bulk(&self) -> f64 {
+        self.lambda + 2.0 / 3.0 * self.mu
+    }
+
+    /// Young's modulus E = μ (3λ + 2μ) / (λ + μ), Pa.
+    #[must_use]
+    pub fn young(&self) -> f64 {
+        self.mu * (3.0 * self.lambda + 2.0 * self.mu) / (self.lambda + self.mu)
+    }
+
+    /// Poisson's ratio ν = λ / (2 (λ + μ)).
+    #[must_use]
+    pub fn poisson(&self) -> f64 {
+        self.lambda / (2.0 * (self.lambda + self.mu))
+    }
+}
+
+/// What a declaration says of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Description {
+    /// The type's name.
+    pub name: &'static str,
+    /// First paragraph of the documentation.
+    pub summary: &'static str,
+    /// ψ as a formula in one line.
+    pub formula: &'static str,
+    /// The parameters in the order of the constructor.
+    pub parameters: &'static [Parameter],
+    /// Where ψ is defined, such as `J > 0`.
+    pub domain: &'static str,
+    /// Whether the material can be built with [`Inversion::Extend`].
+    pub extends: bool,
+    /// What the parameters must satisfy beside being finite.
+    pub admissible: &'static [&'static str],
+    /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
+    pub moduli: [&'static str; 2],
+}
+
+/// A parameter of a declared energy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// As in the declaration.
+    pub name: &'static str,
+    /// Its documentation, units included.
+    pub doc: &'static str,
+    /// A list, with one entry for each term of a sum.
+    pub is_list: bool,
+}
+
+/// A material declared by `#[piola::material]`, buildable from values found at run time.
+pub trait Declared: Material + Sized {
+    /// Names, formula, domain.
+    const DESCRIPTION: Description;
+
+    /// The material with these values, one slice for each entry of [`Description::parameters`].
+    ///
+    /// # Errors
+    /// Where the constructor of the type would refuse, or the lengths do not fit.
+    fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, Inadmissible>;
+
+    /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
+    fn moduli(&self) -> Moduli;
+}
+
+/// Why a material cannot be built from these parameters.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Inadmissible {
+    /// A parameter is infinite or NaN.
+    NotFinite {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A condition of the declaration does not hold.
+    Violated {
+        /// The condition as declared.
+        condition: &'static str,
+        /// The parameters as given, such as `mu = -1`.
+        given: String,
+    },
+    /// The shear modulus at rest is not positive, or the bulk modulus negative, or one is not finite.
+    UnstableRest {
+        /// The moduli that follow from the parameters.
+        moduli: Moduli,
+    },
+    /// The threshold of the extension is outside 0 < ε < 1.
+    Threshold {
+        /// The threshold as given.
+        epsilon: f64,
+    },
+    /// The material has no extension.
+    NoExtension {
+        /// Name of the material.
+        material: &'static str,
+    },
+    /// The extension would not restore an inverted point.
+    DoesNotRestore {
+        /// The condition that would make it restore.
+        condition: &'static str,
+        /// The parameters as given.
+        given: String,
+    },
+    /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
+    Shape {
+        /// What was expected.
+        expected: String,
+    },
+}
+
+impl fmt::Display for Inadmissible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { parameter, value } => {
+                write!(f, "`{parameter}` is {value}; it must be a finite number")
+            }
+            Self::Violated { condition, given } => write!(f, "`{condition}` must hold, but {given}"),
+            Self::UnstableRest { moduli } => write!(
+                f,
+                "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive, \
+                 the bulk modulus is {} Pa and must not be negative",
+                moduli.mu,
+                moduli.bulk()
+            ),
+            Self::Threshold { epsilon } => {
+                write!(f, "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1")
+            }
+            Self::NoExtension { material } => {
+                write!(f, "{material} has no extension beyond its domain; use `Inversion::Refuse`")
+            }
+            Self::DoesNotRestore { condition, given } => write!(
+                f,
+                "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {given}; \
+                 use `Inversion::Refuse` or other parameters"
+            ),
+            Self::Shape { expected } => write!(f, "{expected}"),
+        }
+    }
+}
+
+impl std::error::Error for Inadmissible {}

@@ -1,0 +1,2 @@
+//! The command `piola`.
+fn main() {}
