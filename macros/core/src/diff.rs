@@ -1,0 +1,127 @@
+//! Partial derivatives with respect to a stretch.
+
+use std::collections::HashMap;
+
+use crate::expr::{Exponent, Graph, Id, Node, Stretch};
+use crate::rational::Rational;
+
+/// Derivatives, each computed once.
+#[derive(Debug, Default)]
+pub struct Differentiator {
+    memo: HashMap<(Id, Stretch), Id>,
+}
+
+impl Differentiator {
+    /// ∂e/∂λi.
+    pub fn derivative(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
+        if let Some(&done) = self.memo.get(&(e, i)) {
+            return done;
+        }
+        let result = self.rule(graph, e, i);
+        self.memo.insert((e, i), result);
+        result
+    }
+
+    fn rule(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
+        match graph.node(e).clone() {
+            Node::Stretch(j) => graph.integer(i64::from(i == j)),
+            Node::Linear { terms, .. } => {
+                let terms: Vec<_> =
+                    terms.into_iter().map(|(term, c)| (self.derivative(graph, term, i), c)).collect();
+                graph.linear(Rational::ZERO, &terms)
+            }
+            // (Π bᵢ^eᵢ)′ = Σ eᵢ Π bᵢ′/bᵢ; the division cancels against a factor of the product or of bᵢ′.
+            Node::Product(factors) => {
+                let mut terms = Vec::new();
+                for (base, exponent) in factors {
+                    let inner = self.derivative(graph, base, i);
+                    if graph.is_zero(inner) {
+                        continue;
+                    }
+                    let exponent = graph.exponent_value(exponent);
+                    let term = [(exponent, 1), (e, 1), (base, -1), (inner, 1)];
+                    terms.push(graph.product(&term.map(|(factor, n)| (factor, Exponent::integer(n)))));
+                }
+                graph.sum_of(&terms)
+            }
+            Node::Ln(a) => {
+                let inner = self.derivative(graph, a, i);
+                graph.div(inner, a)
+            }
+            Node::Exp(a) => {
+                let inner = self.derivative(graph, a, i);
+                graph.mul(e, inner)
+            }
+            Node::Sum(length, body) => {
+                let inner = self.derivative(graph, body, i);
+                graph.sum(length, inner)
+            }
+            Node::Extended(function, order, j) if i == j => {
+                graph.leaf(Node::Extended(function, order + 1, j))
+            }
+            Node::Extended(..)
+            | Node::Parameter(_)
+            | Node::Entry(_)
+            | Node::Float(_)
+            | Node::Epsilon
+            // What follows only arises after differentiation, in quotients and lowered extensions.
+            | Node::Above(_)
+            | Node::Below(_)
+            | Node::ShareAbove(..)
+            | Node::ShareBelow(..)
+            | Node::LnQuotient(..)
+            | Node::ExpQuotient(..)
+            | Node::PowerQuotient(..)
+            | Node::PoleQuotient(..) => graph.integer(0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interpret::{Point, Value, evaluate};
+
+    /// The slope of finite differences: their error must fall as h².
+    #[track_caller]
+    fn check(build: impl Fn(&mut Graph, [Id; 3]) -> Id) {
+        let mut graph = Graph::default();
+        let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+        let e = build(&mut graph, stretches);
+        let derivative = Differentiator::default().derivative(&mut graph, e, 1);
+        let at = |y: f64| Point { stretches: [1.3, y, 0.6], ..Point::default() };
+        let value = |id, y| {
+            let Value { value, .. } = evaluate(&graph, id, &at(y));
+            value
+        };
+        let exact = value(derivative, 0.9);
+        let error = |h: f64| ((value(e, 0.9 + h) - value(e, 0.9 - h)) / (2.0 * h) - exact).abs();
+        let (coarse, fine) = (error(1e-2), error(1e-3));
+        assert!(fine < 1e-12 || (80.0..120.0).contains(&(coarse / fine)), "{coarse:e} then {fine:e}");
+    }
+
+    #[test]
+    fn every_rule_is_the_slope_of_its_function() {
+        check(|g, [x, y, z]| g.product_of(&[x, y, z]));
+        check(|g, [x, y, _]| {
+            let j = g.mul(x, y);
+            g.ln(j)
+        });
+        check(|g, [x, y, _]| {
+            let product = g.mul(x, y);
+            g.exp(product)
+        });
+        check(|g, [_, y, _]| g.powi(y, -3));
+        check(|g, [x, y, _]| {
+            let sum = g.add(x, y);
+            g.powi(sum, 4)
+        });
+        check(|g, [_, y, _]| g.power(y, Exponent::rational(Rational::new(-2, 3).unwrap())));
+        check(|g, [x, y, _]| {
+            let alpha = g.leaf(Node::Float(1.7f64.to_bits()));
+            let exponent = g.exponent(alpha);
+            let power = g.power(y, exponent);
+            g.mul(power, x)
+        });
+    }
+}

@@ -1,0 +1,644 @@
+//! From a [`Model`] to Rust: the type, its constructor, its documentation and its implementations.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+use syn::{Expr, Ident};
+
+use crate::expr::{Graph, Id};
+use crate::formula::formula;
+use crate::model::{Model, Variant, indexed_lists};
+use crate::parse::{Declaration, documentation};
+use crate::schedule::{Op, Program, Statement, Value, schedule};
+
+/// The whole expansion.
+#[must_use]
+pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
+    let texts = Texts::of(declaration, &mut model);
+    let structure = structure(declaration, &texts);
+    let constructor = constructor(declaration);
+    let material = material(declaration, &mut model);
+    let declared = declared(declaration, &mut model, &texts);
+    quote!(#structure #constructor #material #declared)
+}
+
+/// What documentation and description say.
+struct Texts {
+    formula: String,
+    domain: String,
+    moduli: [String; 2],
+    summary: String,
+}
+
+impl Texts {
+    fn of(declaration: &Declaration, model: &mut Model) -> Self {
+        let mut print = |id| formula(&mut model.graph, declaration, id);
+        let formula = print(model.energy);
+        let moduli = model.moduli.map(&mut print);
+        let domain = match &declaration.options.domain[..] {
+            [] => "every deformation".to_owned(),
+            conditions => conditions.iter().map(condition_text).collect::<Vec<_>>().join(", "),
+        };
+        let summary = documentation(&declaration.attributes);
+        let summary = summary.lines().next().unwrap_or_default().to_owned();
+        Self { formula, domain, moduli, summary }
+    }
+}
+
+/// A condition as people write it: `mu[p] * alpha[p] > 0`.
+fn condition_text(condition: &Expr) -> String {
+    let text = condition.to_token_stream().to_string();
+    text.replace(" [", "[")
+        .replace("[ ", "[")
+        .replace(" ]", "]")
+        .replace(".0 ", " ")
+        .trim_end_matches(".0")
+        .to_owned()
+}
+
+fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
+    let names = &declaration.generics;
+    if names.is_empty() {
+        (quote!(), quote!())
+    } else {
+        (quote!(<#(const #names: usize),*>), quote!(<#(#names),*>))
+    }
+}
+
+fn parameter_types(declaration: &Declaration) -> Vec<TokenStream> {
+    let lengths = declaration.parameters.iter().map(|parameter| parameter.length);
+    lengths
+        .map(|length| match length.map(|length| &declaration.lengths[length]) {
+            Some(length) => quote!([f64; #length]),
+            None => quote!(f64),
+        })
+        .collect()
+}
+
+fn structure(declaration: &Declaration, texts: &Texts) -> TokenStream {
+    let Declaration { attributes, visibility, name, .. } = declaration;
+    let (bounds, _) = generics(declaration);
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let types = parameter_types(declaration);
+    let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
+    let doc = format!(
+        "\n```text\nψ = {}\n```\n\nDomain: {}. Small strain: μ = {}, λ = {}.",
+        texts.formula, texts.domain, texts.moduli[0], texts.moduli[1]
+    );
+    quote! {
+        #(#attributes)*
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #visibility struct #name #bounds {
+            #(#names: #types,)*
+            #inversion
+        }
+    }
+}
+
+fn constructor(declaration: &Declaration) -> TokenStream {
+    let Declaration { visibility, name, options, .. } = declaration;
+    let (bounds, arguments) = generics(declaration);
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let types = parameter_types(declaration);
+    let documented =
+        declaration.parameters.iter().map(|parameter| format!("* `{}`: {}", parameter.name, parameter.doc));
+    let new_doc = format!(
+        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible.",
+        documented.collect::<Vec<_>>().join("\n")
+    );
+    let finite = declaration.parameters.iter().map(|parameter| {
+        let (name, text) = (&parameter.name, parameter.name.to_string());
+        let values = if parameter.length.is_some() { quote!(#name) } else { quote!([#name]) };
+        quote! {
+            for value in #values {
+                if !value.is_finite() {
+                    return Err(::piola::material::Inadmissible::NotFinite { parameter: #text, value });
+                }
+            }
+        }
+    });
+    let admissible =
+        options.admissible.iter().map(|condition| check(declaration, condition, &quote!(Violated)));
+    let inversion = options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion::Refuse,));
+    let stable_rest = (!options.prestressed).then(|| {
+        quote! {
+            let moduli = ::piola::material::Declared::moduli(&material);
+            if !(moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite()) {
+                return Err(::piola::material::Inadmissible::UnstableRest { moduli });
+            }
+        }
+    });
+    let getters = declaration.parameters.iter().zip(&types).map(|(parameter, ty)| {
+        let (name, attributes) = (&parameter.name, &parameter.attributes);
+        let is_documented = !parameter.doc.is_empty();
+        let doc = (!is_documented).then(|| quote!(#[doc = "A parameter."]));
+        quote! {
+            #(#attributes)*
+            #doc
+            #[must_use]
+            #visibility fn #name(&self) -> #ty {
+                self.#name
+            }
+        }
+    });
+    let with_inversion = options.extend.as_ref().map(|conditions| {
+        let restores =
+            conditions.iter().map(|condition| check(declaration, condition, &quote!(DoesNotRestore)));
+        quote! {
+            /// The same material with another way to meet what lies outside its domain.
+            ///
+            /// # Errors
+            /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
+            #visibility fn with_inversion(
+                mut self,
+                inversion: ::piola::Inversion,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                if let ::piola::Inversion::Extend { epsilon } = inversion {
+                    if !(epsilon > 0.0 && epsilon < 1.0) {
+                        return Err(::piola::material::Inadmissible::Threshold { epsilon });
+                    }
+                    #[allow(unused_variables)]
+                    let Self { #(#names,)* .. } = self;
+                    #(#restores)*
+                }
+                self.inversion = inversion;
+                Ok(self)
+            }
+        }
+    });
+    quote! {
+        impl #bounds #name #arguments {
+            #[doc = #new_doc]
+            #[allow(clippy::too_many_arguments)]
+            #visibility fn new(#(#names: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                #(#finite)*
+                #(#admissible)*
+                let material = Self { #(#names,)* #inversion };
+                #stable_rest
+                Ok(material)
+            }
+
+            #with_inversion
+
+            #(#getters)*
+        }
+    }
+}
+
+/// Returns an error unless a condition holds, for every entry if it is written for one.
+fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> TokenStream {
+    let text = condition_text(condition);
+    let lists = indexed_lists(condition);
+    let index = lists.first().map(|(_, index)| index.clone());
+    let given = declaration.parameters.iter().filter(|parameter| mentions(condition, &parameter.name)).map(
+        |parameter| {
+            let name = &parameter.name;
+            match &index {
+                Some(index) if parameter.length.is_some() => {
+                    let format = format!("{name}[{{}}] = {{}}");
+                    quote!(::std::format!(#format, #index, #name[#index]))
+                }
+                _ => {
+                    let format = format!("{name} = {{}}");
+                    quote!(::std::format!(#format, #name))
+                }
+            }
+        },
+    );
+    let test = quote! {
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+        if !(#condition) {
+            return Err(::piola::material::Inadmissible::#error {
+                condition: #text,
+                given: [#(#given),*].join(", "),
+            });
+        }
+    };
+    match lists.first() {
+        Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
+        None => test,
+    }
+}
+
+fn mentions(expression: &Expr, name: &Ident) -> bool {
+    fn search(tokens: TokenStream, name: &Ident) -> bool {
+        tokens.into_iter().any(|token| match token {
+            proc_macro2::TokenTree::Ident(ident) => ident == *name,
+            proc_macro2::TokenTree::Group(group) => search(group.stream(), name),
+            _ => false,
+        })
+    }
+    search(expression.to_token_stream(), name)
+}
+
+fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
+    let name = &declaration.name;
+    let (bounds, arguments) = generics(declaration);
+    let writer = Writer::new(declaration);
+    let stretches = &declaration.stretches;
+
+    let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
+                      result: &dyn Fn(&[TokenStream]) -> TokenStream| {
+        let body = |graph: &mut Graph, variant: &Variant| {
+            let program = schedule(graph, &select(variant));
+            let (statements, outputs) = writer.program(&program);
+            let result = result(&outputs);
+            quote!(#(#statements)* #result)
+        };
+        let plain = body(&mut model.graph, &model.plain);
+        match &model.extended {
+            None => plain,
+            Some(extended) => {
+                let extended = body(&mut model.graph, extended);
+                quote! {
+                    match self.inversion {
+                        ::piola::Inversion::Refuse => { #plain }
+                        ::piola::Inversion::Extend { epsilon } => {
+                            let epsilon = R::splat(epsilon);
+                            #extended
+                        }
+                    }
+                }
+            }
+        }
+    };
+    let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
+    let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
+    let blocks = bodies(
+        &|variant| [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat(),
+        &|outputs| {
+            let (gradient, hessian, flip, twist) =
+                (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
+            quote! {
+                ::piola::material::Blocks {
+                    gradient: [#(#gradient),*],
+                    hessian: [#(#hessian),*],
+                    flip: [#(#flip),*],
+                    twist: [#(#twist),*],
+                }
+            }
+        },
+    );
+
+    let admits = admits(model, &writer, stretches);
+    let plain_pole = model.plain.has_pole;
+    let (has_pole, ends) = match &model.extended {
+        None => {
+            let positive = model.positive;
+            (quote!(#plain_pole), quote!(#positive))
+        }
+        Some(extended) => {
+            let extended_pole = extended.has_pole;
+            let pole = if plain_pole == extended_pole {
+                quote!(#plain_pole)
+            } else {
+                quote! {
+                    match self.inversion {
+                        ::piola::Inversion::Refuse => #plain_pole,
+                        ::piola::Inversion::Extend { .. } => #extended_pole,
+                    }
+                }
+            };
+            (pole, quote!(::core::matches!(self.inversion, ::piola::Inversion::Refuse)))
+        }
+    };
+    let [l1, l2, l3] = stretches;
+    quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl #bounds ::piola::Material for #name #arguments {
+            #[inline]
+            fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
+                #energy
+            }
+
+            #[inline]
+            fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
+                #gradient
+            }
+
+            #[inline]
+            fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
+                #blocks
+            }
+
+            #[inline]
+            fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
+                #admits
+            }
+
+            #[inline]
+            fn has_pole(&self) -> bool {
+                #has_pole
+            }
+
+            #[inline]
+            fn ends_at_zero_volume(&self) -> bool {
+                #ends
+            }
+        }
+    }
+}
+
+/// J > 0 is λ3 > 0, the last stretch carrying the sign; the other bounds are positive expressions.
+fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
+    let program = schedule(&mut model.graph, &model.bounds);
+    let (statements, outputs) = writer.program(&program);
+    let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
+    let mut conditions: Vec<TokenStream> = bounds.collect();
+    if model.positive {
+        let smallest = &stretches[2];
+        conditions.push(match &model.extended {
+            None => quote!(R::splat(0.0).less(#smallest)),
+            Some(_) => quote! {
+                match self.inversion {
+                    ::piola::Inversion::Refuse => R::splat(0.0).less(#smallest),
+                    ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
+                }
+            },
+        });
+    }
+    let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
+    let all = all.unwrap_or_else(|| quote!(<R::Mask as ::piola::lanes::Mask>::splat(true)));
+    quote!(#(#statements)* #all)
+}
+
+fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {
+    let name = &declaration.name;
+    let (bounds, arguments) = generics(declaration);
+    let Texts { formula, domain, moduli, summary } = texts;
+    let type_name = name.to_string();
+    let parameters = declaration.parameters.iter().map(|parameter| {
+        let (name, doc, is_list) = (parameter.name.to_string(), &parameter.doc, parameter.length.is_some());
+        quote!(::piola::material::Parameter { name: #name, doc: #doc, is_list: #is_list })
+    });
+    let extends = declaration.options.extend.is_some();
+    let admissible = declaration.options.admissible.iter().map(condition_text);
+
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let expected = format!(
+        "{} parameters are expected: {}",
+        names.len(),
+        names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    );
+    let conversions = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        let shape = match parameter.length {
+            Some(length) => {
+                let length = &declaration.lengths[length];
+                let format = format!("`{name}` must have {{}} entries");
+                quote!(::std::format!(#format, #length))
+            }
+            None => {
+                let message = format!("`{name}` must be one number");
+                quote!(#message.to_owned())
+            }
+        };
+        let (pattern, length) = match parameter.length.map(|length| &declaration.lengths[length]) {
+            Some(length) => (quote!(#name), quote!(#length)),
+            None => (quote!([#name]), quote!(1)),
+        };
+        quote! {
+            let Ok(#pattern) = <[f64; #length]>::try_from(#name) else {
+                return Err(::piola::material::Inadmissible::Shape { expected: #shape });
+            };
+        }
+    });
+    let finish = if extends {
+        quote!(Self::new(#(#names),*)?.with_inversion(inversion))
+    } else {
+        quote! {
+            let material = Self::new(#(#names),*)?;
+            match inversion {
+                ::piola::Inversion::Refuse => Ok(material),
+                ::piola::Inversion::Extend { .. } => {
+                    Err(::piola::material::Inadmissible::NoExtension { material: #type_name })
+                }
+            }
+        }
+    };
+
+    let program = schedule(&mut model.graph, &model.moduli);
+    let (statements, outputs) = Writer::new(declaration).program(&program);
+    let (mu, lambda) = (&outputs[0], &outputs[1]);
+    quote! {
+        impl #bounds ::piola::material::Declared for #name #arguments {
+            const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+                name: #type_name,
+                summary: #summary,
+                formula: #formula,
+                parameters: &[#(#parameters),*],
+                domain: #domain,
+                extends: #extends,
+                admissible: &[#(#admissible),*],
+                moduli: [#(#moduli),*],
+            };
+
+            fn from_values(
+                values: &[&[f64]],
+                inversion: ::piola::Inversion,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                let &[#(#names),*] = values else {
+                    return Err(::piola::material::Inadmissible::Shape { expected: #expected.to_owned() });
+                };
+                #(#conversions)*
+                #finish
+            }
+
+            #[allow(unused_imports, clippy::all)]
+            fn moduli(&self) -> ::piola::material::Moduli {
+                use ::piola::Real;
+                type R = f64;
+                #(#statements)*
+                ::piola::material::Moduli { mu: #mu, lambda: #lambda }
+            }
+        }
+    }
+}
+
+/// Writes programs with the names of one declaration.
+struct Writer<'a> {
+    declaration: &'a Declaration,
+    /// Before the number of a value; such that no declared name looks like a value.
+    prefix: &'static str,
+    index: Ident,
+}
+
+impl<'a> Writer<'a> {
+    fn new(declaration: &'a Declaration) -> Self {
+        let is_taken = |name: &Ident| {
+            declaration.stretches.contains(name)
+                || declaration.parameters.iter().any(|other| other.name == *name)
+        };
+        let is_number = |name: &str, prefix: &str| {
+            name.strip_prefix(prefix)
+                .is_some_and(|rest| rest.is_empty() || rest.bytes().all(|b| b.is_ascii_digit()))
+        };
+        let declared: Vec<String> = declaration
+            .stretches
+            .iter()
+            .chain(declaration.parameters.iter().map(|parameter| &parameter.name))
+            .map(Ident::to_string)
+            .collect();
+        let prefix = ["t", "u", "w", "value_"]
+            .into_iter()
+            .find(|prefix| !declared.iter().any(|name| is_number(name, prefix)))
+            .unwrap_or("emitted_value_");
+        let index = ["p", "k", "entry"].map(|name| format_ident!("{name}"));
+        let index =
+            index.into_iter().find(|name| !is_taken(name)).unwrap_or_else(|| format_ident!("emitted_index"));
+        Self { declaration, prefix, index }
+    }
+
+    /// The statements of a program and its outputs as expressions.
+    fn program(&self, program: &Program) -> (Vec<TokenStream>, Vec<TokenStream>) {
+        let mut names = Names::default();
+        let mut statements = Vec::new();
+        for statement in &program.statements {
+            match statement {
+                Statement::Let(value, op) => statements.extend(self.binding(*value, op, &mut names)),
+                Statement::Loop { length, body, totals } => {
+                    let length = &self.declaration.lengths[*length];
+                    let index = &self.index;
+                    let body: Vec<_> =
+                        body.iter().filter_map(|(value, op)| self.binding(*value, op, &mut names)).collect();
+                    let (mut starts, mut additions) = (Vec::new(), Vec::new());
+                    for &(total, term) in totals {
+                        let name = self.name(total);
+                        let term = names.get(term);
+                        starts.push(quote!(let mut #name = R::splat(0.0);));
+                        additions.push(quote!(#name = #name + #term;));
+                        names.set(total, quote!(#name));
+                    }
+                    statements.push(quote! {
+                        #(#starts)*
+                        for #index in 0..#length {
+                            #(#body)*
+                            #(#additions)*
+                        }
+                    });
+                }
+            }
+        }
+        let outputs = program.outputs.iter().map(|&output| names.get(output)).collect();
+        (statements, outputs)
+    }
+
+    fn name(&self, value: Value) -> Ident {
+        format_ident!("{}{}", self.prefix, value.0)
+    }
+
+    /// Names a value: literals and inputs are written where they are used, the rest is a `let`.
+    fn binding(&self, value: Value, op: &Op, names: &mut Names) -> Option<TokenStream> {
+        let parameter = |k: usize| &self.declaration.parameters[k].name;
+        let inline = match *op {
+            Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
+            Op::Stretch(i) => Some(self.declaration.stretches[i].to_token_stream()),
+            Op::Epsilon => Some(quote!(epsilon)),
+            _ => None,
+        };
+        if let Some(inline) = inline {
+            names.set(value, inline);
+            return None;
+        }
+        let (name, expression) = match *op {
+            Op::Parameter(k) => {
+                let parameter = parameter(k);
+                (parameter.clone(), quote!(R::splat(self.#parameter)))
+            }
+            Op::Entry(k) => {
+                let (parameter, index) = (parameter(k), &self.index);
+                (parameter.clone(), quote!(R::splat(self.#parameter[#index])))
+            }
+            _ => (self.name(value), self.expression(op, names)),
+        };
+        names.set(value, name.to_token_stream());
+        Some(quote!(let #name = #expression;))
+    }
+
+    fn expression(&self, op: &Op, names: &Names) -> TokenStream {
+        let n = |value: Value| names.get(value);
+        match *op {
+            Op::Neg(a) => {
+                let a = n(a);
+                quote!(-#a)
+            }
+            Op::Add(a, b) => infix(&n(a), quote!(+), &n(b)),
+            Op::Sub(a, b) => infix(&n(a), quote!(-), &n(b)),
+            Op::Mul(a, b) => infix(&n(a), quote!(*), &n(b)),
+            Op::Div(a, b) => infix(&n(a), quote!(/), &n(b)),
+            Op::MulAdd(a, b, c) => {
+                let (a, b, c) = (n(a), n(b), n(c));
+                quote!(#a.mul_add(#b, #c))
+            }
+            Op::Sqrt(a) => method(&n(a), "sqrt"),
+            Op::Cbrt(a) => method(&n(a), "cbrt"),
+            Op::Ln(a) => method(&n(a), "ln"),
+            Op::Exp(a) => method(&n(a), "exp"),
+            Op::Powf(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a.powf(#b))
+            }
+            Op::Max(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a.max(#b))
+            }
+            Op::Below(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!((#a - #b).min(R::splat(0.0)))
+            }
+            Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
+            Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
+            Op::LnQuotient(a, b) => self.call("ln_quotient", &[n(a), n(b)]),
+            Op::ExpQuotient(a, b) => self.call("exp_quotient", &[n(a), n(b)]),
+            Op::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => self.call(
+                "power_quotient",
+                &[[n(a), n(a_power)], [n(b), n(b_power)]]
+                    .map(|[base, power]| quote!([#base, #power]))
+                    .into_iter()
+                    .chain([n(exponent), n(ln_quotient)])
+                    .collect::<Vec<_>>(),
+            ),
+            Op::PoleFloor => {
+                let stretches = &self.declaration.stretches;
+                self.call("pole_floor", &[quote!([#(#stretches),*])])
+            }
+            Op::Literal(_) | Op::Stretch(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => quote!(),
+        }
+    }
+
+    fn call(&self, kernel: &str, arguments: &[TokenStream]) -> TokenStream {
+        let kernel = format_ident!("{kernel}");
+        quote!(::piola::quotient::#kernel(#(#arguments),*))
+    }
+}
+
+/// How each value is written where it is used.
+#[derive(Default)]
+struct Names(std::collections::HashMap<Value, TokenStream>);
+
+impl Names {
+    fn get(&self, value: Value) -> TokenStream {
+        self.0.get(&value).cloned().unwrap_or_default()
+    }
+
+    fn set(&mut self, value: Value, text: TokenStream) {
+        self.0.insert(value, text);
+    }
+}
+
+fn infix(a: &TokenStream, operator: TokenStream, b: &TokenStream) -> TokenStream {
+    quote!(#a #operator #b)
+}
+
+fn method(receiver: &TokenStream, name: &str) -> TokenStream {
+    let name = format_ident!("{name}");
+    quote!(#receiver.#name())
+}
+
+fn literal(value: f64) -> TokenStream {
+    if !value.is_finite() {
+        return quote!(R::splat(f64::NAN));
+    }
+    let magnitude = Literal::f64_unsuffixed(value.abs());
+    if value.is_sign_negative() { quote!(R::splat(-#magnitude)) } else { quote!(R::splat(#magnitude)) }
+}

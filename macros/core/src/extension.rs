@@ -1,0 +1,176 @@
+//! Energies beyond their domain: ln λ and real or negative powers of a stretch continue below ε as polynomials.
+//!
+//! The rewriting happens before differentiation: ln J becomes Σ ln λi and J^r becomes Π λi^r, then each φ(λ) becomes
+//! [`Node::Extended`]. With w = max(λ, ε) and d = λ − w, which is zero above ε and exact below,
+//!
+//! ```text
+//! φ(w) + φ′(w) d + ½ φ″(w) d²     and its derivatives     φ′(w) + φ″(w) d,     φ″(w)
+//! ```
+//!
+//! are the function and its polynomial in one formula without a branch: [`lower`] puts it in place of `Extended` when
+//! all derivatives and quotients have been taken.
+//!
+//! Never is a function of J itself extended: F = 0 would become a stable minimum.
+
+use std::collections::HashMap;
+
+use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::quotient::power_quotient;
+use crate::rational::Rational;
+
+/// The energy with its logarithms and real or negative powers of stretches extended.
+pub fn extend(graph: &mut Graph, energy: Id) -> Id {
+    rewrite(graph, energy, &mut HashMap::new(), &extend_node)
+}
+
+/// The expression with its extended functions written out.
+pub fn lower(graph: &mut Graph, e: Id) -> Id {
+    rewrite(graph, e, &mut HashMap::new(), &|graph, id| match *graph.node(id) {
+        Node::Extended(function, order, i) => Some(polynomial(graph, function, order, i)),
+        _ => None,
+    })
+}
+
+fn rewrite(
+    graph: &mut Graph,
+    id: Id,
+    memo: &mut HashMap<Id, Id>,
+    rule: &impl Fn(&mut Graph, Id) -> Option<Id>,
+) -> Id {
+    if let Some(&done) = memo.get(&id) {
+        return done;
+    }
+    let result = match rule(graph, id) {
+        Some(replaced) => replaced,
+        None => graph.map_children(id, &mut |graph, child| rewrite(graph, child, memo, rule)),
+    };
+    memo.insert(id, result);
+    result
+}
+
+fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
+    match graph.node(id).clone() {
+        Node::Ln(a) => {
+            let mut terms = Vec::new();
+            for (stretch, exponent) in monomial(graph, a)? {
+                let ln = graph.leaf(Node::Extended(Extended::Ln, 0, stretch));
+                let exponent = graph.exponent_value(exponent);
+                terms.push(graph.mul(exponent, ln));
+            }
+            Some(graph.sum_of(&terms))
+        }
+        Node::Product(factors) => {
+            let mut product = Vec::new();
+            for (base, exponent) in factors {
+                match power_of_monomial(graph, base, exponent) {
+                    Some(extended) => product.extend(extended.into_iter().map(|e| (e, Exponent::ONE))),
+                    None => {
+                        let base = extend(graph, base);
+                        product.push((base, exponent));
+                    }
+                }
+            }
+            Some(graph.product(&product))
+        }
+        _ => None,
+    }
+}
+
+/// The factors of a product of powers of stretches, without coefficient; `None` for anything else.
+fn monomial(graph: &Graph, id: Id) -> Option<Vec<(Stretch, Exponent)>> {
+    let (coefficient, factors) = graph.factors(id);
+    if coefficient != Rational::ONE {
+        return None;
+    }
+    factors
+        .into_iter()
+        .map(|(base, exponent)| match graph.node(base) {
+            Node::Stretch(i) => Some((*i, exponent)),
+            _ => None,
+        })
+        .collect()
+}
+
+/// (Π λi^e)^exponent with each negative or real power extended; `None` for other bases.
+fn power_of_monomial(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Id>> {
+    let mut powers = Vec::new();
+    for (stretch, inner) in monomial(graph, base)? {
+        let outer = graph.exponent_value(exponent);
+        let inner = graph.exponent_value(inner);
+        let product = graph.mul(outer, inner);
+        let total = graph.exponent(product);
+        powers.push(if total.as_integer().is_some_and(|n| n >= 0) {
+            let stretch = graph.stretch(stretch);
+            graph.power(stretch, total)
+        } else {
+            graph.leaf(Node::Extended(Extended::Power(total), 0, stretch))
+        });
+    }
+    Some(powers)
+}
+
+fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> Id {
+    let (w, d) = (graph.leaf(Node::Above(i)), graph.leaf(Node::Below(i)));
+    let mut sum = derivative(graph, function, order, w);
+    let mut factor = Rational::ONE;
+    for k in 1..=2u8.saturating_sub(order) {
+        let slope = derivative(graph, function, order + k, w);
+        let power = graph.powi(d, i64::from(k));
+        let term = graph.mul(slope, power);
+        factor = factor.checked_mul(Rational::new(1, i128::from(k)).unwrap_or(factor)).unwrap_or(factor);
+        sum = graph.linear(Rational::ZERO, &[(sum, Rational::ONE), (term, factor)]);
+    }
+    sum
+}
+
+/// φ, φ′, φ″ … at any argument.
+pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
+    match (function, order) {
+        (Extended::Ln, 0) => graph.ln(at),
+        (Extended::Ln, _) => {
+            let power = graph.powi(at, -i64::from(order));
+            graph.scale(power, ln_coefficient(order))
+        }
+        (Extended::Power(exponent), _) => {
+            let coefficient = falling(graph, exponent, order);
+            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
+            let power = graph.power(at, lowered);
+            graph.mul(coefficient, power)
+        }
+    }
+}
+
+/// Divided difference of φ, φ′ or φ″ between a and b.
+pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: Id, b: Id) -> Id {
+    match (function, order) {
+        (Extended::Ln, 0) => graph.leaf(Node::LnQuotient(a, b)),
+        (Extended::Ln, _) => {
+            let quotient = power_quotient(graph, a, b, Exponent::integer(-i64::from(order)));
+            graph.scale(quotient, ln_coefficient(order))
+        }
+        (Extended::Power(exponent), _) => {
+            let coefficient = falling(graph, exponent, order);
+            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
+            let quotient = power_quotient(graph, a, b, lowered);
+            graph.mul(coefficient, quotient)
+        }
+    }
+}
+
+/// ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
+fn ln_coefficient(order: u8) -> Rational {
+    let factorial: i64 = (1..i64::from(order)).product();
+    Rational::integer(if order % 2 == 0 { -factorial } else { factorial })
+}
+
+/// r (r − 1) … (r − k + 1).
+fn falling(graph: &mut Graph, exponent: Exponent, order: u8) -> Id {
+    let r = graph.exponent_value(exponent);
+    let factors: Vec<_> = (0..i64::from(order))
+        .map(|k| {
+            let k = graph.integer(k);
+            graph.sub(r, k)
+        })
+        .collect();
+    graph.product_of(&factors)
+}

@@ -1,0 +1,241 @@
+//! Expressions as one line of Unicode, for documentation and messages.
+
+use crate::expr::{Exponent, Extended, Graph, Id, Node};
+use crate::parse::Declaration;
+use crate::rational::Rational;
+
+/// A node as a formula, such as `1/2 μ (I1 − 3) − μ ln J`.
+#[must_use]
+pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
+    let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+    let squares = stretches.map(|stretch| graph.powi(stretch, 2));
+    let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
+    let volume = graph.product_of(&stretches);
+    let invariants = [("I1", squares.to_vec()), ("I2", pairs.to_vec())];
+    Printer { graph, declaration, volume, invariants }.print(id, Context::Sum)
+}
+
+/// What stands around, to decide on parentheses.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Context {
+    Sum,
+    Product,
+    Power,
+}
+
+struct Printer<'a> {
+    graph: &'a Graph,
+    declaration: &'a Declaration,
+    volume: Id,
+    invariants: [(&'static str, Vec<Id>); 2],
+}
+
+impl Printer<'_> {
+    fn print(&self, id: Id, context: Context) -> String {
+        if id == self.volume {
+            return "J".to_owned();
+        }
+        match self.graph.node(id) {
+            Node::Stretch(i) => format!("λ{}", subscript(i + 1)),
+            Node::Parameter(k) => symbol(&self.declaration.parameters[*k].name.to_string()),
+            Node::Entry(k) => format!("{}ₚ", symbol(&self.declaration.parameters[*k].name.to_string())),
+            Node::Float(bits) => f64::from_bits(*bits).to_string(),
+            Node::Linear { constant, terms } => self.linear(*constant, terms, context),
+            Node::Product(factors) => self.product(factors, context),
+            Node::Ln(a) => self.function("ln", *a, context),
+            Node::Exp(a) => self.function("exp", *a, context),
+            Node::Sum(_, body) => {
+                parenthesise(format!("Σₚ {}", self.print(*body, Context::Product)), context >= Context::Power)
+            }
+            Node::Epsilon => "ε".to_owned(),
+            Node::Above(i) => format!("max(λ{}, ε)", subscript(i + 1)),
+            Node::Below(i) => format!("min(λ{} − ε, 0)", subscript(i + 1)),
+            Node::ShareAbove(i, j) => format!("above(λ{}, λ{})", subscript(i + 1), subscript(j + 1)),
+            Node::ShareBelow(i, j) => format!("below(λ{}, λ{})", subscript(i + 1), subscript(j + 1)),
+            Node::Extended(function, order, i) => {
+                let name = match function {
+                    Extended::Ln => "ln".to_owned(),
+                    Extended::Power(e) => format!("pow{}", self.exponent(*e)),
+                };
+                format!("{name}{}(λ{})", "′".repeat(usize::from(*order)), subscript(i + 1))
+            }
+            Node::LnQuotient(a, b) => self.quotient("ln", *a, *b),
+            Node::ExpQuotient(a, b) => self.quotient("exp", *a, *b),
+            Node::PowerQuotient(a, b, e) => self.quotient(&format!("pow{}", self.exponent(*e)), *a, *b),
+            Node::PoleQuotient(a, b) => {
+                format!("{}/{}", self.print(*a, Context::Power), self.print(*b, Context::Power))
+            }
+        }
+    }
+
+    fn quotient(&self, name: &str, a: Id, b: Id) -> String {
+        format!("{name}[{}, {}]", self.print(a, Context::Sum), self.print(b, Context::Sum))
+    }
+
+    fn function(&self, name: &str, argument: Id, context: Context) -> String {
+        let inner = self.print(argument, Context::Sum);
+        let call = if inner.chars().any(|c| " +−/^".contains(c)) {
+            format!("{name}({inner})")
+        } else {
+            format!("{name} {inner}")
+        };
+        parenthesise(call, context >= Context::Power)
+    }
+
+    fn linear(&self, constant: Rational, terms: &[(Id, Rational)], context: Context) -> String {
+        let mut terms = terms.to_vec();
+        let mut parts: Vec<(bool, String)> = Vec::new();
+        for (name, squares) in &self.invariants {
+            let coefficient = |id: &Id| terms.iter().find(|(term, _)| term == id).map(|&(_, c)| c);
+            let shared =
+                coefficient(&squares[0]).filter(|&c| squares.iter().all(|id| coefficient(id) == Some(c)));
+            if let Some(c) = shared {
+                terms.retain(|(term, _)| !squares.contains(term));
+                parts.push((c.is_negative(), multiple(c, (*name).to_owned())));
+            }
+        }
+        for (term, c) in terms {
+            let inner = self.print(term, if c == Rational::ONE { Context::Sum } else { Context::Product });
+            parts.push((c.is_negative(), multiple(c, inner)));
+        }
+        // Σ first reads better than − first.
+        parts.sort_by_key(|&(is_negative, _)| is_negative);
+        if !constant.is_zero() || parts.is_empty() {
+            parts.push((constant.is_negative(), magnitude(constant)));
+        }
+        let is_sum = parts.len() > 1 || parts[0].0;
+        let mut text = String::new();
+        for (k, (is_negative, part)) in parts.into_iter().enumerate() {
+            text.push_str(match (k, is_negative) {
+                (0, false) => "",
+                (0, true) => "−",
+                (_, false) => " + ",
+                (_, true) => " − ",
+            });
+            text.push_str(&part);
+        }
+        let is_fraction = !is_sum && text.contains('/');
+        parenthesise(text, is_sum && context > Context::Sum || is_fraction && context >= Context::Power)
+    }
+
+    fn product(&self, factors: &[(Id, Exponent)], context: Context) -> String {
+        // Parameters, then plain factors, then sums; denominators last.
+        let rank = |&(base, exponent): &(Id, Exponent)| {
+            let is_denominator = exponent.as_integer().is_some_and(|n| n < 0);
+            let kind = match self.graph.node(base) {
+                Node::Parameter(_) | Node::Entry(_) => 0,
+                Node::Linear { .. } => 1,
+                Node::Stretch(_) => 2,
+                _ => 3,
+            };
+            (is_denominator, kind)
+        };
+        let mut sorted = factors.to_vec();
+        sorted.sort_by_key(rank);
+        let (mut above, mut below) = (Vec::new(), Vec::new());
+        for factor @ (base, exponent) in sorted {
+            match exponent.as_integer() {
+                Some(n) if rank(&factor).0 => below.push(self.power(base, Exponent::integer(-n))),
+                _ => above.push(self.power(base, exponent)),
+            }
+        }
+        let numerator = if above.is_empty() { "1".to_owned() } else { above.join(" ") };
+        let text = match &below[..] {
+            [] => numerator,
+            [single] => format!("{numerator}/{single}"),
+            several => format!("{numerator}/({})", several.join(" ")),
+        };
+        parenthesise(text, context >= Context::Power)
+    }
+
+    fn power(&self, base: Id, exponent: Exponent) -> String {
+        if exponent == Exponent::ONE {
+            return self.print(base, Context::Product);
+        }
+        format!("{}{}", self.print(base, Context::Power), self.exponent(exponent))
+    }
+
+    fn exponent(&self, exponent: Exponent) -> String {
+        match exponent.as_integer() {
+            Some(n) => superscript(n),
+            None => {
+                let mut text = exponent.real.map(|real| self.print(real, Context::Sum)).unwrap_or_default();
+                let Exponent { rational, .. } = exponent;
+                if text.is_empty() {
+                    text =
+                        format!("{}{}", if rational.is_negative() { "−" } else { "" }, magnitude(rational));
+                } else if !rational.is_zero() {
+                    text = format!(
+                        "{text} {} {}",
+                        if rational.is_negative() { "−" } else { "+" },
+                        magnitude(rational)
+                    );
+                }
+                if text.chars().count() <= 3 && !text.contains(['/', ' ']) {
+                    format!("^{text}")
+                } else {
+                    format!("^({text})")
+                }
+            }
+        }
+    }
+}
+
+fn parenthesise(text: String, needed: bool) -> String {
+    if needed { format!("({text})") } else { text }
+}
+
+fn magnitude(number: Rational) -> String {
+    (if number.is_negative() { number.negated() } else { number }).to_string()
+}
+
+fn multiple(coefficient: Rational, text: String) -> String {
+    match magnitude(coefficient).as_str() {
+        "1" => text,
+        number => format!("{number} {text}"),
+    }
+}
+
+fn subscript(n: usize) -> char {
+    ['₀', '₁', '₂', '₃'].get(n).copied().unwrap_or('?')
+}
+
+fn superscript(n: i64) -> String {
+    n.to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            '0' => '⁰',
+            digit => char::from_u32(digit as u32 - '4' as u32 + '⁴' as u32).unwrap_or(digit),
+        })
+        .collect()
+}
+
+/// Greek letters by their names, alone or before an underscore or digits.
+fn symbol(name: &str) -> String {
+    const GREEK: [(&str, &str); 14] = [
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("gamma", "γ"),
+        ("delta", "δ"),
+        ("epsilon", "ε"),
+        ("eta", "η"),
+        ("theta", "θ"),
+        ("kappa", "κ"),
+        ("lambda", "λ"),
+        ("mu", "μ"),
+        ("nu", "ν"),
+        ("rho", "ρ"),
+        ("tau", "τ"),
+        ("omega", "ω"),
+    ];
+    let (head, tail) =
+        name.split_at(name.find(|c: char| c == '_' || c.is_ascii_digit()).unwrap_or(name.len()));
+    match GREEK.iter().find(|(word, _)| *word == head) {
+        Some((_, letter)) => format!("{letter}{tail}"),
+        None => name.to_owned(),
+    }
+}

@@ -1,0 +1,204 @@
+//! From a declaration to everything that is emitted: the table of contents of the compiler.
+
+use syn::spanned::Spanned;
+use syn::{BinOp, Expr};
+
+use crate::check;
+use crate::diagnostics::Diagnostics;
+use crate::diff::Differentiator;
+use crate::expr::{Graph, Id};
+use crate::extension;
+use crate::interpret::Point;
+use crate::parse::Declaration;
+use crate::quotient::Quotients;
+use crate::rational::Rational;
+use crate::resolve::Resolver;
+use crate::simplify::simplify;
+
+/// Pairs of stretches, in the order of `piola::material::PAIRS`.
+pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// A declared energy with its derivatives.
+#[derive(Debug)]
+pub struct Model {
+    /// All expressions.
+    pub graph: Graph,
+    /// The energy as written.
+    pub energy: Id,
+    /// Inside the domain.
+    pub plain: Variant,
+    /// Continued beyond J > 0.
+    pub extended: Option<Variant>,
+    /// Expressions that are positive inside the domain, J apart.
+    pub bounds: Vec<Id>,
+    /// The domain ends at J = 0.
+    pub positive: bool,
+    /// Small-strain μ and λ.
+    pub moduli: [Id; 2],
+    /// Points of the domain with admissible parameters.
+    pub samples: Vec<Point>,
+}
+
+/// One energy with its derivatives, ready for scheduling.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// ψ.
+    pub energy: Id,
+    /// ψ1, ψ2, ψ3.
+    pub gradient: [Id; 3],
+    /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23.
+    pub hessian: [Id; 6],
+    /// D⁻ of the pairs.
+    pub flip: [Id; 3],
+    /// D⁺ of the pairs.
+    pub twist: [Id; 3],
+    /// Whether a twist has a pole at λi + λj = 0.
+    pub has_pole: bool,
+}
+
+/// Understands, checks, differentiates.
+///
+/// # Errors
+/// All mistakes of meaning, each at its token.
+pub fn model(declaration: &Declaration) -> syn::Result<Model> {
+    let mut diagnostics = Diagnostics::default();
+    let mut graph = Graph::default();
+    let (energy, bounds, admissible, positive) = {
+        let mut resolver = Resolver::new(declaration, &mut graph, &mut diagnostics);
+        let energy = resolver.energy();
+        let options = &declaration.options;
+        let positive = options.domain.iter().any(is_positive_volume);
+        let bounds: Vec<_> = options
+            .domain
+            .iter()
+            .filter(|c| !is_positive_volume(c))
+            .filter_map(|c| resolver.condition(c))
+            .collect();
+        let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
+        let admissible: Vec<_> = conditions.filter_map(|c| resolver.condition(&without_index(c))).collect();
+        (energy, bounds, admissible, positive)
+    };
+    if !diagnostics.is_clean() {
+        return diagnostics.finish(None);
+    }
+    if declaration.options.extend.is_some() && !positive {
+        diagnostics.error(
+            declaration.name.span(),
+            "`extend` continues an energy beyond `domain(J > 0.0)`: declare that domain or remove `extend`",
+        );
+    }
+    if graph.overflowed() {
+        diagnostics.error(
+            declaration.body.span(),
+            "the numbers of this energy leave 128-bit fractions: use smaller ones",
+        );
+    }
+    let samples =
+        check::samples(&mut graph, declaration, energy, &bounds, &admissible, positive, &mut diagnostics);
+    if !samples.is_empty() {
+        check::isotropy(&mut graph, declaration, energy, &samples, &mut diagnostics);
+    }
+    if !diagnostics.is_clean() {
+        return diagnostics.finish(None);
+    }
+
+    let plain = derive(&mut graph, energy, &samples, positive);
+    if !declaration.options.prestressed {
+        check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
+    }
+    let extended = declaration.options.extend.is_some().then(|| {
+        let extended = extension::extend(&mut graph, energy);
+        derive(&mut graph, extended, &samples, false)
+    });
+    let moduli = moduli(&mut graph, &plain);
+    if graph.overflowed() {
+        diagnostics.error(
+            declaration.body.span(),
+            "the numbers of this energy leave 128-bit fractions: use smaller ones",
+        );
+    }
+    diagnostics.finish(Some(Model { graph, energy, plain, extended, bounds, positive, moduli, samples }))
+}
+
+fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
+    let mut d = Differentiator::default();
+    let gradient = [0, 1, 2].map(|i| {
+        let derivative = d.derivative(graph, energy, i);
+        simplify(graph, derivative)
+    });
+    let second = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let hessian = second.map(|(i, j)| {
+        let derivative = d.derivative(graph, gradient[i], j);
+        simplify(graph, derivative)
+    });
+    let mut quotients = Quotients::new(samples);
+    let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
+    let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
+    let mut lower = |id| extension::lower(graph, id);
+    Variant {
+        energy: lower(energy),
+        gradient: gradient.map(&mut lower),
+        hessian: hessian.map(&mut lower),
+        flip: flip.map(&mut lower),
+        twist: twist.map(|twist| lower(twist.value)),
+        has_pole: twist.iter().any(|twist| twist.has_pole),
+    }
+}
+
+/// μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
+fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
+    let one = graph.integer(1);
+    let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| graph.substitute(h, [one; 3]));
+    let difference = graph.sub(normal, mixed);
+    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    [graph.scale(difference, half), mixed]
+}
+
+/// `J > 0.0`, the condition that is spelled out for the sign of the last stretch.
+fn is_positive_volume(condition: &Expr) -> bool {
+    let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
+    let is_zero = |e: &Expr| {
+        matches!(e, Expr::Lit(lit) if match &lit.lit {
+            syn::Lit::Float(number) => number.base10_parse::<f64>().is_ok_and(|value| value == 0.0),
+            syn::Lit::Int(number) => number.base10_parse::<u64>().is_ok_and(|value| value == 0),
+            _ => false,
+        })
+    };
+    match condition {
+        Expr::Binary(binary) => match binary.op {
+            BinOp::Gt(_) => is_j(&binary.left) && is_zero(&binary.right),
+            BinOp::Lt(_) => is_zero(&binary.left) && is_j(&binary.right),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// The lists of an expression with the index that stands for all entries.
+#[must_use]
+pub fn indexed_lists(condition: &Expr) -> Vec<(syn::Ident, syn::Ident)> {
+    struct Lists(Vec<(syn::Ident, syn::Ident)>);
+    impl<'ast> syn::visit::Visit<'ast> for Lists {
+        fn visit_expr_index(&mut self, node: &'ast syn::ExprIndex) {
+            if let (Expr::Path(list), Expr::Path(index)) = (&*node.expr, &*node.index)
+                && let (Some(list), Some(index)) = (list.path.get_ident(), index.path.get_ident())
+            {
+                self.0.push((list.clone(), index.clone()));
+            }
+        }
+    }
+    let mut lists = Lists(Vec::new());
+    syn::visit::visit_expr(&mut lists, condition);
+    lists.0
+}
+
+/// A condition on entries as a sum over them: enough to steer samples, which use equal signs for all entries.
+fn without_index(condition: &Expr) -> Expr {
+    let Some((_, index)) = indexed_lists(condition).into_iter().next() else { return condition.clone() };
+    let Expr::Binary(binary) = condition else { return condition.clone() };
+    let wrap = |side: &Expr| -> Expr {
+        if indexed_lists(side).is_empty() { side.clone() } else { syn::parse_quote!(sum(|#index| #side)) }
+    };
+    let (left, op, right) = (wrap(&binary.left), binary.op, wrap(&binary.right));
+    syn::parse_quote!(#left #op #right)
+}

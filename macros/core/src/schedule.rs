@@ -1,0 +1,536 @@
+//! From an expression graph to straight-line operations and loops over lists.
+//!
+//! Operations are numbered by value: what is computed twice is computed once, and what does not change from one entry
+//! of a list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
+//! needs the result of another. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
+//! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
+use crate::rational::Rational;
+
+/// The result of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Value(pub usize);
+
+/// One operation on values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "each is the operation it names")]
+pub enum Op {
+    /// The bits of an `f64`.
+    Literal(u64),
+    Stretch(Stretch),
+    Parameter(Parameter),
+    /// The current entry of a list.
+    Entry(Parameter),
+    Epsilon,
+    /// Smallest denominator of a quotient at a pole.
+    PoleFloor,
+    Neg(Value),
+    Add(Value, Value),
+    Sub(Value, Value),
+    Mul(Value, Value),
+    Div(Value, Value),
+    /// First · second + third.
+    MulAdd(Value, Value, Value),
+    Sqrt(Value),
+    Cbrt(Value),
+    Ln(Value),
+    Exp(Value),
+    Powf(Value, Value),
+    Max(Value, Value),
+    /// min(first − second, 0).
+    Below(Value, Value),
+    ShareAbove(Value, Value, Value),
+    ShareBelow(Value, Value, Value),
+    LnQuotient(Value, Value),
+    ExpQuotient(Value, Value),
+    PowerQuotient {
+        a: Value,
+        b: Value,
+        a_power: Value,
+        b_power: Value,
+        exponent: Value,
+        ln_quotient: Value,
+    },
+}
+
+impl Op {
+    /// The values it reads.
+    #[must_use]
+    pub fn operands(&self) -> Vec<Value> {
+        match *self {
+            Self::Literal(_)
+            | Self::Stretch(_)
+            | Self::Parameter(_)
+            | Self::Entry(_)
+            | Self::Epsilon
+            | Self::PoleFloor => vec![],
+            Self::Neg(a) | Self::Sqrt(a) | Self::Cbrt(a) | Self::Ln(a) | Self::Exp(a) => vec![a],
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Powf(a, b)
+            | Self::Max(a, b)
+            | Self::Below(a, b)
+            | Self::LnQuotient(a, b)
+            | Self::ExpQuotient(a, b) => vec![a, b],
+            Self::MulAdd(a, b, c) | Self::ShareAbove(a, b, c) | Self::ShareBelow(a, b, c) => vec![a, b, c],
+            Self::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => {
+                vec![a, b, a_power, b_power, exponent, ln_quotient]
+            }
+        }
+    }
+}
+
+/// A step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// Names the result of an operation.
+    Let(Value, Op),
+    /// Runs over the entries of the lists of one length.
+    Loop {
+        /// Which length.
+        length: Length,
+        /// Operations for each entry.
+        body: Vec<(Value, Op)>,
+        /// Totals with the value that is added for each entry.
+        totals: Vec<(Value, Value)>,
+    },
+}
+
+/// Operations in order, with the values that are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// In the order of execution.
+    pub statements: Vec<Statement>,
+    /// One for each root.
+    pub outputs: Vec<Value>,
+}
+
+/// Orders the computation of the roots and of nothing else.
+#[must_use]
+pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
+    let reachable = graph.reachable(roots);
+    let powers = Powers::used_by(graph, &reachable);
+    let mut scheduler = Scheduler {
+        graph,
+        powers,
+        count: 0,
+        statements: Vec::new(),
+        numbers: HashMap::new(),
+        values: HashMap::new(),
+        open_loop: None,
+    };
+    scheduler.loops(&reachable);
+    let outputs = roots.iter().map(|&root| scheduler.value(root)).collect();
+    fuse_multiply_add(Program { statements: scheduler.statements, outputs })
+}
+
+/// Which powers of each base are needed, to choose the one that is computed.
+struct Powers {
+    /// Common denominator of the fractional exponents of a base.
+    denominators: HashMap<Id, i128>,
+    /// For each base and real part of an exponent (with the fraction of its rational part): the rational part of the
+    /// power that is computed.
+    representatives: HashMap<(Id, Id, Rational), Rational>,
+}
+
+impl Powers {
+    fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
+        let mut denominators: HashMap<Id, i128> = HashMap::new();
+        let mut used: BTreeMap<(Id, Id, Rational), (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
+        for &id in reachable {
+            match graph.node(id) {
+                Node::Product(factors) => {
+                    for &(base, exponent) in factors {
+                        match exponent.real {
+                            Some(real) => {
+                                used.entry(class(base, real, exponent))
+                                    .or_default()
+                                    .0
+                                    .push(exponent.rational);
+                            }
+                            None => {
+                                let common = denominators.entry(base).or_insert(1);
+                                *common = least_common_multiple(*common, exponent.rational.denominator());
+                            }
+                        }
+                    }
+                }
+                // A quotient reads both powers: computing exactly those leaves no product for it.
+                Node::PowerQuotient(a, b, exponent) => {
+                    for base in [*a, *b] {
+                        if let Some(real) = exponent.real {
+                            used.entry(class(base, real, *exponent)).or_default().1.push(exponent.rational);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        let largest = |all: &[Rational]| all.iter().copied().reduce(larger);
+        let representatives = used
+            .into_iter()
+            .filter_map(|(key, (plain, quotient))| {
+                Some((key, largest(&quotient).or_else(|| largest(&plain))?))
+            })
+            .collect();
+        Self { denominators, representatives }
+    }
+}
+
+fn class(base: Id, real: Id, exponent: Exponent) -> (Id, Id, Rational) {
+    let Exponent { rational, .. } = exponent;
+    let fraction =
+        Rational::new(rational.numerator().rem_euclid(rational.denominator()), rational.denominator());
+    (base, real, fraction.unwrap_or(Rational::ZERO))
+}
+
+fn larger(a: Rational, b: Rational) -> Rational {
+    if a.checked_add(b.negated()).is_some_and(Rational::is_negative) { b } else { a }
+}
+
+fn least_common_multiple(a: i128, b: i128) -> i128 {
+    let gcd = |mut a: i128, mut b: i128| {
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    a / gcd(a, b) * b
+}
+
+struct Scheduler<'g> {
+    graph: &'g mut Graph,
+    powers: Powers,
+    count: usize,
+    statements: Vec<Statement>,
+    numbers: HashMap<Op, Value>,
+    values: HashMap<Id, Value>,
+    open_loop: Option<OpenLoop>,
+}
+
+/// What depends on the current entry.
+#[derive(Default)]
+struct OpenLoop {
+    body: Vec<(Value, Op)>,
+    varying: HashSet<Value>,
+    numbers: HashMap<Op, Value>,
+    values: HashMap<Id, Value>,
+}
+
+impl Scheduler<'_> {
+    /// Sums first, in the order in which they need each other, those of one length together.
+    fn loops(&mut self, reachable: &[Id]) {
+        let mut depth: HashMap<Id, usize> = HashMap::new();
+        let mut sums: BTreeMap<(usize, Length), Vec<(Id, Id)>> = BTreeMap::new();
+        for &id in reachable {
+            let inner = self.graph.children(id).iter().map(|child| depth[child]).max().unwrap_or(0);
+            let own = if let Node::Sum(length, body) = *self.graph.node(id) {
+                sums.entry((inner, length)).or_default().push((id, body));
+                inner + 1
+            } else {
+                inner
+            };
+            depth.insert(id, own);
+        }
+        for ((_, length), sums) in sums {
+            self.open_loop = Some(OpenLoop::default());
+            let terms: Vec<_> = sums.iter().map(|&(_, body)| self.value(body)).collect();
+            let OpenLoop { body, .. } = self.open_loop.take().unwrap_or_default();
+            let mut totals = Vec::new();
+            for ((sum, _), term) in sums.into_iter().zip(terms) {
+                let total = self.fresh();
+                totals.push((total, term));
+                self.values.insert(sum, total);
+            }
+            self.statements.push(Statement::Loop { length, body, totals });
+        }
+    }
+
+    fn fresh(&mut self) -> Value {
+        self.count += 1;
+        Value(self.count - 1)
+    }
+
+    fn varies(&self, value: Value) -> bool {
+        self.open_loop.as_ref().is_some_and(|open| open.varying.contains(&value))
+    }
+
+    /// Appends an operation, inside the open loop only if it depends on the entry.
+    fn push(&mut self, op: Op) -> Value {
+        let op = match op {
+            Op::Add(a, b) if b < a => Op::Add(b, a),
+            Op::Mul(a, b) if b < a => Op::Mul(b, a),
+            op => op,
+        };
+        let varies = matches!(op, Op::Entry(_)) || op.operands().iter().any(|&value| self.varies(value));
+        let known = match &self.open_loop {
+            Some(open) if varies => open.numbers.get(&op),
+            _ => self.numbers.get(&op),
+        };
+        if let Some(&value) = known {
+            return value;
+        }
+        let value = self.fresh();
+        match &mut self.open_loop {
+            Some(open) if varies => {
+                open.body.push((value, op));
+                open.varying.insert(value);
+                open.numbers.insert(op, value);
+            }
+            _ => {
+                self.statements.push(Statement::Let(value, op));
+                self.numbers.insert(op, value);
+            }
+        }
+        value
+    }
+
+    fn value(&mut self, id: Id) -> Value {
+        let in_loop = self.open_loop.as_ref().and_then(|open| open.values.get(&id));
+        if let Some(&done) = in_loop.or_else(|| self.values.get(&id)) {
+            return done;
+        }
+        let value = self.compute(id);
+        let varies = self.varies(value);
+        match &mut self.open_loop {
+            Some(open) if varies => open.values.insert(id, value),
+            _ => self.values.insert(id, value),
+        };
+        value
+    }
+
+    fn literal(&mut self, value: Rational) -> Value {
+        self.push(Op::Literal(value.to_f64().to_bits()))
+    }
+
+    fn compute(&mut self, id: Id) -> Value {
+        match self.graph.node(id).clone() {
+            Node::Stretch(i) => self.push(Op::Stretch(i)),
+            Node::Parameter(k) => self.push(Op::Parameter(k)),
+            Node::Entry(k) => self.push(Op::Entry(k)),
+            Node::Float(bits) => self.push(Op::Literal(bits)),
+            Node::Epsilon => self.push(Op::Epsilon),
+            Node::Linear { constant, terms } => self.linear(constant, &terms),
+            Node::Product(factors) => {
+                let powers: Vec<_> = factors.iter().map(|&(base, e)| self.power(base, e)).collect();
+                powers
+                    .into_iter()
+                    .reduce(|a, b| self.push(Op::Mul(a, b)))
+                    .unwrap_or_else(|| self.literal(Rational::ONE))
+            }
+            Node::Ln(a) => {
+                let a = self.value(a);
+                self.push(Op::Ln(a))
+            }
+            Node::Exp(a) => {
+                let a = self.value(a);
+                self.push(Op::Exp(a))
+            }
+            Node::Above(i) => {
+                let (stretch, epsilon) = (self.push(Op::Stretch(i)), self.push(Op::Epsilon));
+                self.push(Op::Max(stretch, epsilon))
+            }
+            Node::Below(i) => {
+                let (stretch, epsilon) = (self.push(Op::Stretch(i)), self.push(Op::Epsilon));
+                self.push(Op::Below(stretch, epsilon))
+            }
+            Node::ShareAbove(i, j) => {
+                let [a, b, epsilon] = [Op::Stretch(i), Op::Stretch(j), Op::Epsilon].map(|op| self.push(op));
+                self.push(Op::ShareAbove(a, b, epsilon))
+            }
+            Node::ShareBelow(i, j) => {
+                let [a, b, epsilon] = [Op::Stretch(i), Op::Stretch(j), Op::Epsilon].map(|op| self.push(op));
+                self.push(Op::ShareBelow(a, b, epsilon))
+            }
+            Node::LnQuotient(a, b) => {
+                let (a, b) = (self.value(a), self.value(b));
+                self.push(Op::LnQuotient(a, b))
+            }
+            Node::ExpQuotient(a, b) => {
+                let (a, b) = (self.value(a), self.value(b));
+                self.push(Op::ExpQuotient(a, b))
+            }
+            Node::PowerQuotient(a, b, exponent) => {
+                let (a_power, b_power) = (self.power(a, exponent), self.power(b, exponent));
+                let exponent = self.exponent(exponent);
+                let (a, b) = (self.value(a), self.value(b));
+                let ln_quotient = self.push(Op::LnQuotient(a, b));
+                self.push(Op::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient })
+            }
+            Node::PoleQuotient(numerator, sum) => {
+                let (numerator, sum) = (self.value(numerator), self.value(sum));
+                let floor = self.push(Op::PoleFloor);
+                let bounded = self.push(Op::Max(sum, floor));
+                self.push(Op::Div(numerator, bounded))
+            }
+            // Sums are computed before what needs them, and extended functions are written out before scheduling;
+            // NaN would not go unnoticed.
+            Node::Sum(..) | Node::Extended(..) => self.push(Op::Literal(f64::NAN.to_bits())),
+        }
+    }
+
+    fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
+        let magnitude = |r: Rational| if r.is_negative() { r.negated() } else { r };
+        // c a − c b is c (a − b).
+        if let [(_, first), _, ..] = terms
+            && constant.is_zero()
+            && magnitude(*first) != Rational::ONE
+            && terms.iter().all(|&(_, c)| magnitude(c) == magnitude(*first))
+        {
+            let unit = |c: Rational| Rational::integer(if c.is_negative() { -1 } else { 1 });
+            let terms: Vec<_> = terms.iter().map(|&(term, c)| (term, unit(c))).collect();
+            let sum = self.linear(Rational::ZERO, &terms);
+            let factor = self.literal(magnitude(*first));
+            return self.push(Op::Mul(sum, factor));
+        }
+        // What is added comes first, what is subtracted next, the constant last.
+        let (subtracted, added): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, c)| c.is_negative());
+        let mut sum: Option<Value> = None;
+        for &(term, coefficient) in added.iter().chain(&subtracted) {
+            let mut value = self.value(term);
+            if magnitude(coefficient) != Rational::ONE {
+                let factor = self.literal(magnitude(coefficient));
+                value = self.push(Op::Mul(value, factor));
+            }
+            sum = Some(match (sum, coefficient.is_negative()) {
+                (None, false) => value,
+                (Some(sum), false) => self.push(Op::Add(sum, value)),
+                (Some(sum), true) => self.push(Op::Sub(sum, value)),
+                (None, true) if constant.is_zero() || constant.is_negative() => self.push(Op::Neg(value)),
+                // A positive constant saves the change of sign.
+                (None, true) => {
+                    let literal = self.literal(constant);
+                    self.push(Op::Sub(literal, value))
+                }
+            });
+        }
+        let is_used = added.is_empty() && !subtracted.is_empty() && !constant.is_negative();
+        match sum {
+            None => self.literal(constant),
+            Some(sum) if constant.is_zero() || is_used => sum,
+            Some(sum) => {
+                let literal = self.literal(magnitude(constant));
+                self.push(if constant.is_negative() { Op::Sub(sum, literal) } else { Op::Add(sum, literal) })
+            }
+        }
+    }
+
+    fn power(&mut self, base: Id, exponent: Exponent) -> Value {
+        let value = self.value(base);
+        match exponent {
+            Exponent { real: Some(real), rational } => {
+                let representative = self
+                    .powers
+                    .representatives
+                    .get(&class(base, real, exponent))
+                    .copied()
+                    .unwrap_or(rational);
+                let computed = self.exponent(Exponent { real: Some(real), rational: representative });
+                let power = self.push(Op::Powf(value, computed));
+                let shift = rational.checked_add(representative.negated()).and_then(Rational::as_integer);
+                match shift {
+                    Some(0) | None => power,
+                    Some(n) => {
+                        let factor = self.whole_power(value, n);
+                        self.push(Op::Mul(power, factor))
+                    }
+                }
+            }
+            Exponent { real: None, rational } => {
+                let common = self.powers.denominators.get(&base).copied().unwrap_or(rational.denominator());
+                let root = match common {
+                    1 => value,
+                    2 => self.push(Op::Sqrt(value)),
+                    3 => self.push(Op::Cbrt(value)),
+                    _ => {
+                        let exponent = self.push(Op::Literal((1.0 / common as f64).to_bits()));
+                        self.push(Op::Powf(value, exponent))
+                    }
+                };
+                let whole = rational.numerator() * (common / rational.denominator());
+                self.whole_power(root, i64::try_from(whole).unwrap_or(i64::MAX))
+            }
+        }
+    }
+
+    fn whole_power(&mut self, base: Value, n: i64) -> Value {
+        match n {
+            1 => base,
+            n if n <= 0 => {
+                let one = self.literal(Rational::ONE);
+                if n == 0 {
+                    return one;
+                }
+                let reciprocal = self.push(Op::Div(one, base));
+                self.whole_power(reciprocal, -n)
+            }
+            n => {
+                let half = self.whole_power(base, n / 2);
+                let square = self.push(Op::Mul(half, half));
+                if n % 2 == 0 { square } else { self.push(Op::Mul(square, base)) }
+            }
+        }
+    }
+
+    fn exponent(&mut self, exponent: Exponent) -> Value {
+        let id = self.graph.exponent_value(exponent);
+        self.value(id)
+    }
+}
+
+/// a b + c in one operation where the product is used nowhere else.
+fn fuse_multiply_add(mut program: Program) -> Program {
+    let mut uses: HashMap<Value, usize> = HashMap::new();
+    let mut products: HashMap<Value, (Value, Value)> = HashMap::new();
+    let mut count = |value: Value| *uses.entry(value).or_default() += 1;
+    program.outputs.iter().copied().for_each(&mut count);
+    for statement in &program.statements {
+        let lets: &[_] = match statement {
+            Statement::Let(value, op) => &[(*value, *op)],
+            Statement::Loop { body, totals, .. } => {
+                totals.iter().for_each(|&(_, term)| count(term));
+                body
+            }
+        };
+        for &(value, op) in lets {
+            op.operands().into_iter().for_each(&mut count);
+            if let Op::Mul(a, b) = op {
+                products.insert(value, (a, b));
+            }
+        }
+    }
+    let mut fused = HashSet::new();
+    let mut fuse = |op: &mut Op| {
+        if let Op::Add(a, b) = *op {
+            for (product, addend) in [(b, a), (a, b)] {
+                if uses[&product] == 1
+                    && let Some(&(x, y)) = products.get(&product)
+                {
+                    *op = Op::MulAdd(x, y, addend);
+                    fused.insert(product);
+                    return;
+                }
+            }
+        }
+    };
+    for statement in &mut program.statements {
+        match statement {
+            Statement::Let(_, op) => fuse(op),
+            Statement::Loop { body, .. } => body.iter_mut().for_each(|(_, op)| fuse(op)),
+        }
+    }
+    for statement in &mut program.statements {
+        if let Statement::Loop { body, .. } = statement {
+            body.retain(|(value, _)| !fused.contains(value));
+        }
+    }
+    program
+        .statements
+        .retain(|statement| !matches!(statement, Statement::Let(value, _) if fused.contains(value)));
+    program
+}
