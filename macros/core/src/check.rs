@@ -152,8 +152,8 @@ pub fn rest(
         let rest = Point { stretches: [1.0; 3], ..point.clone() };
         let Value { magnitude, .. } = evaluate(graph, gradient, &rest);
         let Value { value, .. } = evaluate(graph, stress, &rest);
-        // Written so that NaN is a mistake too.
-        !(value.abs() <= NOISE * magnitude)
+        let within = value.abs() <= NOISE * magnitude;
+        !within // NaN is a mistake too
     });
     if is_stressed {
         diagnostics.error(
@@ -169,7 +169,7 @@ pub fn rest(
 
 fn differ(a: Value, b: Value) -> bool {
     let within = (a.value - b.value).abs() <= NOISE * (a.magnitude + b.magnitude);
-    !within
+    !within // NaN differs
 }
 
 /// SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.

@@ -160,7 +160,7 @@ pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: 
 /// ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
 fn ln_coefficient(order: u8) -> Rational {
     let factorial: i64 = (1..i64::from(order)).product();
-    Rational::integer(if order % 2 == 0 { -factorial } else { factorial })
+    Rational::integer(if order.is_multiple_of(2) { -factorial } else { factorial })
 }
 
 /// r (r − 1) … (r − k + 1).

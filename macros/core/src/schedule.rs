@@ -59,8 +59,12 @@ pub enum Op {
 impl Op {
     /// The values it reads.
     #[must_use]
-    pub fn operands(&self) -> Vec<Value> {
-        match *self {
+    pub fn operands(mut self) -> Vec<Value> {
+        self.operands_mut().into_iter().map(|value| *value).collect()
+    }
+
+    fn operands_mut(&mut self) -> Vec<&mut Value> {
+        match self {
             Self::Literal(_)
             | Self::Stretch(_)
             | Self::Parameter(_)
@@ -126,22 +130,25 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
     };
     scheduler.loops(&reachable);
     let outputs = roots.iter().map(|&root| scheduler.value(root)).collect();
-    fuse_multiply_add(Program { statements: scheduler.statements, outputs })
+    renumber(fuse_multiply_add(Program { statements: scheduler.statements, outputs }))
 }
 
 /// Which powers of each base are needed, to choose the one that is computed.
 struct Powers {
     /// Common denominator of the fractional exponents of a base.
     denominators: HashMap<Id, i128>,
-    /// For each base and real part of an exponent (with the fraction of its rational part): the rational part of the
-    /// power that is computed.
-    representatives: HashMap<(Id, Id, Rational), Rational>,
+    /// The rational part of the exponent of the power that is computed.
+    representatives: HashMap<PowerClass, Rational>,
 }
+
+/// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
+/// fraction of its rational part.
+type PowerClass = (Id, Id, Rational);
 
 impl Powers {
     fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
         let mut denominators: HashMap<Id, i128> = HashMap::new();
-        let mut used: BTreeMap<(Id, Id, Rational), (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
+        let mut used: BTreeMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
         for &id in reachable {
             match graph.node(id) {
                 Node::Product(factors) => {
@@ -182,7 +189,7 @@ impl Powers {
     }
 }
 
-fn class(base: Id, real: Id, exponent: Exponent) -> (Id, Id, Rational) {
+fn class(base: Id, real: Id, exponent: Exponent) -> PowerClass {
     let Exponent { rational, .. } = exponent;
     let fraction =
         Rational::new(rational.numerator().rem_euclid(rational.denominator()), rational.denominator());
@@ -532,5 +539,52 @@ fn fuse_multiply_add(mut program: Program) -> Program {
     program
         .statements
         .retain(|statement| !matches!(statement, Statement::Let(value, _) if fused.contains(value)));
+    program
+}
+
+/// Numbers values in the order in which they are computed; literals and inputs, which are written where they are used,
+/// come after all others.
+fn renumber(mut program: Program) -> Program {
+    let mut names: HashMap<Value, Value> = HashMap::new();
+    let mut inlined = Vec::new();
+    let mut name = |value: Value, op: Option<Op>| {
+        if matches!(op, Some(op) if op.operands().is_empty() && op != Op::PoleFloor) {
+            inlined.push(value);
+        } else {
+            names.insert(value, Value(names.len()));
+        }
+    };
+    for statement in &program.statements {
+        match statement {
+            Statement::Let(value, op) => name(*value, Some(*op)),
+            Statement::Loop { body, totals, .. } => {
+                totals.iter().for_each(|&(total, _)| name(total, None));
+                body.iter().for_each(|&(value, op)| name(value, Some(op)));
+            }
+        }
+    }
+    for value in inlined {
+        names.insert(value, Value(names.len()));
+    }
+    let new = |value: &mut Value| *value = names[value];
+    for statement in &mut program.statements {
+        match statement {
+            Statement::Let(value, op) => {
+                new(value);
+                op.operands_mut().into_iter().for_each(new);
+            }
+            Statement::Loop { body, totals, .. } => {
+                for (value, op) in body {
+                    new(value);
+                    op.operands_mut().into_iter().for_each(new);
+                }
+                for (total, term) in totals {
+                    new(total);
+                    new(term);
+                }
+            }
+        }
+    }
+    program.outputs.iter_mut().for_each(new);
     program
 }
