@@ -1,0 +1,122 @@
+//! Meshes and surfaces from files.
+//!
+//! The readers are the project's own: an error must name file and line, and surface vertices must keep the order
+//! of the file. `mshio` gives neither lines nor physical names, `tobj` no lines, and it renumbers vertices.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+mod msh;
+mod obj;
+
+pub use msh::read_msh;
+pub use obj::read_surface_obj;
+
+/// A triangle surface, such as one that is drawn in place of the tetrahedra it is embedded in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Position of each vertex, m, in the order of the file.
+    pub positions: Vec<[f64; 3]>,
+    /// Vertices of each triangle, from 0, in the orientation of the file.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// Why a file gave no mesh.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is not what it should be.
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1; one past the last where the file ends too early.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", path.display()),
+            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Unreadable { source, .. } => Some(source),
+            Self::Malformed { .. } => None,
+        }
+    }
+}
+
+/// Reads a file and hands its text to a parser, whose complaints then name the file.
+fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Result<T, ReadError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
+    // Names in other encodings are no reason to refuse a mesh.
+    parse(&String::from_utf8_lossy(&bytes)).map_err(|Problem { line, text }| ReadError::Malformed {
+        path: path.to_owned(),
+        line,
+        problem: text,
+    })
+}
+
+/// What is wrong with which line, from 1.
+#[derive(Debug, PartialEq)]
+struct Problem {
+    line: usize,
+    text: String,
+}
+
+/// A line and its number, read word by word.
+struct Line<'a> {
+    number: usize,
+    text: &'a str,
+    words: std::str::SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    fn new(number: usize, text: &'a str) -> Self {
+        Self { number, text, words: text.split_ascii_whitespace() }
+    }
+
+    fn problem(&self, text: impl Into<String>) -> Problem {
+        Problem { line: self.number, text: text.into() }
+    }
+
+    /// The next word as a number; `what` it is goes into the complaint.
+    fn number<N: FromStr>(&mut self, what: &str) -> Result<N, Problem> {
+        match self.words.next() {
+            None => Err(self.problem(format!("{what} is missing"))),
+            Some(word) => word.parse().map_err(|_| self.problem(format!("expected {what}, found `{word}`"))),
+        }
+    }
+
+    /// The next word as a finite number.
+    fn coordinate(&mut self, what: &str) -> Result<f64, Problem> {
+        let x: f64 = self.number(what)?;
+        if x.is_finite() { Ok(x) } else { Err(self.problem(format!("{what} is {x}; it must be finite"))) }
+    }
+
+    /// The next three words as a point.
+    fn point(&mut self) -> Result<[f64; 3], Problem> {
+        Ok([
+            self.coordinate("the x coordinate")?,
+            self.coordinate("the y coordinate")?,
+            self.coordinate("the z coordinate")?,
+        ])
+    }
+}

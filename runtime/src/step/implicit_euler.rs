@@ -1,0 +1,444 @@
+//! A body in time.
+
+use std::fmt;
+
+use crate::system::assemble::Elastic;
+use crate::system::element::Survey;
+use crate::system::linear::LinearError;
+use crate::system::pattern::Pattern;
+use crate::system::{Body, Pins};
+
+use super::line_search::LineSearchSettings;
+use super::newton::{NewtonError, NewtonReport, NewtonSettings, Workspace, minimize};
+use super::objective::{Objective, Pull, Quadratic};
+
+/// How a body is stepped.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Gravity, m/s².
+    pub gravity: [f64; 3],
+    /// Mass-proportional damping α, 1/s: a force −α m v on each node.
+    pub damping: f64,
+    /// How each step is minimised.
+    pub newton: NewtonSettings,
+    /// How Newton steps are shortened.
+    pub line_search: LineSearchSettings,
+}
+
+/// A body with its state, stepped by implicit Euler.
+///
+/// ```math
+/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − α M v + M g − pulls
+/// ```
+///
+/// All memory is allocated by [`Simulation::new`], but for the small lists of a report. The same input gives the same
+/// bits for any number of threads of the rayon pool in which `step` is called.
+pub struct Simulation {
+    body: Body,
+    settings: Settings,
+    pulls: Vec<Pull>,
+    positions: Vec<[f64; 3]>,
+    velocities: Vec<[f64; 3]>,
+    /// Where the pinned nodes, and only they, are to be after the next step.
+    targets: Vec<[f64; 3]>,
+    pinned: Vec<usize>,
+    pattern: Pattern,
+    elastic: Elastic,
+    workspace: Workspace,
+    next: Vec<[f64; 3]>,
+    pins_move: Vec<[f64; 3]>,
+    /// What the elastic energies at `positions` say, if they are what was evaluated last.
+    evaluated: Option<Survey>,
+}
+
+impl fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("body", &self.body)
+            .field("settings", &self.settings)
+            .field("pinned", &self.pinned.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Simulation {
+    /// A body at rest in its rest shape. Does the symbolic part of all linear algebra to come.
+    ///
+    /// # Errors
+    /// Where a pin or a setting makes no sense, or memory does not suffice.
+    pub fn new(body: Body, pins: &Pins, settings: Settings) -> Result<Self, SetupError> {
+        let nodes = body.rest().len();
+        if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        check_settings(&settings)?;
+        let pattern = Pattern::new(nodes, body.elements(), pins).map_err(SetupError::Linear)?;
+        Ok(Self {
+            settings,
+            pulls: Vec::new(),
+            positions: body.rest().to_vec(),
+            velocities: vec![[0.0; 3]; nodes],
+            targets: body.rest().to_vec(),
+            pinned: pins.nodes().to_vec(),
+            elastic: Elastic::new(&body),
+            workspace: Workspace::new(nodes, &pattern).map_err(SetupError::Linear)?,
+            next: vec![[0.0; 3]; nodes],
+            pins_move: vec![[0.0; 3]; nodes],
+            evaluated: None,
+            pattern,
+            body,
+        })
+    }
+
+    /// The body.
+    #[must_use]
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Current position of each node, m.
+    #[must_use]
+    pub fn positions(&self) -> &[[f64; 3]] {
+        &self.positions
+    }
+
+    /// Current velocity of each node, m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[[f64; 3]] {
+        &self.velocities
+    }
+
+    /// The pinned nodes, ascending.
+    #[must_use]
+    pub fn pinned(&self) -> &[usize] {
+        &self.pinned
+    }
+
+    /// Puts each node somewhere, m, however deformed or collapsed the body then is. Pins hold their nodes there.
+    ///
+    /// # Errors
+    /// Where there is not one finite position for each node.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(positions)?;
+        self.positions.copy_from_slice(positions);
+        self.targets.copy_from_slice(positions);
+        self.evaluated = None;
+        Ok(())
+    }
+
+    /// Gives each node a velocity, m/s. That of a pinned node lasts until the next step.
+    ///
+    /// # Errors
+    /// Where there is not one finite velocity for each node.
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(velocities)?;
+        self.velocities.copy_from_slice(velocities);
+        Ok(())
+    }
+
+    /// Says where a pinned node is to be, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// Where the node is not pinned or the position not finite.
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        if self.pinned.binary_search(&node).is_err() {
+            return Err(SetupError::NotPinned { node });
+        }
+        if position.iter().any(|x| !x.is_finite()) {
+            return Err(SetupError::NotFinite { node });
+        }
+        self.targets[node] = position;
+        Ok(())
+    }
+
+    /// Replaces all pulls.
+    ///
+    /// # Errors
+    /// Where the nodes of a pull do not belong to one element, its stiffness is negative, or a number is not finite. The
+    /// pulls before are then still there.
+    pub fn set_pulls(&mut self, pulls: &[Pull]) -> Result<(), SetupError> {
+        pulls.iter().enumerate().try_for_each(|(index, pull)| self.check_pull(index, pull))?;
+        self.pulls.clear();
+        self.pulls.extend_from_slice(pulls);
+        Ok(())
+    }
+
+    /// The pulls.
+    #[must_use]
+    pub fn pulls(&self) -> &[Pull] {
+        &self.pulls
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Replaces the settings from the next step on.
+    ///
+    /// # Errors
+    /// Where one makes no sense.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), SetupError> {
+        check_settings(&settings)?;
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Advances by `dt`, s.
+    ///
+    /// # Errors
+    /// Where there is no admissible next state. The state before the step is then untouched, and a shorter step may do.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
+        if !(dt > 0.0 && dt.is_finite()) {
+            return Err(StepError::TimeStep { dt });
+        }
+        self.next.copy_from_slice(&self.positions);
+        let mut pins_move = false;
+        for &node in &self.pinned {
+            for c in 0..3 {
+                self.pins_move[node][c] = self.targets[node][c] - self.positions[node][c];
+                pins_move |= self.pins_move[node][c] != 0.0;
+            }
+        }
+        let mut objective = Objective {
+            body: &self.body,
+            pattern: &self.pattern,
+            elastic: &mut self.elastic,
+            quadratic: Quadratic {
+                masses: self.body.masses(),
+                start: &self.positions,
+                velocities: &self.velocities,
+                dt,
+                damping: self.settings.damping,
+                gravity: self.settings.gravity,
+                pulls: &self.pulls,
+            },
+        };
+        let survey = match self.evaluated.take() {
+            Some(survey) => survey,
+            None => objective.evaluate(&self.positions),
+        };
+        let (newton, survey) = minimize(
+            &mut objective,
+            &mut self.workspace,
+            &mut self.next,
+            pins_move.then_some(&self.pins_move),
+            survey,
+            &self.settings.newton,
+            &self.settings.line_search,
+        )
+        .map_err(StepError::Newton)?;
+
+        for (velocity, (next, position)) in
+            self.velocities.iter_mut().zip(self.next.iter().zip(&self.positions))
+        {
+            for c in 0..3 {
+                velocity[c] = (next[c] - position[c]) / dt;
+            }
+        }
+        std::mem::swap(&mut self.positions, &mut self.next);
+        self.evaluated = Some(survey);
+        Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
+    }
+
+    /// Energies of the current state; NaN for the elastic one where an element is outside its domain.
+    #[must_use]
+    pub fn energies(&mut self) -> Energies {
+        let survey =
+            *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.positions));
+        self.energies_of(if survey.is_admissible() { self.elastic.energy() } else { f64::NAN })
+    }
+
+    fn energies_of(&self, elastic: f64) -> Energies {
+        let mut energies = Energies { elastic, ..Energies::default() };
+        for (node, mass) in self.body.masses().iter().enumerate() {
+            for c in 0..3 {
+                energies.kinetic += 0.5 * mass * self.velocities[node][c].powi(2);
+                energies.gravity -=
+                    mass * self.settings.gravity[c] * (self.positions[node][c] - self.body.rest()[node][c]);
+            }
+        }
+        energies.pulls = self.pulls.iter().map(|pull| pull.energy(&self.positions)).sum();
+        energies
+    }
+
+    fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
+        if vectors.len() != self.positions.len() {
+            return Err(SetupError::Length { expected: self.positions.len(), found: vectors.len() });
+        }
+        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            Some(node) => Err(SetupError::NotFinite { node }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_pull(&self, index: usize, pull: &Pull) -> Result<(), SetupError> {
+        let nodes = self.positions.len();
+        if let Some(&node) = pull.anchor.nodes.iter().find(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        let numbers = pull.anchor.weights.iter().chain(&pull.target).chain([&pull.stiffness]);
+        if pull.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+            return Err(SetupError::Pull { index });
+        }
+        let free = pull.weights().filter_map(|(node, _)| self.pattern.free_of_node()[node]);
+        for row in free.clone() {
+            for column in free.clone().filter(|&column| column < row) {
+                if self.pattern.block(row, column).is_none() {
+                    return Err(SetupError::PullAcrossElements { index });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_settings(settings: &Settings) -> Result<(), SetupError> {
+    let Settings { gravity, damping, newton, line_search } = settings;
+    let between = |x: f64, low: f64, high: f64| low < x && x < high;
+    let checks = [
+        (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
+        (*damping >= 0.0 && damping.is_finite(), "damping must be finite and not negative"),
+        (newton.max_iterations > 0, "Newton's method needs at least one iteration"),
+        (newton.tolerance >= 0.0 && newton.tolerance < 1.0, "the tolerance must be at least 0 and below 1"),
+        (
+            between(line_search.sufficient_decrease, 0.0, 0.5),
+            "the sufficient decrease must be between 0 and 1/2",
+        ),
+        (between(line_search.shrink, 0.0, 1.0), "the shrinking factor must be between 0 and 1"),
+        (line_search.max_trials > 0, "the line search needs at least one trial"),
+    ];
+    match checks.into_iter().find(|(holds, _)| !holds) {
+        Some((_, rule)) => Err(SetupError::Setting { rule }),
+        None => Ok(()),
+    }
+}
+
+/// What a step did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepReport {
+    /// What Newton's method did.
+    pub newton: NewtonReport,
+    /// Smallest det F of an element after the step.
+    pub min_det: f64,
+    /// Energies after the step.
+    pub energies: Energies,
+}
+
+/// Energies of a body, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Of deformation.
+    pub elastic: f64,
+    /// Of motion.
+    pub kinetic: f64,
+    /// In the field of gravity, 0 at rest.
+    pub gravity: f64,
+    /// Of the pulls.
+    pub pulls: f64,
+}
+
+impl Energies {
+    /// The sum.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.elastic + self.kinetic + self.gravity + self.pulls
+    }
+}
+
+/// Why a body cannot be simulated this way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// A pin or pull names a node that does not exist.
+    NoSuchNode {
+        /// The node, from 0.
+        node: usize,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// A motion is prescribed for a node that is not pinned.
+    NotPinned {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// Not one entry for each node.
+    Length {
+        /// How many nodes there are.
+        expected: usize,
+        /// How many entries were given.
+        found: usize,
+    },
+    /// A position or velocity is infinite or NaN.
+    NotFinite {
+        /// Of this node, from 0.
+        node: usize,
+    },
+    /// A pull has a negative stiffness or a number that is not finite.
+    Pull {
+        /// Which pull, from 0.
+        index: usize,
+    },
+    /// The nodes of a pull do not belong to one element.
+    PullAcrossElements {
+        /// Which pull, from 0.
+        index: usize,
+    },
+    /// A setting makes no sense.
+    Setting {
+        /// The rule that it breaks.
+        rule: &'static str,
+    },
+    /// The linear solver cannot be set up.
+    Linear(LinearError),
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchNode { node, nodes } => write!(f, "there is no node {node} (from 0) among {nodes}"),
+            Self::NotPinned { node } => {
+                write!(f, "node {node} (from 0) is not pinned, so its motion cannot be prescribed")
+            }
+            Self::Length { expected, found } => {
+                write!(f, "expected one entry for each of {expected} nodes, found {found}")
+            }
+            Self::NotFinite { node } => write!(f, "the entry of node {node} (from 0) is not finite"),
+            Self::Pull { index } => {
+                write!(f, "pull {index} (from 0) has a negative stiffness or a number that is not finite")
+            }
+            Self::PullAcrossElements { index } => {
+                write!(f, "the nodes of pull {index} (from 0) do not belong to one element")
+            }
+            Self::Setting { rule } => write!(f, "{rule}"),
+            Self::Linear(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SetupError {}
+
+/// Why there is no next state. The state before the step is untouched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The time step is not a positive number.
+    TimeStep {
+        /// As given, s.
+        dt: f64,
+    },
+    /// The minimisation fails.
+    Newton(NewtonError),
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TimeStep { dt } => write!(f, "the time step is {dt} s; it must be a positive number"),
+            Self::Newton(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for StepError {}

@@ -1,0 +1,168 @@
+//! Backtracking: how much of a step to take.
+//!
+//! A trial is accepted where it decreases the objective enough [Arm66]. Near a minimum the decrease drowns in rounding;
+//! there the slope decides instead, which is still accurate: the "approximate Wolfe" condition [HZ05 eq. 4.1]. A trial
+//! outside the domain of the objective is a step too long.
+//!
+//! [Arm66] Armijo, *Minimization of functions having Lipschitz continuous first partial derivatives*, 1966.
+//! [HZ05] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line Search*, 2005.
+//!
+//! This module knows a function of one variable and nothing else.
+
+/// When to accept and how to shorten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineSearchSettings {
+    /// δ: which part of the decrease that the slope predicts is enough, 0 < δ < ½.
+    pub sufficient_decrease: f64,
+    /// The factor from one trial to the next, between 0 and 1.
+    pub shrink: f64,
+    /// After how many trials to give up.
+    pub max_trials: usize,
+}
+
+impl Default for LineSearchSettings {
+    fn default() -> Self {
+        Self { sufficient_decrease: 1e-4, shrink: 0.5, max_trials: 48 }
+    }
+}
+
+/// An objective along a line, seen from the start of it.
+pub trait Line {
+    /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside the domain.
+    fn change(&mut self, step: f64) -> Option<Change>;
+
+    /// The derivative at the step tried last.
+    fn slope(&mut self) -> f64;
+}
+
+/// A difference of objectives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Objective at the step minus that at the start.
+    pub difference: f64,
+    /// How much of it may be rounding error.
+    pub noise: f64,
+}
+
+/// How a line search ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The step tried last was accepted.
+    Accepted {
+        /// The step, 0 < step ≤ 1.
+        step: f64,
+        /// How many steps were tried, this one included.
+        trials: usize,
+        /// How many of them were outside the domain.
+        refused: usize,
+    },
+    /// No step was accepted.
+    Failed {
+        /// The smallest step tried.
+        step: f64,
+        /// How many of the trials were outside the domain.
+        refused: usize,
+    },
+}
+
+/// Tries the steps 1, shrink, shrink², … until one is acceptable; `slope` < 0 is the derivative at the start.
+pub fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings) -> Outcome {
+    let delta = settings.sufficient_decrease;
+    let (mut step, mut refused) = (1.0, 0);
+    for trials in 1..=settings.max_trials {
+        match line.change(step) {
+            None => refused += 1,
+            Some(Change { difference, noise }) => {
+                let enough = difference <= delta * step * slope;
+                // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without differences.
+                if enough || (difference.abs() <= noise && line.slope() <= (2.0 * delta - 1.0) * slope) {
+                    return Outcome::Accepted { step, trials, refused };
+                }
+            }
+        }
+        if trials < settings.max_trials {
+            step *= settings.shrink;
+        }
+    }
+    Outcome::Failed { step, refused }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A function with its derivative and the step tried last.
+    struct Function<F, G> {
+        value: F,
+        derivative: G,
+        at: f64,
+        noise: f64,
+    }
+
+    impl<F: Fn(f64) -> Option<f64>, G: Fn(f64) -> f64> Line for Function<F, G> {
+        fn change(&mut self, step: f64) -> Option<Change> {
+            self.at = step;
+            (self.value)(step).map(|difference| Change { difference, noise: self.noise })
+        }
+
+        fn slope(&mut self) -> f64 {
+            (self.derivative)(self.at)
+        }
+    }
+
+    #[track_caller]
+    fn check(
+        value: impl Fn(f64) -> Option<f64>,
+        derivative: impl Fn(f64) -> f64,
+        noise: f64,
+        expected: Outcome,
+    ) {
+        let slope = derivative(0.0);
+        let mut line = Function { value, derivative, at: 0.0, noise };
+        assert_eq!(backtrack(&mut line, slope, &LineSearchSettings::default()), expected);
+    }
+
+    #[test]
+    fn a_good_step_is_taken_whole() {
+        check(
+            |s| Some(s * s / 2.0 - s),
+            |s| s - 1.0,
+            0.0,
+            Outcome::Accepted { step: 1.0, trials: 1, refused: 0 },
+        );
+    }
+
+    #[test]
+    fn a_step_too_long_or_out_of_the_domain_is_halved() {
+        check(
+            |s| Some(8.0 * s * s - s),
+            |s| 16.0 * s - 1.0,
+            0.0,
+            Outcome::Accepted { step: 0.0625, trials: 5, refused: 0 },
+        );
+        check(
+            |s| (s < 0.3).then_some(-s),
+            |_| -1.0,
+            0.0,
+            Outcome::Accepted { step: 0.25, trials: 3, refused: 2 },
+        );
+    }
+
+    #[test]
+    fn below_the_noise_the_slope_decides() {
+        // The difference says "uphill", but it is noise: the minimum is at 1.
+        let accepted = Outcome::Accepted { step: 1.0, trials: 1, refused: 0 };
+        check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted);
+        // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
+        let halved = Outcome::Accepted { step: 0.5, trials: 2, refused: 0 };
+        check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
+    }
+
+    #[test]
+    fn failure_is_a_value() {
+        let step = 0.5f64.powi(47);
+        check(|s| Some(s), |_| -1.0, 0.0, Outcome::Failed { step, refused: 0 });
+        check(|_| None, |_| -1.0, 0.0, Outcome::Failed { step, refused: 48 });
+        check(|_| Some(f64::NAN), |_| -1.0, 0.0, Outcome::Failed { step, refused: 0 });
+    }
+}

@@ -1,0 +1,241 @@
+//! What a step of implicit Euler minimises.
+//!
+//! With M the lumped masses, h the time step, α the mass-proportional damping, xₙ, vₙ the state before the step:
+//!
+//! ```text
+//! E(x) = ½‖x − xₙ − h vₙ‖²_M / h² + α/(2h) ‖x − xₙ‖²_M + Ψ(x) − Σ m g·x + Σ ½ k ‖p(x) − t‖²
+//! ```
+//!
+//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − α M v + M g − (pulls) with v = (x − xₙ)/h: implicit Euler,
+//! damping included. All but Ψ is quadratic, so that along a line it needs one slope and one curvature and no
+//! subtraction of close energies. Positions enter as displacements from xₙ.
+
+use crate::lanes::Real;
+use crate::mesh::embed::Anchor;
+use crate::system::Body;
+use crate::system::assemble::Elastic;
+use crate::system::element::Survey;
+use crate::system::pattern::Pattern;
+
+use super::line_search::{Change, Line};
+
+/// A spring of rest length zero from a point of the body to a point in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull {
+    /// The point of the body.
+    pub anchor: Anchor,
+    /// The point in space, m.
+    pub target: [f64; 3],
+    /// k, N/m: the energy is ½ k |point − target|².
+    pub stiffness: f64,
+}
+
+impl Pull {
+    /// A pull on a node.
+    #[must_use]
+    pub fn on_node(node: usize, target: [f64; 3], stiffness: f64) -> Self {
+        Self { anchor: Anchor { nodes: [node; 4], weights: [1.0, 0.0, 0.0, 0.0] }, target, stiffness }
+    }
+
+    /// ½ k |point − target|², J.
+    #[must_use]
+    pub fn energy(&self, positions: &[[f64; 3]]) -> f64 {
+        let point = self.anchor.position(positions);
+        (0..3).map(|c| 0.5 * self.stiffness * (point[c] - self.target[c]).powi(2)).sum()
+    }
+
+    /// Nodes with a weight.
+    pub(crate) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+        self.anchor
+            .nodes
+            .iter()
+            .copied()
+            .zip(self.anchor.weights.iter().copied())
+            .filter(|(_, weight)| *weight != 0.0)
+    }
+}
+
+/// The quadratic part of the objective.
+#[derive(Clone, Copy)]
+pub(crate) struct Quadratic<'a> {
+    pub(crate) masses: &'a [f64],
+    /// xₙ.
+    pub(crate) start: &'a [[f64; 3]],
+    /// vₙ.
+    pub(crate) velocities: &'a [[f64; 3]],
+    /// h, s.
+    pub(crate) dt: f64,
+    /// α, 1/s.
+    pub(crate) damping: f64,
+    /// g, m/s².
+    pub(crate) gravity: [f64; 3],
+    pub(crate) pulls: &'a [Pull],
+}
+
+impl Quadratic<'_> {
+    /// Second derivative in each coordinate of a node, without pulls: m (1/h² + α/h).
+    pub(crate) fn diagonal(&self, node: usize) -> f64 {
+        self.masses[node] * (1.0 / self.dt + self.damping) / self.dt
+    }
+
+    /// What inertia alone contributes to it: m/h².
+    pub(crate) fn inertia(&self, node: usize) -> f64 {
+        self.masses[node] / (self.dt * self.dt)
+    }
+
+    /// Adds the gradient at `x`.
+    fn add_gradient(&self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for node in 0..x.len() {
+            for c in 0..3 {
+                let v = (x[node][c] - self.start[node][c]) / self.dt;
+                let acceleration = (v - self.velocities[node][c]) / self.dt;
+                total[node][c] += self.masses[node] * (acceleration + self.damping * v - self.gravity[c]);
+            }
+        }
+        for pull in self.pulls {
+            let point = pull.anchor.position(x);
+            for (node, weight) in pull.weights() {
+                for c in 0..3 {
+                    total[node][c] += pull.stiffness * weight * (point[c] - pull.target[c]);
+                }
+            }
+        }
+    }
+
+    /// Adds the product of the second derivatives with a displacement.
+    fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for node in 0..d.len() {
+            for c in 0..3 {
+                total[node][c] += self.diagonal(node) * d[node][c];
+            }
+        }
+        for pull in self.pulls {
+            let point = pull.anchor.position(d);
+            for (node, weight) in pull.weights() {
+                for c in 0..3 {
+                    total[node][c] += pull.stiffness * weight * point[c];
+                }
+            }
+        }
+    }
+
+    /// dᵀ H d.
+    fn curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        let inertia: f64 = d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum();
+        inertia + self.pulls.iter().map(|pull| pull.stiffness * square(pull.anchor.position(d))).sum::<f64>()
+    }
+}
+
+/// The objective, with memory for its elastic part.
+pub(crate) struct Objective<'a> {
+    pub(crate) body: &'a Body,
+    pub(crate) pattern: &'a Pattern,
+    pub(crate) elastic: &'a mut Elastic,
+    pub(crate) quadratic: Quadratic<'a>,
+}
+
+impl Objective<'_> {
+    /// Evaluates the energies at `x`; what else is asked of the objective is then meant there.
+    pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Survey {
+        self.elastic.evaluate(self.body, x)
+    }
+
+    /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
+    pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        gradient.fill([0.0; 3]);
+        self.elastic.add_gradient(self.body, gradient);
+        self.quadratic.add_gradient(x, gradient);
+    }
+
+    /// Adds the product of the second derivatives with a displacement of few nodes.
+    pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        self.elastic.add_product(self.body, d, total);
+        self.quadratic.add_product(d, total);
+    }
+
+    /// The second derivatives plus `shift` times those of inertia.
+    pub(crate) fn fill(&self, shift: f64, values: &mut [f64]) {
+        let quadratic = &self.quadratic;
+        let diagonal = |node: usize| quadratic.diagonal(node) + shift * quadratic.inertia(node);
+        self.elastic.fill(self.pattern, diagonal, values);
+        for pull in quadratic.pulls {
+            let free = pull
+                .weights()
+                .filter_map(|(node, weight)| Some((self.pattern.free_of_node()[node]?, weight)));
+            for (row, row_weight) in free.clone() {
+                for (column, column_weight) in free.clone().filter(|&(column, _)| column <= row) {
+                    // The nodes of a pull belong to one element: the simulation has made sure that the block exists.
+                    if let Some(block) = self.pattern.block(row, column) {
+                        for c in 0..3 {
+                            let entry = self.pattern.scalar(column, block, c, c);
+                            values[entry] += pull.stiffness * row_weight * column_weight;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The objective along `x + step d`, whose point tried last is left in `trial`. The base of its differences is `x`,
+    /// where the energies must have been evaluated last.
+    pub(crate) fn along<'b>(
+        &'b mut self,
+        x: &'b [[f64; 3]],
+        direction: &'b [[f64; 3]],
+        trial: &'b mut [[f64; 3]],
+        gradient: &'b mut [[f64; 3]],
+    ) -> impl Line + 'b
+    where
+        Self: 'b,
+    {
+        self.elastic.set_base();
+        gradient.fill([0.0; 3]);
+        self.quadratic.add_gradient(x, gradient);
+        let slope = product(gradient, direction);
+        let curvature = self.quadratic.curvature(direction);
+        Along { objective: self, x, direction, trial, gradient, slope, curvature }
+    }
+}
+
+/// The objective along a line.
+struct Along<'a, 'b> {
+    objective: &'a mut Objective<'b>,
+    x: &'a [[f64; 3]],
+    direction: &'a [[f64; 3]],
+    trial: &'a mut [[f64; 3]],
+    gradient: &'a mut [[f64; 3]],
+    /// First and second derivative of the quadratic part.
+    slope: f64,
+    curvature: f64,
+}
+
+impl Line for Along<'_, '_> {
+    fn change(&mut self, step: f64) -> Option<Change> {
+        for node in 0..self.x.len() {
+            for c in 0..3 {
+                self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
+            }
+        }
+        if !self.objective.evaluate(self.trial).is_admissible() {
+            return None;
+        }
+        let (linear, quadratic) = (step * self.slope, 0.5 * step * step * self.curvature);
+        let elastic = &self.objective.elastic;
+        // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
+        let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic)
+            + elastic.difference_noise(self.objective.body);
+        Some(Change { difference: linear + quadratic + elastic.difference(), noise })
+    }
+
+    fn slope(&mut self) -> f64 {
+        self.objective.elastic.evaluate_gradients(self.objective.body);
+        self.objective.gradient(self.trial, self.gradient);
+        product(self.gradient, self.direction)
+    }
+}
+
+/// Σ a·b over the nodes.
+pub(crate) fn product(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum()
+}

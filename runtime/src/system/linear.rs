@@ -1,0 +1,99 @@
+//! Sparse Cholesky factorisation A = L Lᵀ, analysed once and refactored for each new set of values.
+//!
+//! Sequential on purpose: at the sizes of real-time bodies (fewer than 10⁴ unknowns) threads cost more than they
+//! bring. This module knows no nodes; unknowns come already in an order that keeps L sparse.
+
+use std::fmt;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+/// A factorisation and the memory for the next one.
+pub struct Cholesky {
+    symbolic: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl fmt::Debug for Cholesky {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Cholesky {{ unknowns: {}, entries: {} }}", self.symbolic.nrows(), self.factor.len())
+    }
+}
+
+impl Cholesky {
+    /// Analyses the lower triangle of a symmetric pattern and allocates all that later calls need.
+    ///
+    /// # Errors
+    /// Where the factor does not fit into memory.
+    pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, LinearError> {
+        let parameters = CholeskySymbolicParams::default();
+        let symbolic =
+            factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Identity, parameters)
+                .map_err(|_| LinearError::OutOfMemory)?;
+        let scratch = symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
+            .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
+        let factor = vec![0.0; symbolic.len_val()];
+        Ok(Self { symbolic, factor, memory })
+    }
+
+    /// Factors a matrix of the analysed pattern.
+    ///
+    /// # Errors
+    /// Where it is not numerically positive definite.
+    pub fn factor(&mut self, matrix: SparseColMatRef<'_, usize, f64>) -> Result<(), LinearError> {
+        let result = self.symbolic.factorize_numeric_llt(
+            &mut self.factor,
+            matrix,
+            Side::Lower,
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Default::default(),
+        );
+        match result {
+            Ok(_) => Ok(()),
+            Err(LltError::NonPositivePivot { index }) => Err(LinearError::NotPositive { column: index }),
+        }
+    }
+
+    /// Replaces b by A⁻¹ b, with the matrix factored last.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
+        let factor = LltRef::new(&self.symbolic, &self.factor);
+        factor.solve_in_place_with_conj(Conj::No, b, Par::Seq, MemStack::new(&mut self.memory));
+    }
+}
+
+/// Why a system cannot be solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LinearError {
+    /// A pivot is negative, zero or NaN.
+    NotPositive {
+        /// The column in which it is met.
+        column: usize,
+    },
+    /// The factor does not fit into memory.
+    OutOfMemory,
+}
+
+impl fmt::Display for LinearError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotPositive { column } => {
+                write!(f, "the matrix is not positive definite (pivot of column {column})")
+            }
+            Self::OutOfMemory => write!(f, "the factor of the matrix does not fit into memory"),
+        }
+    }
+}
+
+impl std::error::Error for LinearError {}

@@ -1,0 +1,192 @@
+//! Which entries of the stiffness matrix exist, and which element blocks add up to each.
+//!
+//! Unknowns are the coordinates of the nodes that are not pinned, numbered so that a Cholesky factor stays sparse
+//! (approximate minimum degree on the graph of nodes, whose edges are 3×3 blocks). This module knows no values.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::amd;
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+
+use super::element::{Element, pair};
+use super::linear::LinearError;
+use super::pins::Pins;
+
+/// The lower triangle of a symmetric matrix of 3×3 blocks, one row and column of blocks per free node.
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    free_of_node: Vec<Option<usize>>,
+    node_of_free: Vec<usize>,
+    /// Where the blocks of each column of blocks start, and where the last ends. The first is on the diagonal.
+    columns: Vec<usize>,
+    rows: Vec<usize>,
+    /// Where the contributions to each block start, and where the last ends.
+    gather_starts: Vec<usize>,
+    gather: Vec<Contribution>,
+    entries: SymbolicSparseColMat<usize>,
+}
+
+/// A 3×3 block of an element that is part of a block of the matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Contribution {
+    pub(crate) element: u32,
+    pub(crate) pair: u8,
+    pub(crate) transposed: bool,
+}
+
+impl Pattern {
+    /// The pattern of these elements among `nodes` nodes, without rows and columns of pinned ones.
+    ///
+    /// # Errors
+    /// Where it does not fit into memory.
+    pub fn new(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Self, LinearError> {
+        let node_of_free = order(nodes, elements, pins)?;
+        let mut free_of_node = vec![None; nodes];
+        for (free, &node) in node_of_free.iter().enumerate() {
+            free_of_node[node] = Some(free);
+        }
+
+        // One record per contribution, sorted by column, row and element: the order of summation, fixed for good.
+        let mut records = Vec::with_capacity(10 * elements.len());
+        for (index, element) in elements.iter().enumerate() {
+            let index = u32::try_from(index).map_err(|_| LinearError::OutOfMemory)?;
+            for i in 0..4 {
+                for j in 0..=i {
+                    if let (Some(row), Some(column)) =
+                        (free_of_node[element.nodes[i]], free_of_node[element.nodes[j]])
+                    {
+                        let transposed = row < column;
+                        let contribution =
+                            Contribution { element: index, pair: pair(i, j) as u8, transposed };
+                        records.push((row.min(column), row.max(column), contribution));
+                    }
+                }
+            }
+        }
+        records.sort_unstable();
+
+        let mut pattern = Self {
+            columns: vec![0; node_of_free.len() + 1],
+            rows: Vec::new(),
+            gather_starts: vec![0],
+            gather: Vec::with_capacity(records.len()),
+            entries: SymbolicSparseColMat::new_checked(0, 0, vec![0], None, Vec::new()),
+            free_of_node,
+            node_of_free,
+        };
+        for block in records.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (column, row, _) = block[0];
+            pattern.rows.push(row);
+            pattern.columns[column + 1] = pattern.rows.len();
+            pattern.gather.extend(block.iter().map(|record| record.2));
+            pattern.gather_starts.push(pattern.gather.len());
+        }
+        pattern.entries = pattern.scalar_entries();
+        Ok(pattern)
+    }
+
+    /// Column by column the entries of the lower triangle: for the block on the diagonal its own lower triangle.
+    fn scalar_entries(&self) -> SymbolicSparseColMat<usize> {
+        let unknowns = self.unknowns();
+        let (mut starts, mut rows) = (vec![0], Vec::new());
+        for column in 0..self.node_of_free.len() {
+            for c in 0..3 {
+                for &row in &self.rows[self.columns[column]..self.columns[column + 1]] {
+                    rows.extend(if row == column { c..3 } else { 0..3 }.map(|r| 3 * row + r));
+                }
+                starts.push(rows.len());
+            }
+        }
+        SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)
+    }
+
+    /// How many unknowns there are: three for each free node.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        3 * self.node_of_free.len()
+    }
+
+    /// The node to which a number among the free nodes belongs.
+    #[must_use]
+    pub fn node_of_free(&self) -> &[usize] {
+        &self.node_of_free
+    }
+
+    /// The number of a node among the free ones; `None` where it is pinned.
+    #[must_use]
+    pub fn free_of_node(&self) -> &[Option<usize>] {
+        &self.free_of_node
+    }
+
+    /// Rows and columns of the stored scalars.
+    #[must_use]
+    pub fn entries(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        self.entries.as_ref()
+    }
+
+    /// Index of the first block of each column of blocks.
+    pub(crate) fn columns(&self) -> &[usize] {
+        &self.columns
+    }
+
+    /// What adds up to a block.
+    pub(crate) fn contributions(&self, block: usize) -> &[Contribution] {
+        &self.gather[self.gather_starts[block]..self.gather_starts[block + 1]]
+    }
+
+    /// The block of two free nodes, row ≥ column.
+    pub(crate) fn block(&self, row: usize, column: usize) -> Option<usize> {
+        let start = self.columns[column];
+        self.rows[start..self.columns[column + 1]].binary_search(&row).ok().map(|position| start + position)
+    }
+
+    /// Where the scalars of a column of blocks start.
+    pub(crate) fn column_start(&self, column: usize) -> usize {
+        // The k-th block brings 9 scalars, the one on the diagonal 6.
+        9 * self.columns[column] - 3 * column
+    }
+
+    /// Where entry (r, c) of a block of this column is stored. On the diagonal only r ≥ c is.
+    pub(crate) fn scalar(&self, column: usize, block: usize, r: usize, c: usize) -> usize {
+        let below = self.columns[column + 1] - self.columns[column] - 1;
+        // Columns c' < c hold 3 − c' scalars of the diagonal block and 3 of each block below.
+        let start = self.column_start(column) + c * 3 * below + 3 * c - c * c.saturating_sub(1) / 2;
+        match block - self.columns[column] {
+            0 => start + r - c,
+            position => start + (3 - c) + 3 * (position - 1) + r,
+        }
+    }
+}
+
+/// The free nodes in an order that keeps a Cholesky factor sparse.
+fn order(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Vec<usize>, LinearError> {
+    let mut pinned = vec![false; nodes];
+    for &node in pins.nodes() {
+        pinned[node] = true;
+    }
+    let free: Vec<usize> = (0..nodes).filter(|&node| !pinned[node]).collect();
+    let mut index = vec![None; nodes];
+    for (number, &node) in free.iter().enumerate() {
+        index[node] = Some(number);
+    }
+    let mut edges = Vec::with_capacity(16 * elements.len());
+    for element in elements {
+        for i in element.nodes {
+            edges.extend(element.nodes.iter().filter_map(|&j| index[i].zip(index[j])));
+        }
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    let mut starts = vec![0; free.len() + 1];
+    for (at, &(column, _)) in edges.iter().enumerate() {
+        starts[column + 1] = at + 1;
+    }
+    let rows: Vec<usize> = edges.into_iter().map(|(_, row)| row).collect();
+    let graph = SymbolicSparseColMatRef::new_checked(free.len(), free.len(), &starts, None, &rows);
+
+    let (mut forward, mut inverse) = (vec![0; free.len()], vec![0; free.len()]);
+    let scratch = amd::order_scratch::<usize>(free.len(), rows.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
+    amd::order(&mut forward, &mut inverse, graph, amd::Control::default(), MemStack::new(&mut memory))
+        .map_err(|_| LinearError::OutOfMemory)?;
+    Ok(forward.into_iter().map(|number| free[number]).collect())
+}
