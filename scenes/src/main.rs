@@ -1,2 +1,54 @@
-//! The command `piola`.
-fn main() {}
+//! The command `piola`: runs scenes, lists materials.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use piola_scenes::energy;
+use piola_scenes::error::Error;
+use piola_scenes::run::run;
+
+mod command;
+
+use command::{Cli, Command, Run};
+
+fn main() -> ExitCode {
+    // A command line that makes no sense ends here, with status 2.
+    let result = match Cli::parse().command {
+        None => play(Run::parse_from(["piola"])),
+        Some(Command::Run(arguments)) => play(*arguments),
+        Some(Command::Materials) => {
+            energy::pages().for_each(say);
+            Ok(())
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "error: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn play(arguments: Run) -> Result<(), Error> {
+    let (settings, folder) = arguments.settings()?;
+    // The bar goes to standard error, and nowhere where that is no terminal.
+    let bar = ProgressBar::new(settings.frames as u64).with_message(settings.scene.name);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps, {per_sec}") {
+        bar.set_style(style);
+    }
+    let result = run(&settings, &folder, &mut || bar.inc(1));
+    bar.finish_and_clear();
+    say(result?);
+    say(format_args!("  surfaces, frames.png and summary.json are in {}", folder.display()));
+    Ok(())
+}
+
+/// Writes to standard output; a reader who has gone away is no failure.
+fn say(what: impl Display) {
+    let _ = writeln!(io::stdout(), "{what}");
+}

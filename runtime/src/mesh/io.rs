@@ -10,8 +10,8 @@ use std::str::FromStr;
 mod msh;
 mod obj;
 
-pub use msh::read_msh;
-pub use obj::read_surface_obj;
+pub use msh::{parse_msh, read_msh};
+pub use obj::{parse_surface_obj, read_surface_obj};
 
 /// A triangle surface, such as one that is drawn in place of the tetrahedra it is embedded in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,7 +67,12 @@ fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Resul
     let bytes =
         std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
     // Names in other encodings are no reason to refuse a mesh.
-    parse(&String::from_utf8_lossy(&bytes)).map_err(|Problem { line, text }| ReadError::Malformed {
+    named(path, parse(&String::from_utf8_lossy(&bytes)))
+}
+
+/// Lets a complaint name the file.
+fn named<T>(path: &Path, parsed: Result<T, Problem>) -> Result<T, ReadError> {
+    parsed.map_err(|Problem { line, text }| ReadError::Malformed {
         path: path.to_owned(),
         line,
         problem: text,

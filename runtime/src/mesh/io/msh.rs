@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::{Line, Problem, ReadError, read};
+use super::{Line, Problem, ReadError, named, read};
 use crate::mesh::{Group, TetMesh};
 
 /// Gmsh's number for a linear tetrahedron.
@@ -22,6 +22,14 @@ const TETRAHEDRON: usize = 4;
 /// partitioned, or without linear tetrahedra.
 pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     read(path.as_ref(), parse)
+}
+
+/// The same from text already in memory, such as a file that is part of the program; `name` goes into complaints.
+///
+/// # Errors
+/// Where a line is malformed, as above.
+pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
+    named(name.as_ref(), parse(text))
 }
 
 fn parse(text: &str) -> Result<TetMesh, Problem> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Line, Problem, ReadError, Surface, read};
+use super::{Line, Problem, ReadError, Surface, named, read};
 
 /// Reads the triangles of a Wavefront OBJ file.
 ///
@@ -13,6 +13,14 @@ use super::{Line, Problem, ReadError, Surface, read};
 /// Where the file cannot be read, or a line of it (named) is malformed or names a vertex that does not precede it.
 pub fn read_surface_obj(path: impl AsRef<Path>) -> Result<Surface, ReadError> {
     read(path.as_ref(), parse)
+}
+
+/// The same from text already in memory, such as a file that is part of the program; `name` goes into complaints.
+///
+/// # Errors
+/// Where a line is malformed, as above.
+pub fn parse_surface_obj(text: &str, name: impl AsRef<Path>) -> Result<Surface, ReadError> {
+    named(name.as_ref(), parse(text))
 }
 
 fn parse(text: &str) -> Result<Surface, Problem> {

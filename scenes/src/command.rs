@@ -1,0 +1,189 @@
+//! The command line.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use piola::Inversion;
+
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
+use piola_scenes::output::Newton;
+use piola_scenes::scene;
+use piola_scenes::settings::{Files, Settings};
+
+/// Elastic bodies that collapse, invert and recover.
+///
+/// Without arguments, runs the scene `horse`.
+#[derive(Debug, Parser)]
+#[command(version)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a scene and write its surfaces, a picture and a summary.
+    #[command(after_help = scenes())]
+    Run(Box<Run>),
+    /// List the materials with formula, parameters, domain and small-strain moduli.
+    Materials,
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub(crate) struct Run {
+    /// The scene.
+    #[arg(default_value = "horse")]
+    scene: String,
+
+    /// Number of time steps [default: the scene's].
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+
+    /// Time step in s [default: the scene's, 1/30].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    dt: Option<f64>,
+
+    /// Material, as listed by `piola materials`; every parameter of it is then asked for [default: the scene's].
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+
+    /// Value of a parameter of the material; lists as NAME=V,V,V.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    parameters: Vec<(String, Vec<f64>)>,
+
+    /// What a material that is not defined for inverted elements does with them: `refuse` makes the line search take a
+    /// shorter step; a stretch between 0 and 1 is where the energy is continued from by polynomials [default: 0.1
+    /// where the material allows it].
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
+    inversion: Option<Inversion>,
+
+    /// Density in kg/m³ [default: the scene's, 1000].
+    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
+    density: Option<f64>,
+
+    /// Gravity in m/s², downwards [default: 0].
+    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    gravity: Option<f64>,
+
+    /// Nodes to hold, in place of the scene's: a physical group of the mesh by its name, or a box as three ranges
+    /// LOW:HIGH in m, either side open if left out, such as `:,:0.05,:`. May be repeated.
+    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
+    pins: Vec<String>,
+
+    /// Another body: tetrahedra in Gmsh MSH 4.1, ASCII. The scene's places are taken as shares of its bounding box.
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+
+    /// The surface to embed in them, OBJ [default: their boundary].
+    #[arg(long, value_name = "FILE", requires = "mesh")]
+    surface: Option<PathBuf>,
+
+    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
+    #[arg(long, value_enum, default_value_t = Iterations::Single)]
+    newton: Iterations,
+
+    /// Threads for the solver; 0 for one per core.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    threads: usize,
+
+    /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Iterations {
+    Single,
+    Full,
+}
+
+impl fmt::Display for Iterations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Single => "single",
+            Self::Full => "full",
+        })
+    }
+}
+
+impl Run {
+    /// What is asked for, and the folder for it.
+    pub(crate) fn settings(self) -> Result<(Settings, PathBuf), Error> {
+        let scene = scene::find(&self.scene)?;
+        let described = Settings::of(scene);
+        let mut energy = match self.material {
+            Some(name) => Energy::of(&name),
+            None => described.energy,
+        };
+        for (name, values) in self.parameters {
+            energy = energy.with(&name, values);
+        }
+        if let Some(inversion) = self.inversion {
+            energy = energy.inverting(inversion);
+        }
+        let surface = self.surface;
+        let settings = Settings {
+            scene,
+            files: self.mesh.map(|mesh| Files { mesh, surface }),
+            energy,
+            density: self.density.unwrap_or(described.density),
+            gravity: self.gravity.unwrap_or(described.gravity),
+            dt: self.dt.unwrap_or(described.dt),
+            frames: self.frames.unwrap_or(described.frames),
+            pins: self.pins,
+            newton: match self.newton {
+                Iterations::Single => Newton::Single,
+                Iterations::Full => Newton::Full,
+            },
+            threads: self.threads,
+        };
+        Ok((settings, self.out.unwrap_or_else(|| PathBuf::from("out").join(scene.name))))
+    }
+}
+
+fn scenes() -> String {
+    let mut text = String::from("Scenes:\n");
+    for scene in scene::SCENES {
+        text += &format!("  {:18} {}\n", scene.name, scene.about);
+    }
+    text
+}
+
+/// Reads `NAME=V,V,V`.
+fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
+    let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
+    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
+    Ok((name.trim().into(), values.split(',').map(number).collect::<Result<_, _>>()?))
+}
+
+/// Reads `refuse` or the stretch where an extension begins.
+fn inversion(text: &str) -> Result<Inversion, String> {
+    if text == "refuse" {
+        return Ok(Inversion::Refuse);
+    }
+    let epsilon = text.parse().map_err(|_| "write `refuse`, or a stretch between 0 and 1")?;
+    Ok(Inversion::Extend { epsilon })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn lists_and_numbers_are_parameters() {
+        assert_eq!(parameter("mu=1e5"), Ok(("mu".into(), vec![1e5])));
+        assert_eq!(parameter("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
+        assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
+        assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));
+    }
+}

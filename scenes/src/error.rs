@@ -1,0 +1,190 @@
+//! Why a run cannot start or go on.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use piola::material::Inadmissible;
+
+/// Why a run cannot start or go on.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// No scene of that name.
+    UnknownScene {
+        /// The name as given.
+        name: String,
+        /// The names that exist.
+        known: Vec<&'static str>,
+    },
+    /// No material of that name.
+    UnknownMaterial {
+        /// The name as given.
+        name: String,
+        /// The names that exist.
+        known: Vec<&'static str>,
+    },
+    /// The material has no parameter of that name.
+    UnknownParameter {
+        /// Name of the material.
+        material: &'static str,
+        /// The name as given.
+        parameter: String,
+        /// The names that exist.
+        known: Vec<&'static str>,
+    },
+    /// A parameter was given no value; there is no right one for everybody.
+    MissingParameters {
+        /// Name of the material.
+        material: &'static str,
+        /// The names without a value.
+        missing: Vec<&'static str>,
+    },
+    /// The material refuses its parameters.
+    Inadmissible {
+        /// Name of the material.
+        material: &'static str,
+        /// Its reason.
+        reason: Inadmissible,
+    },
+    /// A number of the setting is out of range.
+    OutOfRange {
+        /// What it is, such as `dt`.
+        quantity: &'static str,
+        /// The number as given.
+        value: f64,
+        /// What it must be.
+        requirement: &'static str,
+    },
+    /// A pin names neither a box nor a group.
+    UnknownPin {
+        /// The text as given.
+        pin: String,
+        /// The groups of the mesh.
+        groups: Vec<String>,
+    },
+    /// A pin holds no node.
+    Pin {
+        /// Which one.
+        pin: String,
+        /// Why.
+        reason: String,
+    },
+    /// A mesh or a surface is unusable.
+    Geometry {
+        /// The file, or the name of what it would be.
+        file: String,
+        /// What is wrong with it, the file not named.
+        reason: String,
+    },
+    /// The solver refuses what it is given.
+    Setup {
+        /// Its reason.
+        reason: String,
+    },
+    /// A file cannot be read or says nonsense.
+    File {
+        /// What is wrong, the file and its line named.
+        reason: String,
+    },
+    /// Files cannot be written there.
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// Threads cannot be started.
+    Threads {
+        /// What the system says.
+        reason: String,
+    },
+    /// A file cannot be written although its folder could be.
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A time step failed.
+    Step {
+        /// The frame it would have led to.
+        frame: usize,
+        /// What the solver says.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// The exit status of a command that ends with it: 2 where the input is to blame and nothing has begun, 1 where
+    /// something failed on the way.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Threads { .. } | Self::Write { .. } | Self::Step { .. } => 1,
+            _ => 2,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownScene { name, known } => {
+                write!(f, "there is no scene `{name}`; choose one of {}", list(known))
+            }
+            Self::UnknownMaterial { name, known } => {
+                write!(
+                    f,
+                    "there is no material `{name}`; choose one of {}. `piola materials` describes them",
+                    list(known)
+                )
+            }
+            Self::UnknownParameter { material, parameter, known } => {
+                write!(f, "{material} has no parameter `{parameter}`; it has {}", list(known))
+            }
+            Self::MissingParameters { material, missing } => write!(
+                f,
+                "{material} needs a value for {}; add {}",
+                list(missing),
+                missing.iter().map(|name| format!("--param {name}=…")).collect::<Vec<_>>().join(" ")
+            ),
+            Self::Inadmissible { material, reason } => write!(f, "{material}: {reason}"),
+            Self::OutOfRange { quantity, value, requirement } => {
+                write!(f, "{quantity} is {value}; it must be {requirement}")
+            }
+            Self::UnknownPin { pin, groups } if groups.is_empty() => {
+                write!(f, "`{pin}` is no box to pin, and the mesh has no groups; {}", crate::region::NoRegion)
+            }
+            Self::UnknownPin { pin, groups } => write!(
+                f,
+                "`{pin}` is neither a group of the mesh (it has {}) nor a box; {}",
+                list(groups),
+                crate::region::NoRegion
+            ),
+            Self::Pin { pin, reason } => {
+                write!(f, "the pin {pin} holds nothing: {reason}; choose a place with --pin")
+            }
+            Self::Setup { reason } => f.write_str(reason),
+            Self::Geometry { file, reason } => write!(f, "{file}: {reason}"),
+            Self::File { reason } => f.write_str(reason),
+            Self::Folder { path, reason } => {
+                write!(
+                    f,
+                    "cannot write to the folder {}: {reason}; name another one with --out",
+                    path.display()
+                )
+            }
+            Self::Threads { reason } => write!(f, "cannot start threads: {reason}"),
+            Self::Write { path, reason } => write!(f, "cannot write {}: {reason}", path.display()),
+            Self::Step { frame, reason } => {
+                write!(f, "the step to frame {frame} failed: {reason}; nothing was written")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+fn list(names: &[impl AsRef<str>]) -> String {
+    names.iter().map(|name| format!("`{}`", name.as_ref())).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,136 @@
+//! The geometry of a run: tetrahedra and the surface that is drawn in their place.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Display;
+use std::path::Path;
+
+use piola::mesh::io::{parse_msh, parse_surface_obj};
+use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj};
+
+use crate::error::Error;
+use crate::settings::Settings;
+
+/// How far a surface vertex may lie outside the tetrahedra, as a share of the diagonal of their bounding box.
+///
+/// Extrapolation magnifies the motion of a tetrahedron by the distance over the tetrahedron's size.
+pub const REACH: f64 = 0.02;
+
+/// Tetrahedra and the surface that is drawn in their place.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    /// The tetrahedra at rest.
+    pub mesh: TetMesh,
+    /// Triangles of the surface.
+    pub triangles: Vec<[u32; 3]>,
+    embedding: Embedding,
+}
+
+impl Geometry {
+    /// The body that the settings name: their files, or the scene's own.
+    ///
+    /// # Errors
+    /// [`Error::File`] where a file cannot be read or is malformed, [`Error::Geometry`] where what it says is no body
+    /// or the surface is not in it.
+    pub fn load(settings: &Settings) -> Result<Self, Error> {
+        let scene = settings.scene;
+        let Some(files) = &settings.files else {
+            let mesh = readable(parse_msh(scene.mesh.text, Path::new(scene.mesh.name)))?;
+            let surface = readable(parse_surface_obj(scene.surface.text, Path::new(scene.surface.name)))?;
+            return Self::new(mesh, scene.mesh.name, &surface, scene.surface.name);
+        };
+        let mesh = readable(read_msh(&files.mesh))?;
+        let mesh_name = files.mesh.display().to_string();
+        match &files.surface {
+            Some(file) => {
+                let surface = readable(read_surface_obj(file))?;
+                Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
+            }
+            None => {
+                usable(&mesh_name, mesh.rest_shapes())?;
+                let surface = boundary(&mesh);
+                Self::new(mesh, &mesh_name, &surface, &mesh_name)
+            }
+        }
+    }
+
+    fn new(mesh: TetMesh, mesh_name: &str, surface: &Surface, surface_name: &str) -> Result<Self, Error> {
+        usable(mesh_name, mesh.rest_shapes())?;
+        let diagonal = mesh.bounds().size().iter().map(|side| side * side).sum::<f64>().sqrt();
+        let embedding = usable(surface_name, Embedding::new(&mesh, surface, REACH * diagonal))?;
+        let triangles =
+            surface.triangles.iter().map(|triangle| triangle.map(|vertex| vertex as u32)).collect();
+        Ok(Self { mesh, triangles, embedding })
+    }
+
+    /// How many vertices the surface has.
+    #[must_use]
+    pub fn surface_vertices(&self) -> usize {
+        self.embedding.anchors().len()
+    }
+
+    /// Where the surface's vertices are when the nodes are at `positions`; in the precision of files and pictures.
+    #[must_use]
+    pub fn surface_at(&self, positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
+        let anchors = self.embedding.anchors().iter();
+        anchors.map(|anchor| anchor.position(positions).map(|x| x as f32)).collect()
+    }
+}
+
+/// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their nodes.
+fn boundary(mesh: &TetMesh) -> Surface {
+    let faces = || mesh.tets.iter().flat_map(|&[a, b, c, d]| [[a, c, b], [a, b, d], [a, d, c], [b, c, d]]);
+    let sorted = |mut face: [usize; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let (mut seen, mut shared) = (HashSet::new(), HashSet::new());
+    for face in faces().map(sorted) {
+        if !seen.insert(face) {
+            shared.insert(face);
+        }
+    }
+    let mut vertices = HashMap::new();
+    let mut surface = Surface::default();
+    for face in faces().filter(|&face| !shared.contains(&sorted(face))) {
+        let triangle = face.map(|node| {
+            *vertices.entry(node).or_insert_with(|| {
+                surface.positions.push(mesh.positions[node]);
+                surface.positions.len() - 1
+            })
+        });
+        surface.triangles.push(triangle);
+    }
+    surface
+}
+
+/// Errors of readers name file and line themselves.
+fn readable<T>(result: Result<T, impl Display>) -> Result<T, Error> {
+    result.map_err(|error| Error::File { reason: error.to_string() })
+}
+
+fn usable<T>(file: &str, result: Result<T, impl Display>) -> Result<T, Error> {
+    result.map_err(|error| Error::Geometry { file: file.into(), reason: error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_boundary_of_two_tetrahedra_is_closed_and_faces_outwards() {
+        let positions =
+            vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+        let surface = boundary(&TetMesh::new(positions, vec![[0, 1, 2, 3], [1, 4, 2, 3]]));
+        assert_eq!((surface.positions.len(), surface.triangles.len()), (5, 6));
+        // The divergence theorem gives the volume: 1/6 and 1/3.
+        let volume: f64 = surface
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|vertex| nalgebra::Vector3::from(surface.positions[vertex]));
+                a.dot(&b.cross(&c)) / 6.0
+            })
+            .sum();
+        assert!((volume - 0.5).abs() < 1e-15, "{volume}");
+    }
+}

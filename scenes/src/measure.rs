@@ -1,0 +1,90 @@
+//! How far a body is from rest.
+//!
+//! [Horn87] Horn, *Closed-form solution of absolute orientation using unit quaternions*, 1987.
+
+use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
+
+type Point = Vector3<f64>;
+
+/// The smallest det F of all tetrahedra: their volumes as shares of those at rest.
+#[must_use]
+pub fn min_det_f(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
+    let volume = |nodes: &[[f64; 3]], tet: &[usize; 4]| {
+        let [a, b, c, d] = tet.map(|node| Point::from(nodes[node]));
+        (b - a).cross(&(c - a)).dot(&(d - a))
+    };
+    tets.iter().map(|tet| volume(positions, tet) / volume(rest, tet)).fold(f64::INFINITY, f64::min)
+}
+
+/// The largest distance of a point from where it is at rest, m.
+#[must_use]
+pub fn max_distance(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> f64 {
+    rest.iter()
+        .zip(positions)
+        .map(|(&rest, &position)| (Point::from(position) - Point::from(rest)).norm())
+        .fold(0.0, f64::max)
+}
+
+/// The positions after the rotation and translation that bring them closest to rest, in the least-squares sense.
+///
+/// With centred rest points qᵢ and centred positions pᵢ, the rotation that maximises Σ qᵢ·R pᵢ is the unit quaternion
+/// that belongs to the largest eigenvalue of a symmetric 4 × 4 matrix [Horn87 §4A]. It is a proper rotation however
+/// flat or reflected the points are.
+#[must_use]
+pub fn aligned(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let centre = |points: &[[f64; 3]]| {
+        points.iter().map(|&point| Point::from(point)).sum::<Point>() / points.len().max(1) as f64
+    };
+    let (rest_centre, centre) = (centre(rest), centre(positions));
+    let mut m = Matrix3::zeros();
+    for (&q, &p) in rest.iter().zip(positions) {
+        m += (Point::from(p) - centre) * (Point::from(q) - rest_centre).transpose();
+    }
+    let axis = Vector3::new(m.m23 - m.m32, m.m31 - m.m13, m.m12 - m.m21);
+    let rest_block = m + m.transpose() - Matrix3::identity() * m.trace();
+    let mut n = Matrix4::zeros();
+    n.m11 = m.trace();
+    n.fixed_view_mut::<1, 3>(0, 1).copy_from(&axis.transpose());
+    n.fixed_view_mut::<3, 1>(1, 0).copy_from(&axis);
+    n.fixed_view_mut::<3, 3>(1, 1).copy_from(&rest_block);
+    let eigen = n.symmetric_eigen();
+    let q = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
+    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+    positions.iter().map(|&p| (rotation * (Point::from(p) - centre) + rest_centre).into()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 3]; 5] =
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [1.0, 1.0, 1.0]];
+    /// A few dozen roundings of numbers of order 3.
+    const TOLERANCE: f64 = 1e-14;
+
+    #[test]
+    fn a_rigid_motion_is_no_distance() {
+        let turn = UnitQuaternion::from_euler_angles(2.0, -0.7, 1.1);
+        let moved = POINTS.map(|p| (turn * Point::from(p) + Point::new(5.0, -1.0, 2.0)).into());
+        assert!(max_distance(&POINTS, &moved) > 1.0);
+        let distance = max_distance(&POINTS, &aligned(&POINTS, &moved));
+        assert!(distance < TOLERANCE, "{distance:e}");
+    }
+
+    #[test]
+    fn a_reflection_is_not_undone() {
+        let reflected = POINTS.map(|[x, y, z]| [x, y, -z]);
+        assert!(max_distance(&POINTS, &aligned(&POINTS, &reflected)) > 0.3);
+        assert_eq!(min_det_f(&POINTS, &reflected, &[[0, 1, 2, 3]]), -1.0);
+    }
+
+    #[test]
+    fn a_bent_body_keeps_its_distance() {
+        let mut bent = POINTS;
+        bent[4][1] += 0.5;
+        let distance = max_distance(&POINTS, &aligned(&POINTS, &bent));
+        // At least half of the shift remains whatever the rotation: the other points hold it back.
+        assert!((0.2..0.5).contains(&distance), "{distance}");
+        assert_eq!(max_distance(&POINTS, &bent), 0.5);
+    }
+}

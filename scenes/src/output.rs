@@ -1,0 +1,23 @@
+//! What a run leaves behind in its folder: surfaces, a picture, a summary. All or nothing.
+//!
+//! This module knows files only: no bodies, no scenes.
+
+mod folder;
+mod ply;
+mod summary;
+
+pub use folder::Folder;
+pub use ply::write_ply;
+pub use summary::{Newton, Summary};
+
+/// The file of a frame's surface.
+#[must_use]
+pub fn frame_file(frame: usize) -> String {
+    format!("frame_{frame:04}.ply")
+}
+
+/// The contact sheet.
+pub const PICTURE_FILE: &str = "frames.png";
+
+/// The summary.
+pub const SUMMARY_FILE: &str = "summary.json";

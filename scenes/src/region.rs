@@ -1,0 +1,84 @@
+//! Boxes that say which part of a body is meant: in metres, or as shares of the body's own box.
+
+use std::fmt;
+
+use piola::mesh::Bounds;
+
+/// All of space, in metres as in shares.
+pub const EVERYWHERE: Bounds = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] };
+
+/// The box that lies in `whole` as `shares` says: 0 is the low side of `whole`, 1 the high one.
+#[must_use]
+pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
+    let size = whole.size();
+    let place = |share: f64, i: usize| {
+        // An infinite share of a flat box would not be a number.
+        if share.is_finite() { whole.min[i] + share * size[i] } else { share }
+    };
+    Bounds {
+        min: std::array::from_fn(|i| place(shares.min[i], i)),
+        max: std::array::from_fn(|i| place(shares.max[i], i)),
+    }
+}
+
+/// Reads a box in metres, `LOW:HIGH,LOW:HIGH,LOW:HIGH`, where a side that is left out lies at infinity.
+///
+/// # Errors
+/// Where the text is something else, or a range is empty.
+pub fn parse(text: &str) -> Result<Bounds, NoRegion> {
+    let mut region = EVERYWHERE;
+    let mut ranges = text.split(',');
+    for i in 0..3 {
+        let (low, high) = ranges.next().and_then(|range| range.split_once(':')).ok_or(NoRegion)?;
+        for (side, text) in [(&mut region.min[i], low.trim()), (&mut region.max[i], high.trim())] {
+            if !text.is_empty() {
+                *side = text.parse().map_err(|_| NoRegion)?;
+            }
+        }
+    }
+    let is_box = (0..3).all(|i| region.min[i] <= region.max[i]);
+    if ranges.next().is_none() && is_box { Ok(region) } else { Err(NoRegion) }
+}
+
+/// A text that is no box; its `Display` says how one is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoRegion;
+
+impl fmt::Display for NoRegion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(
+            "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a range \
+             may be left out, such as `:,:0.05,:`",
+        )
+    }
+}
+
+impl std::error::Error for NoRegion {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_may_be_open_and_nonsense_is_refused() {
+        let open = f64::INFINITY;
+        assert_eq!(
+            parse(":, -1:0.05,.25:"),
+            Ok(Bounds { min: [-open, -1.0, 0.25], max: [open, 0.05, open] })
+        );
+        for text in ["", "1,2,3", ":,:", ":,:,:,:", "1:0,:,:", "nan:,:,:", "a:b,:,:"] {
+            assert_eq!(parse(text), Err(NoRegion), "{text}");
+        }
+    }
+
+    #[test]
+    fn shares_become_coordinates() {
+        // Flat along z, where only the open sides make sense.
+        let whole = Bounds { min: [0.0, 1.0, 2.0], max: [4.0, 3.0, 2.0] };
+        let feet =
+            Bounds { min: [0.5, f64::NEG_INFINITY, f64::NEG_INFINITY], max: [1.0, 0.25, f64::INFINITY] };
+        let expected =
+            Bounds { min: [2.0, f64::NEG_INFINITY, f64::NEG_INFINITY], max: [4.0, 1.5, f64::INFINITY] };
+        assert_eq!(within(whole, feet), expected);
+    }
+}

@@ -1,0 +1,48 @@
+//! A dinosaur pulled by its head.
+
+use piola::material::Moduli;
+use piola::mesh::Bounds;
+
+use super::{Asset, Pull, Scene, Start};
+use crate::energy::Energy;
+use crate::region::EVERYWHERE;
+use crate::render::Style;
+
+const HEAD: Bounds = Bounds { min: [0.8, 0.8, f64::NEG_INFINITY], ..EVERYWHERE };
+
+/// Its head is drawn aside by one and a half body heights and let go.
+pub const DINOSAUR: Scene = Scene {
+    name: "dinosaur",
+    about: "a dinosaur with pinned feet is pulled aside by its head, one and a half body heights far, and let go",
+    mesh: Asset { name: "dinosaur.msh", text: include_str!("../../assets/dinosaur.msh") },
+    surface: Asset { name: "dinosaur.obj", text: include_str!("../../assets/dinosaur.obj") },
+    energy: ogden,
+    density: 1000.0,
+    damping: 2.0,
+    dt: 1.0 / 30.0,
+    frames: 360,
+    pinned: Bounds { max: [f64::INFINITY, 0.08, f64::INFINITY], ..EVERYWHERE },
+    start: Start::Rest,
+    pulls: &[Pull { region: HEAD, by: [0.0, 0.0, 1.5], reached: 1.5, released: 2.0 }],
+    style: Style { colour: [0.20, 0.36, 0.13], azimuth: 320.0, elevation: 14.0 },
+};
+
+/// Its head is pushed through the body and out behind it, which turns elements inside out on the way.
+pub const DINOSAUR_WRENCHED: Scene = Scene {
+    name: "dinosaur-wrenched",
+    about: "the same dinosaur, its head driven down through its own body until elements are inside out, and let go",
+    pulls: &[Pull { region: HEAD, by: [-1.5, -0.5, 0.0], reached: 0.5, released: 1.0 }],
+    ..DINOSAUR
+};
+
+/// Ogden's three terms [Ogden 1972] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
+///
+/// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk response is that
+/// of the first Lamé parameter.
+fn ogden() -> Energy {
+    const EXPONENTS: [f64; 3] = [1.3, 5.0, -2.0];
+    const SHARES: [f64; 3] = [0.6, 0.2, 0.2];
+    let moduli = Moduli::from_young_poisson(1e6, 0.45);
+    let mu: [f64; 3] = std::array::from_fn(|p| 2.0 * SHARES[p] * moduli.mu / EXPONENTS[p]);
+    Energy::of("Ogden").with("mu", mu).with("alpha", EXPONENTS).with("kappa", [moduli.lambda])
+}

@@ -1,0 +1,89 @@
+//! The first frames of each scene leave a complete folder.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const KEYS: [&str; 15] = [
+    "scene",
+    "material",
+    "tets",
+    "nodes",
+    "surface_vertices",
+    "frames",
+    "dt",
+    "newton_iterations_mean",
+    "min_det_f",
+    "max_distance_from_rest",
+    "energy",
+    "ms_per_step_median",
+    "steps_per_second",
+    "newton",
+    "recovered",
+];
+
+fn piola(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+    command.current_dir(folder).args(arguments).output().expect("the command starts")
+}
+
+/// Runs a scene and returns its summary, having seen that everything is there and every number finite.
+#[track_caller]
+fn check(arguments: &[&str], scene: &str, frames: u64) -> Value {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let output = piola(folder.path(), arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "a progress bar where there is no terminal");
+    let out = folder.path().join("out").join(scene);
+    let text = fs::read_to_string(out.join("summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    let object = summary.as_object().expect("an object");
+    assert_eq!(object.len(), KEYS.len(), "{text}");
+    for key in KEYS {
+        // What is not finite would be null.
+        assert!(object.get(key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
+    }
+    assert_eq!(object["scene"], scene);
+    assert_eq!(object["frames"], frames);
+    let picture = fs::read(out.join("frames.png")).expect("a picture");
+    assert!(picture.starts_with(b"\x89PNG") && picture.len() > 20_000, "{} bytes", picture.len());
+    for frame in 0..=frames {
+        let surface = fs::read(out.join(format!("frame_{frame:04}.ply"))).expect("a surface");
+        assert!(surface.starts_with(b"ply\n"));
+    }
+    // Surfaces, picture and summary, and nothing else.
+    assert_eq!(fs::read_dir(&out).expect("a folder").count() as u64, frames + 1 + 2);
+    summary
+}
+
+#[test]
+fn horse_collapses() {
+    let summary = check(&["run", "horse", "--frames", "3"], "horse", 3);
+    assert_eq!((&summary["tets"], &summary["nodes"]), (&2646.into(), &787.into()));
+    assert_eq!(summary["newton_iterations_mean"], 1.0);
+    assert_eq!(summary["newton"], "single");
+    assert_eq!(summary["recovered"], false);
+    assert!(summary["min_det_f"].as_f64().is_some_and(|det| det < 1e-12), "flattened: {summary}");
+}
+
+#[test]
+fn dinosaur_is_pulled() {
+    let summary = check(&["run", "dinosaur", "--frames", "3", "--newton", "full"], "dinosaur", 3);
+    assert_eq!((&summary["tets"], &summary["nodes"]), (&1031.into(), &347.into()));
+    assert_eq!(summary["newton"], "full");
+    assert!(summary["newton_iterations_mean"].as_f64().is_some_and(|mean| mean > 1.0), "{summary}");
+    assert!(summary["energy"].as_f64().is_some_and(|energy| energy > 0.0), "{summary}");
+}
+
+#[test]
+fn materials_are_described() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let output = piola(folder.path(), &["materials"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success());
+    for word in ["ψ = ", "domain", "small strain", "Ogden", "mu", "Pa"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+}
