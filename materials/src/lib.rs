@@ -1,5 +1,24 @@
-//! A catalogue of isotropic hyperelastic energies, each declared once with `#[piola::material]`.
+//! A catalogue of isotropic hyperelastic energies, each declared once with
+//! [`#[piola::material]`](macro@piola::material), one file each: citation, formula, domain, deviation from the source.
+//!
+//! Each energy is a type with a checked constructor; all of them can also be chosen by name at run time, from
+//! [`CATALOGUE`].
+//!
+//! ```
+//! use piola::{Inversion, Material};
+//! use piola_materials::NeoHookean;
+//!
+//! # fn main() -> Result<(), piola::material::Inadmissible> {
+//! let rubber = NeoHookean::new(1e6, 5e6)?.with_inversion(Inversion::Extend { epsilon: 0.1 })?;
+//! assert_eq!(rubber.energy([1.0, 1.0, 1.0]), 0.0);
+//! assert!(rubber.energy([1.1, 1.0, -0.2]) > 0.0); // inverted, and defined
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The crate holds no derivative and no algorithm: those come from the macro and from `piola`.
 
+mod catalogue;
 mod fixed_corotated;
 mod neo_hookean;
 mod ogden;
@@ -7,6 +26,7 @@ mod rotated_linear;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 
+pub use catalogue::{CATALOGUE, Entry, Visitor, find};
 pub use fixed_corotated::FixedCorotated;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
