@@ -1,0 +1,166 @@
+//! Reference cases: P, dP/dF and its projection for hard deformation gradients, to 25 digits.
+//!
+//! The schema is described in `reference/SCHEMA.md`. A result X is judged by ‖X − X*‖ ≤ C u (‖X*‖ + sens), Frobenius
+//! norms, where sens = ‖∂X/∂F‖ ‖F‖ is what a relative change of F changes in X.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use piola::material::Description;
+use serde::Deserialize;
+
+/// A file of cases.
+#[derive(Debug, Deserialize)]
+struct File {
+    schema: String,
+    cases: Vec<Case>,
+}
+
+/// One deformation gradient for one material.
+#[derive(Debug, Deserialize)]
+pub struct Case {
+    /// `ref-0000` and so on.
+    pub id: String,
+    /// Name in the catalogue.
+    pub material: String,
+    params: BTreeMap<String, Value>,
+    /// Family of deformation gradients.
+    pub tag: String,
+    /// Entry (i, j) is `F[3 i + j]`.
+    #[serde(rename = "F")]
+    pub deformation: [f64; 9],
+    /// Every entry of F is an `f32`.
+    pub f32_exact: bool,
+    psi: String,
+    #[serde(rename = "P")]
+    stress: Vec<String>,
+    #[serde(rename = "dPdF")]
+    tangent: Vec<String>,
+    #[serde(rename = "dPdF_psd")]
+    projected: Vec<String>,
+    sens: Sensitivities,
+}
+
+#[derive(Debug, Deserialize)]
+struct Sensitivities {
+    psi: f64,
+    #[serde(rename = "P")]
+    stress: f64,
+    #[serde(rename = "dPdF")]
+    tangent: f64,
+    psd: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum Value {
+    Number(f64),
+    List(Vec<f64>),
+}
+
+/// What is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// ψ.
+    Energy,
+    /// P.
+    Stress,
+    /// dP/dF.
+    Tangent,
+    /// The nearest semidefinite matrix to dP/dF.
+    Projected,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Energy, Self::Stress, Self::Tangent, Self::Projected];
+}
+
+impl Case {
+    /// Reads a file of cases.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or does not follow the schema; says which and why.
+    pub fn read(path: &Path) -> Result<Vec<Self>, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let file: File =
+            serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))?;
+        if file.schema != "isohyper-oracle-1" {
+            return Err(format!("{}: unknown schema `{}`", path.display(), file.schema));
+        }
+        for case in &file.cases {
+            for quantity in Quantity::ALL {
+                let length = match quantity {
+                    Quantity::Energy => 1,
+                    Quantity::Stress => 9,
+                    Quantity::Tangent | Quantity::Projected => 81,
+                };
+                match case.expected(quantity) {
+                    Some(values) if values.len() == length => {}
+                    _ => {
+                        return Err(format!(
+                            "{}: {}: {quantity:?} is not {length} numbers",
+                            path.display(),
+                            case.id
+                        ));
+                    }
+                }
+            }
+        }
+        Ok(file.cases)
+    }
+
+    /// The parameters in the order of a description.
+    ///
+    /// # Errors
+    /// Where one is missing.
+    pub fn values(&self, description: &Description) -> Result<Vec<Vec<f64>>, String> {
+        let value = |name: &str| match self.params.get(name) {
+            Some(Value::Number(value)) => Ok(vec![*value]),
+            Some(Value::List(values)) => Ok(values.clone()),
+            None => Err(format!("{}: no value for `{name}`", self.id)),
+        };
+        description.parameters.iter().map(|parameter| value(parameter.name)).collect()
+    }
+
+    fn expected(&self, quantity: Quantity) -> Option<Vec<f64>> {
+        let texts = match quantity {
+            Quantity::Energy => std::slice::from_ref(&self.psi),
+            Quantity::Stress => &self.stress,
+            Quantity::Tangent => &self.tangent,
+            Quantity::Projected => &self.projected,
+        };
+        texts.iter().map(|text| text.parse().ok()).collect()
+    }
+
+    /// ‖X − X*‖ in units of u (‖X*‖ + sens); infinite for NaN. Rounding the reference to `f64` costs half a unit.
+    #[must_use]
+    pub fn error(&self, quantity: Quantity, values: &[f64], unit_roundoff: f64) -> f64 {
+        let expected = self.expected(quantity).unwrap_or_default();
+        let sensitivity = match quantity {
+            Quantity::Energy => self.sens.psi,
+            Quantity::Stress => self.sens.stress,
+            Quantity::Tangent => self.sens.tangent,
+            Quantity::Projected => self.sens.psd,
+        };
+        // Scaled by the largest entry, so that squares neither overflow nor vanish.
+        let norm = |entries: &mut dyn Iterator<Item = f64>| {
+            let entries: Vec<f64> = entries.collect();
+            let largest =
+                entries.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b.abs()) });
+            if largest == 0.0 || !largest.is_finite() {
+                return largest;
+            }
+            largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
+        };
+        let distance = norm(&mut values.iter().zip(&expected).map(|(x, y)| x - y));
+        let scale = norm(&mut expected.iter().copied()) + sensitivity;
+        if values.len() != expected.len() || !distance.is_finite() {
+            f64::INFINITY
+        } else if distance == 0.0 {
+            0.0
+        } else {
+            distance / (unit_roundoff * scale)
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives, quotients,
+//! schedule and emission at once, in `f64` and `f32`.
+
+use std::path::PathBuf;
+
+use piola::material::{Blocks, Declared, Inadmissible};
+use piola::{Inversion, Material, Real};
+use piola_codegen::expr::Id;
+use piola_codegen::interpret::{Point, Value, evaluate};
+use piola_codegen::model::{Model, Variant, model};
+use piola_codegen::parse::{Declaration, parse};
+use piola_materials::{CATALOGUE, Entry, Visitor};
+
+/// The declarations of the catalogue crate, by name of type.
+fn declarations() -> Vec<(Declaration, Model)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../materials/src");
+    let mut found = Vec::new();
+    for file in std::fs::read_dir(&folder).expect("the catalogue's sources") {
+        let source = std::fs::read_to_string(file.expect("a file").path()).expect("a source file");
+        for (arguments, item) in piola_codegen::declarations(&source).expect("Rust") {
+            let declaration = parse(arguments, item).expect("a declaration");
+            let model = model(&declaration).expect("an energy");
+            found.push((declaration, model));
+        }
+    }
+    found
+}
+
+#[test]
+fn the_catalogue_is_complete_and_sorted() {
+    let declared: Vec<_> =
+        declarations().into_iter().map(|(declaration, _)| declaration.name.to_string()).collect();
+    for name in &declared {
+        assert!(
+            CATALOGUE.iter().any(|entry| entry.description.name == name),
+            "{name} is not in the catalogue"
+        );
+    }
+    assert_eq!(declared.len(), CATALOGUE.len());
+    assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
+    for Entry { name, description } in CATALOGUE {
+        assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
+        for parameter in description.parameters {
+            assert!(!parameter.doc.is_empty(), "{name}: {} is documented", parameter.name);
+        }
+    }
+}
+
+#[test]
+fn compiled_materials_compute_what_they_declare() {
+    for (declaration, model) in declarations() {
+        let entry = CATALOGUE
+            .iter()
+            .find(|entry| declaration.name == entry.description.name)
+            .expect("in the catalogue");
+        let mut judged = 0;
+        for sample in &model.samples {
+            let values: Vec<&[f64]> = sample.parameters.iter().map(Vec::as_slice).collect();
+            let variants = [(Inversion::Refuse, Some(&model.plain)), (EXTEND, model.extended.as_ref())];
+            for (inversion, variant) in variants {
+                let Some(variant) = variant else { continue };
+                let judge = Judge { name: entry.name, model: &model, variant, sample };
+                match entry.visit(&values, inversion, judge) {
+                    Ok(()) => judged += 1,
+                    // Random parameters need not make a stable or restoring solid.
+                    Err(Inadmissible::UnstableRest { .. } | Inadmissible::DoesNotRestore { .. }) => {}
+                    Err(error) => panic!("{}: {error}", entry.name),
+                }
+            }
+        }
+        assert!(judged >= 3, "{}: only {judged} samples could be judged", entry.name);
+    }
+}
+
+const EPSILON: f64 = 0.5; // as in the samples
+const EXTEND: Inversion = Inversion::Extend { epsilon: EPSILON };
+
+struct Judge<'a> {
+    name: &'a str,
+    model: &'a Model,
+    variant: &'a Variant,
+    sample: &'a Point,
+}
+
+impl Visitor for Judge<'_> {
+    type Output = ();
+
+    fn visit<M: Declared + 'static>(self, material: M) {
+        let is_extended = self.variant.has_pole && self.model.positive;
+        let mut points = vec![ordered(self.sample.stretches)];
+        if is_extended {
+            points.extend([
+                [1.2, 0.7, -0.3],
+                [0.8, 0.3, 0.1],
+                [0.45, 0.3, -0.1],
+                [1.3, 0.7, 0.7],
+                [0.3, 0.3, 0.3],
+            ]);
+        }
+        for stretches in points {
+            let point = Point { stretches, ..self.sample.clone() };
+            self.check(&material, &point, |value: f64| value, 256.0);
+            self.check(&material, &point, |value: f32| f64::from(value), 256.0);
+        }
+        let moduli = material.moduli();
+        for (id, value) in self.model.moduli.into_iter().zip([moduli.mu, moduli.lambda]) {
+            let expected = evaluate(&self.model.graph, id, self.sample);
+            self.close("modulus", expected, value, 64.0 * f64::UNIT_ROUNDOFF, self.sample);
+        }
+    }
+}
+
+/// λ1 ≥ λ2 ≥ |λ3|, as a material may expect them.
+fn ordered(stretches: [f64; 3]) -> [f64; 3] {
+    let sign = stretches.iter().product::<f64>().signum();
+    let mut magnitudes = stretches.map(f64::abs);
+    magnitudes.sort_by(|a, b| b.total_cmp(a));
+    [magnitudes[0], magnitudes[1], sign * magnitudes[2]]
+}
+
+impl Judge<'_> {
+    /// Within `roundings` times u of the magnitudes that enter, exponents included: a count of operations, generously.
+    fn check<M: Material, R: Real>(&self, material: &M, point: &Point, widen: fn(R) -> f64, roundings: f64) {
+        let stretches = point.stretches.map(R::splat);
+        let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
+        let energy = [material.energy(stretches)];
+        let alone = material.gradient(stretches);
+        let groups: [(&str, &[Id], &[R]); 6] = [
+            ("ψ", &[self.variant.energy], &energy),
+            ("gradient alone", &self.variant.gradient, &alone),
+            ("gradient", &self.variant.gradient, &gradient),
+            ("Hessian", &self.variant.hessian, &hessian),
+            ("flip", &self.variant.flip, &flip),
+            ("twist", &self.variant.twist, &twist),
+        ];
+        for (what, ids, values) in groups {
+            for (&id, &value) in ids.iter().zip(values) {
+                let expected = evaluate(&self.model.graph, id, point);
+                // The interpreter's own quotients of close stretches are good to 1e-9 only.
+                let tolerance = (roundings * R::UNIT_ROUNDOFF).max(1e-9);
+                self.close(what, expected, widen(value), tolerance, point);
+            }
+        }
+    }
+
+    fn close(&self, what: &str, expected: Value, value: f64, tolerance: f64, point: &Point) {
+        let error = (value - expected.value).abs();
+        assert!(
+            error <= tolerance * expected.magnitude,
+            "{}: {what} is {value:e}, not {:e}, at {:?} with {:?}",
+            self.name,
+            expected.value,
+            point.stretches,
+            point.parameters
+        );
+    }
+}
+
+#[test]
+fn constructors_refuse_what_is_inadmissible() {
+    let message = |name: &str, values: &[&[f64]], inversion| {
+        let entry = piola_materials::find(name).expect("in the catalogue");
+        entry.moduli(values, inversion).err().map(|error| error.to_string()).unwrap_or_default()
+    };
+    let check =
+        |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");
+    let plain = Inversion::Refuse;
+    check(message("stvk", &[&[f64::NAN], &[1.0]], plain), "`mu` is NaN; it must be a finite number");
+    check(message("stvk", &[&[-1.0], &[1.0]], plain), "`mu > 0` must hold, but mu = -1");
+    check(message("stvk", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
+    check(message("stvk", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");
+    check(message("stvk", &[&[1.0], &[1.0, 2.0]], plain), "`lambda` must be one number");
+    check(message("stvk", &[&[1.0], &[1.0]], EXTEND), "StVenantKirchhoff has no extension");
+    check(
+        message("ogden", &[&[1.0, 1.0], &[2.0, 0.0], &[1.0]], plain),
+        "`alpha[p] != 0` must hold, but alpha[1] = 0",
+    );
+    check(message("ogden", &[&[1.0, 1.0], &[2.0], &[1.0]], plain), "`alpha` must have 2 entries");
+    check(
+        message("ogden", &[&[1.0; 7], &[2.0; 7], &[1.0]], plain),
+        "have 1, 2, 3, 4, 5, 6 entries by name, not 7",
+    );
+    check(
+        message("ogden", &[&[2.0, 1.0], &[2.0, -1.0], &[1.0]], EXTEND),
+        "`mu[p] * alpha[p] > 0` must hold, but mu[1] = 1, alpha[1] = -1",
+    );
+    let threshold = Inversion::Extend { epsilon: 1.5 };
+    check(message("neo_hookean_lnj", &[&[1.0], &[1.0]], threshold), "0 < epsilon < 1");
+}
