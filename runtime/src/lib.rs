@@ -12,6 +12,7 @@ pub mod material;
 pub mod mesh;
 pub mod point;
 pub mod quotient;
+mod random;
 pub mod step;
 pub mod system;
 

@@ -1,1 +1,121 @@
-//! Placeholder of the skeleton.
+//! One point: a deformation gradient F, and the energy density, stress and tangent there.
+//!
+//! F = U diag(λ) Vᵀ ([`svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames carry them
+//! back: P = U diag(ψi) Vᵀ ([`stress`]) and dP/dF as a block-diagonal map between the frames ([`tangent`], which derives it),
+//! made semidefinite on request ([`project`]). Everything is generic over the real type, and what cannot be computed is said
+//! in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//!
+//! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
+//! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a column for
+//! each entry of F.
+//!
+//! This module knows no particular material and no mesh.
+
+#![expect(non_snake_case, reason = "F, P, U, V as in the literature")]
+
+use crate::lanes::{Mask, Real};
+use crate::material::{Blocks, Material, Status};
+use crate::quotient::pole_floor;
+
+pub mod gradient;
+mod matrix;
+pub mod project;
+pub mod stress;
+pub mod svd;
+pub mod tangent;
+
+#[cfg(test)]
+mod tests;
+
+pub use gradient::{SvdGradient, svd_gradient};
+pub use project::{Filter, project};
+pub use stress::stress;
+pub use svd::{Svd, svd, svd_signed_by_determinant};
+pub use tangent::{Tangent, contract};
+
+/// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
+pub type Matrix3<R> = [[R; 3]; 3];
+
+/// From nalgebra's matrix, which is stored by columns.
+#[must_use]
+pub fn from_nalgebra<R: Real + nalgebra::Scalar>(matrix: &nalgebra::Matrix3<R>) -> Matrix3<R> {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+}
+
+/// To nalgebra's matrix, which is stored by columns.
+#[must_use]
+pub fn to_nalgebra<R: Real + nalgebra::Scalar>(matrix: &Matrix3<R>) -> nalgebra::Matrix3<R> {
+    nalgebra::Matrix3::from_fn(|i, j| matrix[i][j])
+}
+
+/// Stress and tangent at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point<R: Real> {
+    /// First Piola stress P, Pa.
+    pub stress: Matrix3<R>,
+    /// dP/dF, filtered as asked, Pa.
+    pub tangent: Tangent<R>,
+    /// Whether the filter met a negative eigenvalue.
+    pub filtered: R::Mask,
+    /// Whether the numbers mean anything.
+    pub status: Status<R::Mask>,
+}
+
+/// The energy density ψ(F), Pa, and its status. Computes no derivative.
+#[inline(always)]
+pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R, Status<R::Mask>) {
+    let svd = decompose(material, F);
+    let energy = material.energy(svd.stretches);
+    let refused = !material.admits(svd.stretches);
+    let nonfinite = !(finite(svd.stretches) & energy.is_finite());
+    (energy, Status { refused, bounded: R::Mask::splat(false), nonfinite })
+}
+
+/// The first Piola stress P(F), Pa, and its status. Computes no second derivative.
+#[inline(always)]
+pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
+    let svd = decompose(material, F);
+    let gradient = material.gradient(svd.stretches);
+    let refused = !material.admits(svd.stretches);
+    let nonfinite = !(finite(svd.stretches) & finite(gradient));
+    (stress(&svd, gradient), Status { refused, bounded: R::Mask::splat(false), nonfinite })
+}
+
+/// Stress and tangent at F, the tangent filtered.
+///
+/// Outside the domain of the energy the status says `refused` and the numbers mean nothing.
+#[inline(always)]
+pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
+    let svd = decompose(material, F);
+    let blocks = material.blocks(svd.stretches);
+    let refused = !material.admits(svd.stretches);
+    let nonfinite = !(finite(svd.stretches) & blocks_are_finite(&blocks));
+    let bounded = if material.has_pole() {
+        (svd.stretches[1] + svd.stretches[2]).less(pole_floor(svd.stretches))
+    } else {
+        R::Mask::splat(false)
+    };
+    let (blocks, filtered) = project(&blocks, filter);
+    Point {
+        stress: stress(&svd, blocks.gradient),
+        tangent: Tangent { U: svd.U, V: svd.V, blocks },
+        filtered,
+        status: Status { refused, bounded, nonfinite },
+    }
+}
+
+/// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
+#[inline(always)]
+fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
+    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
+}
+
+#[inline(always)]
+fn finite<R: Real>(values: impl IntoIterator<Item = R>) -> R::Mask {
+    values.into_iter().fold(R::Mask::splat(true), |all, value| all & value.is_finite())
+}
+
+#[inline(always)]
+fn blocks_are_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
+    finite(blocks.gradient) & finite(blocks.hessian) & finite(blocks.flip) & finite(blocks.twist)
+}

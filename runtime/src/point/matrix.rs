@@ -1,0 +1,49 @@
+//! Products of 3×3 matrices over any real type, written out so that lanes keep them in registers.
+
+#![expect(non_snake_case, reason = "the letters of the formulas: A, B, U, V")]
+
+use super::Matrix3;
+use crate::lanes::Real;
+
+/// x·y.
+#[inline(always)]
+pub(crate) fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
+    x[0].mul_add(y[0], x[1].mul_add(y[1], x[2] * y[2]))
+}
+
+/// Column `j` of A.
+#[inline(always)]
+pub(crate) fn column<R: Real>(A: &Matrix3<R>, j: usize) -> [R; 3] {
+    [A[0][j], A[1][j], A[2][j]]
+}
+
+/// Aᵀ.
+#[inline(always)]
+pub(crate) fn transpose<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
+    [column(A, 0), column(A, 1), column(A, 2)]
+}
+
+/// A B.
+#[inline(always)]
+pub(crate) fn multiply<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
+    let Bt = transpose(B);
+    multiply_transposed(A, &Bt)
+}
+
+/// A Bᵀ.
+#[inline(always)]
+pub(crate) fn multiply_transposed<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
+    A.map(|row| B.map(|column| dot(row, column)))
+}
+
+/// U A Vᵀ: from the principal frames to the world.
+#[inline(always)]
+pub(crate) fn to_world<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
+    multiply_transposed(&multiply(U, A), V)
+}
+
+/// Uᵀ A V: from the world to the principal frames.
+#[inline(always)]
+pub(crate) fn to_principal<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
+    multiply(&multiply(&transpose(U), A), V)
+}

@@ -1,0 +1,331 @@
+//! The oracle is the definition: residuals of F − U diag(λ) Vᵀ, UᵀU − I, VᵀV − I in about 106 bits, sharing no code with
+//! the kernel, over families of matrices chosen to hurt one-sided Jacobi.
+
+use super::*;
+use crate::random::Random;
+
+/// Double-double numbers, only as much as residuals need [Dekker 1971].
+#[derive(Clone, Copy)]
+struct Twice(f64, f64);
+
+impl Twice {
+    fn add(self, other: Self) -> Self {
+        let sum = self.0 + other.0;
+        let part = sum - self.0;
+        let error = (self.0 - (sum - part)) + (other.0 - part) + self.1 + other.1;
+        let high = sum + error;
+        Self(high, error - (high - sum))
+    }
+
+    fn mul(self, other: Self) -> Self {
+        let product = self.0 * other.0;
+        let error = f64::mul_add(self.0, other.0, -product) + self.0 * other.1 + self.1 * other.0;
+        let high = product + error;
+        Self(high, error - (high - product))
+    }
+
+    fn sum(terms: impl IntoIterator<Item = Self>) -> Self {
+        terms.into_iter().fold(Self(0.0, 0.0), Self::add)
+    }
+}
+
+type Exact = [[f64; 3]; 3];
+
+/// A real type whose values are doubles, so that the oracle can read them.
+trait Narrow: Real + Into<f64> {}
+impl Narrow for f64 {}
+impl Narrow for f32 {}
+
+fn rounded<R: Narrow>(F: &Exact) -> Matrix3<R> {
+    F.map(|row| row.map(R::splat))
+}
+
+fn exact<R: Narrow>(F: &Matrix3<R>) -> Exact {
+    F.map(|row| row.map(Into::into))
+}
+
+fn frobenius(A: &Exact) -> f64 {
+    A.iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn product(A: &Exact, B: &Exact) -> Exact {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))
+}
+
+fn diagonal(d: [f64; 3]) -> Exact {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }))
+}
+
+/// The largest entry of UᵀU − I.
+fn orthogonality(U: &Exact) -> f64 {
+    let entry = |i: usize, j: usize| {
+        let terms = (0..3).map(|k| Twice(U[k][i], 0.0).mul(Twice(U[k][j], 0.0)));
+        Twice::sum(terms.chain([Twice(if i == j { -1.0 } else { 0.0 }, 0.0)])).0.abs()
+    };
+    (0..9).map(|k| entry(k / 3, k % 3)).fold(0.0, f64::max)
+}
+
+fn determinant_of_rotation(U: &Exact) -> f64 {
+    (0..3)
+        .map(|j| {
+            let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+            U[0][j] * (U[1][k] * U[2][l] - U[1][l] * U[2][k])
+        })
+        .sum()
+}
+
+/// ‖F − U diag(λ) Vᵀ‖ in the Frobenius norm; F is brought to a harmless magnitude first, which is exact.
+fn residual(F: &Exact, U: &Exact, stretches: [f64; 3], V: &Exact) -> f64 {
+    frobenius(&std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let terms =
+                (0..3).map(|k| Twice(-U[i][k], 0.0).mul(Twice(stretches[k], 0.0)).mul(Twice(V[j][k], 0.0)));
+            Twice::sum([Twice(F[i][j], 0.0)].into_iter().chain(terms)).0
+        })
+    }))
+}
+
+/// Worst errors over a family, in units of eps = 2u.
+#[derive(Debug, Default)]
+struct Worst {
+    backward: f64,
+    left: f64,
+    right: f64,
+}
+
+impl Worst {
+    #[track_caller]
+    fn see<R: Narrow>(&mut self, F: &Exact, decompose: impl Fn(&Matrix3<R>) -> Svd<R>) {
+        let F = rounded::<R>(F);
+        let svd = decompose(&F);
+        let (U, V) = (exact(&svd.U), exact(&svd.V));
+        let stretches: [f64; 3] = svd.stretches.map(Into::into);
+        let [s1, s2, s3] = stretches;
+        assert!(s1 >= s2 && s2 >= s3.abs(), "unordered {stretches:?} of {F:?}");
+        assert!((determinant_of_rotation(&U) - 1.0).abs() < 1e-4, "det U = −1 for {F:?}");
+        assert!((determinant_of_rotation(&V) - 1.0).abs() < 1e-4, "det V = −1 for {F:?}");
+        let eps = 2.0 * R::UNIT_ROUNDOFF;
+        self.left = self.left.max(orthogonality(&U) / eps);
+        self.right = self.right.max(orthogonality(&V) / eps);
+        if s1 > 0.0 {
+            let scale = 2f64.powi(-(s1.log2().floor().max(-1020.0) as i32));
+            let F = exact(&F).map(|row| row.map(|x| x * scale));
+            let error = residual(&F, &U, stretches.map(|s| s * scale), &V);
+            self.backward = self.backward.max(error / (s1 * scale) / eps);
+        } else {
+            assert_eq!(exact(&F), [[0.0; 3]; 3]);
+        }
+    }
+
+    /// The bound promised by the documentation: 20 u = 10 eps each.
+    #[track_caller]
+    fn check(&self) {
+        assert!(self.backward <= 10.0 && self.left <= 10.0 && self.right <= 10.0, "{self:.2?} eps");
+    }
+}
+
+/// Calls `f` for the matrices of all families, with exponents limited to what the type holds.
+fn families(count: usize, exponent: f64, mut f: impl FnMut(&str, &Exact)) {
+    let mut random = Random::new(1);
+    let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    for _ in 0..count {
+        let (Q, W) = (random.rotation(), random.rotation());
+        let Wt = transposed(&W);
+        let mut spectrum = |name: &str, d: [f64; 3]| f(name, &product(&Q, &product(&diagonal(d), &Wt)));
+        let e = 10f64.powf(random.uniform(-16.0, 0.0));
+        let a = random.uniform(0.1, 3.0);
+        spectrum("repeated", [a, a, a]);
+        spectrum("repeated", [2.0 * a, a, a]);
+        spectrum("repeated", [a, a, -0.3 * a]);
+        spectrum("near-repeated", [a, a * (1.0 + e), -a * (1.0 - e)]);
+        spectrum("needle", [1.0, e, e * a]);
+        spectrum("flat", [1.0, a, e]);
+        spectrum("graded", [1.0, e, e * e]);
+        spectrum("rank 2", [1.0, a, 0.0]);
+        spectrum("rank 1", [a, 0.0, 0.0]);
+        spectrum("reflection", [1.0, a, -1.0]);
+
+        let G = random.matrix();
+        f("random", &G);
+        f("reflected", &G.map(|row| row.map(|x| -x)));
+        f("near rest", &product(&Q, &perturbed(&diagonal([1.0; 3]), e, &G)));
+        f("near rest", &perturbed(&diagonal([1.0; 3]), e, &G));
+        f("graded columns", &product(&G, &diagonal([e, 1.0, e.sqrt()])));
+        f("graded rows", &product(&diagonal([e.sqrt(), e, 1.0]), &G));
+        f(
+            "graded both ways",
+            &product(&diagonal([1.0, e, e.sqrt()]), &product(&G, &diagonal([e, 1.0, 1.0]))),
+        );
+        let large = 10f64.powf(random.uniform(0.0, exponent));
+        f("large", &G.map(|row| row.map(|x| x * large)));
+        f("small", &G.map(|row| row.map(|x| x / large)));
+        // Every entry has its own magnitude.
+        let wild = G.map(|row| row.map(|x| x * 2f64.powi(random.uniform(-60.0, 1.0) as i32)));
+        f("wild", &wild);
+        let sparse =
+            G.map(|row| row.map(|x| if random.uniform(0.0, 1.0) < 0.5 { 0.0 } else { x * e.sqrt() + x }));
+        f("sparse", &sparse);
+        let columns = permutations[random.uniform(0.0, 6.0) as usize];
+        f("permuted diagonal", &diagonal([e, -1.0, a]).map(|row| columns.map(|j| row[j])));
+    }
+}
+
+fn transposed(A: &Exact) -> Exact {
+    std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
+}
+
+fn perturbed(A: &Exact, amount: f64, B: &Exact) -> Exact {
+    std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + amount * B[i][j]))
+}
+
+fn bounds_hold<R: Narrow>(exponent: f64, decompose: impl Fn(&Matrix3<R>) -> Svd<R>) {
+    let mut worst = std::collections::BTreeMap::<String, Worst>::new();
+    families(5_000, exponent, |name, F| worst.entry(name.into()).or_default().see(F, &decompose));
+    for (name, worst) in &worst {
+        let Worst { backward, left, right } = worst;
+        assert!(*backward <= 10.0 && *left <= 10.0 && *right <= 10.0, "{name}: {worst:.2?} eps");
+    }
+}
+
+#[test]
+fn bounds_hold_in_f64() {
+    bounds_hold::<f64>(300.0, svd);
+}
+
+#[test]
+fn bounds_hold_in_f32() {
+    bounds_hold::<f32>(30.0, svd);
+}
+
+#[test]
+fn bounds_hold_with_the_determinant() {
+    bounds_hold::<f64>(300.0, svd_signed_by_determinant);
+    bounds_hold::<f32>(30.0, svd_signed_by_determinant);
+}
+
+/// All 19683 matrices of −1, 0, 1: every rank, every tie of columns, every reflection.
+#[test]
+fn bounds_hold_for_small_integers() {
+    let (mut double, mut single) = (Worst::default(), Worst::default());
+    for code in 0..3usize.pow(9) {
+        let F: Exact = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (code / 3usize.pow(3 * i as u32 + j as u32) % 3) as f64 - 1.0)
+        });
+        double.see::<f64>(&F, svd);
+        single.see::<f32>(&F, svd);
+    }
+    double.check();
+    single.check();
+}
+
+/// Climbs towards worse backward errors from the worst of random starts.
+#[test]
+fn a_search_for_counterexamples_finds_none() {
+    fn climb<R: Narrow>(seed: u64) {
+        let mut random = Random::new(seed);
+        for start in 0..40 {
+            let mut F = random.matrix();
+            let magnitude = 2f64.powi(-(start % 20));
+            F = product(&F, &product(&diagonal([1.0, magnitude, magnitude * magnitude]), &random.rotation()));
+            let mut record = 0.0;
+            for step in 0..400usize {
+                let amount = 2f64.powi(-((step % 50) as i32));
+                let mut candidate = perturbed(&F, amount, &random.matrix());
+                if step % 3 == 0 {
+                    candidate = F;
+                    candidate[step % 9 / 3][step % 3] *= random.uniform(-2.0, 2.0);
+                }
+                let mut worst = Worst::default();
+                worst.see::<R>(&candidate, svd);
+                worst.check();
+                if worst.backward > record {
+                    (record, F) = (worst.backward, candidate);
+                }
+            }
+        }
+    }
+    climb::<f64>(2);
+    climb::<f32>(3);
+}
+
+#[track_caller]
+fn check_exact(F: Exact, stretches: [f64; 3]) {
+    let svd = svd::<f64>(&F);
+    assert_eq!(svd.stretches, stretches);
+    assert_eq!(residual(&F, &svd.U, svd.stretches, &svd.V), 0.0, "{svd:?}");
+}
+
+#[test]
+fn signed_permutations_and_diagonals_are_exact() {
+    check_exact(diagonal([1.0; 3]), [1.0; 3]);
+    check_exact(diagonal([-1.0; 3]), [1.0, 1.0, -1.0]);
+    check_exact(diagonal([0.25, -3.0, 1e-200]), [3.0, 0.25, -1e-200]);
+    check_exact([[0.0, 0.0, 3.0], [5.0, 0.0, 0.0], [0.0, 0.5, 0.0]], [5.0, 3.0, 0.5]);
+    check_exact([[0.0, 5.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 0.5]], [5.0, 3.0, -0.5]);
+    check_exact(diagonal([0.0, 2.0, 0.0]), [2.0, 0.0, 0.0]);
+}
+
+#[test]
+fn nothing_at_all_gives_identities() {
+    let zero = svd::<f64>(&[[0.0; 3]; 3]);
+    let identity = diagonal([1.0; 3]);
+    assert_eq!((zero.U, zero.stretches, zero.V), (identity, [0.0; 3], identity));
+}
+
+#[test]
+fn subnormal_matrices_keep_their_direction() {
+    let svd = svd::<f64>(&diagonal([f64::from_bits(3), f64::from_bits(1), 0.0]));
+    assert_eq!(svd.stretches, [f64::from_bits(3), f64::from_bits(1), 0.0]);
+}
+
+#[test]
+fn what_is_not_finite_gives_no_plausible_number() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for k in 0..9 {
+            let mut F = Random::new(4).matrix();
+            F[k / 3][k % 3] = bad;
+            assert!(svd::<f64>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
+            assert!(svd_signed_by_determinant::<f64>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
+            let F = rounded::<f32>(&F);
+            assert!(svd::<f32>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
+        }
+    }
+}
+
+/// Independent singular values, where nalgebra's are accurate: well-conditioned matrices.
+#[test]
+fn stretches_agree_with_nalgebra() {
+    let mut random = Random::new(5);
+    for _ in 0..2_000 {
+        let F = perturbed(&random.rotation(), 0.3, &random.matrix());
+        let peer = nalgebra::Matrix3::from_fn(|i, j| F[i][j]).singular_values();
+        let ours = svd::<f64>(&F).stretches;
+        for k in 0..3 {
+            // Condition numbers stay below 10 and theirs loses a few of these through FᵀF.
+            assert!((peer[k] - ours[k].abs()).abs() < 1e-13 * ours[0], "{peer} against {ours:?}");
+        }
+    }
+}
+
+/// Matrices whose determinant is known exactly and far below the u λ1³ that the plain kernel resolves.
+#[test]
+fn the_determinant_gives_tiny_stretches_with_sign_and_digits() {
+    let mut random = Random::new(6);
+    let mut plain_is_wrong = 0;
+    for _ in 0..2_000 {
+        // The third row is the sum of the others plus (0, 0, d), so that det F = d (a1 b2 − a2 b1); integers of 20 bits and
+        // a third column (1, −1, d) keep every entry exact.
+        let [a1, a2, b1, b2] = std::array::from_fn(|_| random.uniform(-1e6, 1e6).round());
+        let d = random.uniform(-1.0, 1.0) * 2f64.powi(-70);
+        let F = [[a1, a2, 1.0], [b1, b2, -1.0], [a1 + b1, a2 + b2, d]];
+        let expected = d * (a1 * b2 - a2 * b1);
+        let [s1, s2, s3] = svd_signed_by_determinant::<f64>(&F).stretches;
+        // d is far below the entries, so its products are rounded to u each before they cancel; λ1 λ2 λ3 undoes a
+        // quotient in three more roundings.
+        let scale = d.abs() * ((a1 * b2).abs() + (a2 * b1).abs());
+        let error = (s1 * s2 * s3 - expected).abs();
+        assert!(error <= 8.0 * f64::EPSILON * scale, "{:e} for {expected:e}", s1 * s2 * s3);
+        plain_is_wrong += usize::from((svd::<f64>(&F).stretches[2] > 0.0) != (expected > 0.0));
+    }
+    assert!(plain_is_wrong > 100, "the samples are too easy: the plain sign is wrong {plain_is_wrong} times");
+}

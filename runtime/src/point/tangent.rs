@@ -1,0 +1,238 @@
+//! The tangent dP/dF of a point as a block-diagonal map, and how the singular vectors drop out of its derivation.
+//!
+//! # From the singular value decomposition to fifteen numbers
+//!
+//! [SZLSB11] differentiates P through the derivatives of U, λ and V. Nine 2×2 systems per pair of stretches give those, and
+//! where two stretches meet the systems are singular. This derivation follows the same equations up to that point and
+//! then leaves out the systems: what they would be solved for cancels.
+//!
+//! With F̂ = Λ = diag(λ) and P̂ = diag(ψ1, ψ2, ψ3), where ψi = ∂ψ/∂λi,
+//!
+//! ```text
+//! F = U Λ Vᵀ,   P = U P̂ Vᵀ                                              (eq. 2, which prints V for Vᵀ)
+//! ```
+//!
+//! **Differentiate both** along any dF:
+//!
+//! ```text
+//! dF = dU Λ Vᵀ + U dΛ Vᵀ + U Λ dVᵀ                                      (eq. 4, which lacks the last U)
+//! dP = dU P̂ Vᵀ + U dP̂ Vᵀ + U P̂ dVᵀ                                      (eq. 3, whose last term is misprinted)
+//! ```
+//!
+//! **Look at them in the principal frames.** Write dF̂ = Uᵀ dF V for the increment seen from there (not the increment of
+//! F̂), likewise Uᵀ dP V, and Ω = Uᵀ dU, Θ = dVᵀ V. As U and V remain rotations, Ω and Θ are antisymmetric.
+//!
+//! ```text
+//! Uᵀ dF V = Ω Λ + dΛ + Λ Θ
+//! Uᵀ dP V = Ω P̂ + dP̂ + P̂ Θ
+//! ```
+//!
+//! **The diagonal.** Ω and Θ vanish there, so dλi = dF̂ii, and by the chain rule
+//!
+//! ```text
+//! (Uᵀ dP V)ii = Σj ψij dF̂jj                                             (eq. 5 prints ψii alone; the whole row is needed)
+//! ```
+//!
+//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two entries of the answer:
+//!
+//! ```text
+//! dF̂ij =  Ωij λj + λi Θij         (Uᵀ dP V)ij =  Ωij ψj + ψi Θij
+//! dF̂ji = −Ωij λi − λj Θij         (Uᵀ dP V)ji = −Ωij ψi − ψj Θij          (eq. 6, whose second right side is −u_il v_jk)
+//! ```
+//!
+//! The system on the left has the determinant λi² − λj²; solving it is where the paper regularises. Take sums and
+//! differences instead, and each line knows one unknown only:
+//!
+//! ```text
+//! dF̂ij + dF̂ji = (λj − λi)(Ωij − Θij)       (Uᵀ dP V)ij + (Uᵀ dP V)ji = (ψj − ψi)(Ωij − Θij)
+//! dF̂ij − dF̂ji = (λi + λj)(Ωij + Θij)       (Uᵀ dP V)ij − (Uᵀ dP V)ji = (ψi + ψj)(Ωij + Θij)
+//! ```
+//!
+//! so that the sum is multiplied by the *flip* D⁻ij = (ψi − ψj)/(λi − λj) and the difference by the *twist*
+//! D⁺ij = (ψi + ψj)/(λi + λj). Ω and Θ are gone, and with them every division: that both quotients are
+//! smooth functions of the stretches (the twist only for energies even in two stretches at once) is a matter of the energy,
+//! and its [`Material::blocks`](crate::Material::blocks) computes them without ever forming the gap. A pair of equal
+//! stretches, where U and V are arbitrary, is nothing special.
+//!
+//! **Together**, with a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2:
+//!
+//! ```text
+//! ⎡11⎤   ⎡ψ11 ψ12 ψ13⎤ ⎡11⎤         ⎡ij⎤   ⎡a b⎤ ⎡ij⎤
+//! ⎢22⎥ ← ⎢ψ12 ψ22 ψ23⎥ ⎢22⎥         ⎣ji⎦ ← ⎣b a⎦ ⎣ji⎦     for ij = 12, 13, 23
+//! ⎣33⎦   ⎣ψ13 ψ23 ψ33⎦ ⎣33⎦
+//! ```
+//!
+//! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs to (ij + ji)/√2, a
+//! change of shape, and equals 2μ at rest; D⁺ belongs to (ij − ji)/√2, an infinitesimal rotation, and is 0 at rest. The map
+//! has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of [`Blocks`]. Its eigenvalues are those of dP/dF, since
+//! dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so [`project`](super::project) works on it instead.
+//!
+//! # From fifteen numbers to matrices
+//!
+//! With αii = ψii, αij = a, βij = b, the entry of dP/dF between (row, column) of P and of F is a sum of products of two
+//! entries of U and two of V:
+//!
+//! ```text
+//! ∂Pax/∂Fcy = Σ_lm αlm (Ual Ucl)(Vxm Vym) + Σ_i<j  Uai Ucj (ψij Vxi Vyj + bij Vxj Vyi)
+//!                                                + Uaj Uci (ψij Vxj Vyi + bij Vxi Vyj)
+//! ```
+//!
+//! [`contract`] evaluates it with the products of V shared among all (a, c) and those of U among all (x, y). Nothing in it
+//! asks V to be orthogonal, nor to be about columns of F: with √volume·Dm⁻ᵀ-transformed rows in place of V it gives an
+//! element's stiffness, whose product of 9×12, 9×9 and 12×9 matrices is thereby never formed.
+//!
+//! This module knows no material and no mesh.
+//!
+//! [SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+
+#![expect(non_snake_case, reason = "U, V, W, dF, dP as in the essay above")]
+
+use super::Matrix3;
+use super::matrix::{to_principal, to_world};
+use crate::lanes::Real;
+use crate::material::{Blocks, PAIRS};
+
+/// dP/dF at a point, as the frames and the numbers it is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangent<R> {
+    /// Left rotation of F.
+    pub U: Matrix3<R>,
+    /// Right rotation of F.
+    pub V: Matrix3<R>,
+    /// The map between the principal frames, Pa.
+    pub blocks: Blocks<R>,
+}
+
+impl<R: Real> Tangent<R> {
+    /// The product dP = (dP/dF) dF: two changes of frame and 15 multiplications between them.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply(&self, dF: &Matrix3<R>) -> Matrix3<R> {
+        let Self { U, V, blocks } = self;
+        let increment = to_principal(U, dF, V);
+        to_world(U, &blocks.apply(&increment), V)
+    }
+
+    /// dP/dF as a 9×9 matrix, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F.
+    ///
+    /// Exactly symmetric: 45 entries are computed and the others copied.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_matrix(&self) -> [[R; 9]; 9] {
+        let mut dP_dF = [[R::splat(0.0); 9]; 9];
+        contract(&self.U, &self.V, &self.blocks, |a, c, block| {
+            for x in 0..3 {
+                for y in 0..3 {
+                    dP_dF[3 * a + x][3 * c + y] = block[x][y];
+                    dP_dF[3 * c + y][3 * a + x] = block[x][y];
+                }
+            }
+        });
+        dP_dF
+    }
+}
+
+impl<R: Real> Blocks<R> {
+    /// The map between the principal frames: dF̂ = Uᵀ dF V to Uᵀ dP V.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply(&self, increment: &Matrix3<R>) -> Matrix3<R> {
+        let [h11, h22, h33, h12, h13, h23] = self.hessian;
+        let [d1, d2, d3] = [increment[0][0], increment[1][1], increment[2][2]];
+        let mut answer = *increment;
+        answer[0][0] = h11.mul_add(d1, h12.mul_add(d2, h13 * d3));
+        answer[1][1] = h12.mul_add(d1, h22.mul_add(d2, h23 * d3));
+        answer[2][2] = h13.mul_add(d1, h23.mul_add(d2, h33 * d3));
+        for (pair, &(i, j)) in PAIRS.iter().enumerate() {
+            let (a, b) = self.straight_and_crossed(pair);
+            answer[i][j] = a.mul_add(increment[i][j], b * increment[j][i]);
+            answer[j][i] = a.mul_add(increment[j][i], b * increment[i][j]);
+        }
+        answer
+    }
+
+    /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 of a pair.
+    #[inline(always)]
+    fn straight_and_crossed(&self, pair: usize) -> (R, R) {
+        let half = R::splat(0.5);
+        let (flip, twist) = (half * self.flip[pair], half * self.twist[pair]);
+        (flip + twist, flip - twist)
+    }
+}
+
+/// The symmetric matrix K = (U ⊗ W) A (U ⊗ W)ᵀ of the [`Blocks`] A, handed out as 3×3 blocks.
+///
+/// `emit(a, c, block)` is called for the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c are
+/// coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K between (c, y) and
+/// (a, x) is the same number as between (a, x) and (c, y).
+///
+/// With W = V, K is dP/dF. With W[n] = √volume · Vᵀ∇N_n for the gradients of three shape functions over the rest shape, K is
+/// the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum. About 490
+/// multiplications and additions.
+#[inline(always)]
+pub fn contract<R: Real>(
+    U: &Matrix3<R>,
+    W: &Matrix3<R>,
+    blocks: &Blocks<R>,
+    mut emit: impl FnMut(usize, usize, &Matrix3<R>),
+) {
+    let zero = R::splat(0.0);
+
+    let mut alpha = [[zero; 3]; 3];
+    let mut beta = [zero; 3];
+    for k in 0..3 {
+        alpha[k][k] = blocks.hessian[k];
+    }
+    for (pair, &(i, j)) in PAIRS.iter().enumerate() {
+        let (a, b) = blocks.straight_and_crossed(pair);
+        alpha[i][j] = a;
+        alpha[j][i] = a;
+        beta[pair] = b;
+    }
+
+    // For x ≤ y: `straight[x][y][m]` = Wxm Wym. For all x, y: `crossed[x][y][pair]` = ψij Wxi Wyj + bij Wxj Wyi.
+    let mut straight = [[[zero; 3]; 3]; 3];
+    let mut crossed = [[[zero; 3]; 3]; 3];
+    for x in 0..3 {
+        for y in x..3 {
+            for m in 0..3 {
+                straight[x][y][m] = W[x][m] * W[y][m];
+            }
+            for (pair, &(i, j)) in PAIRS.iter().enumerate() {
+                let (h, b) = (blocks.hessian[3 + pair], beta[pair]);
+                let (direct, swapped) = (W[x][i] * W[y][j], W[x][j] * W[y][i]);
+                crossed[x][y][pair] = h.mul_add(direct, b * swapped);
+                crossed[y][x][pair] = h.mul_add(swapped, b * direct);
+            }
+        }
+    }
+
+    for a in 0..3 {
+        for c in a..3 {
+            let products: [R; 3] = std::array::from_fn(|l| U[a][l] * U[c][l]);
+            let weights: [R; 3] = std::array::from_fn(|m| {
+                products[0].mul_add(alpha[0][m], products[1].mul_add(alpha[1][m], products[2] * alpha[2][m]))
+            });
+            let direct = PAIRS.map(|(i, j)| U[a][i] * U[c][j]);
+            let swapped = PAIRS.map(|(i, j)| U[a][j] * U[c][i]);
+            let mut block = [[zero; 3]; 3];
+            for x in 0..3 {
+                for y in x..3 {
+                    let common = straight[x][y];
+                    let common =
+                        weights[0].mul_add(common[0], weights[1].mul_add(common[1], weights[2] * common[2]));
+                    let (mut upper, mut lower) = (common, common);
+                    for pair in 0..3 {
+                        let (here, there) = (crossed[x][y][pair], crossed[y][x][pair]);
+                        upper = direct[pair].mul_add(here, swapped[pair].mul_add(there, upper));
+                        lower = direct[pair].mul_add(there, swapped[pair].mul_add(here, lower));
+                    }
+                    block[x][y] = upper;
+                    // The same number where a = c; copying it makes the symmetry exact with or without fused operations.
+                    block[y][x] = if a == c { upper } else { lower };
+                }
+            }
+            emit(a, c, &block);
+        }
+    }
+}

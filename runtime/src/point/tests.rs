@@ -1,0 +1,341 @@
+//! Stress, tangent and filters against dense algebra, finite differences and a 9×9 eigensolver.
+//!
+//! The energies here are the only ones in the workspace with hand-written derivatives: the point must be testable without
+//! the code generator.
+
+use super::*;
+use crate::material::PAIRS;
+use crate::random::Random;
+
+mod differences;
+mod filters;
+
+const MU: f64 = 1.0;
+const LAMBDA: f64 = 1.5;
+
+/// μ ΣE² + λ/2 (ΣE)², E = (λ² − 1)/2: even in every pair, so that its twist is smooth everywhere.
+struct SaintVenantKirchhoff;
+
+impl Material for SaintVenantKirchhoff {
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        let [e1, e2, e3] = stretches.map(|l| (l * l - R::splat(1.0)) * R::splat(0.5));
+        let trace = e1 + e2 + e3;
+        R::splat(MU) * (e1 * e1 + e2 * e2 + e3 * e3) + R::splat(LAMBDA / 2.0) * trace * trace
+    }
+
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.blocks(stretches).gradient
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (mu, lambda) = (R::splat(MU), R::splat(LAMBDA));
+        let q = l.map(|l| l * l);
+        let volumetric = lambda * R::splat(0.5) * (q[0] + q[1] + q[2] - R::splat(3.0));
+        let diagonal = q.map(|q| R::splat(3.0 * MU + LAMBDA) * q + volumetric - mu);
+        let mixed = PAIRS.map(|(i, j)| lambda * l[i] * l[j]);
+        let even = |sign: f64| {
+            PAIRS.map(|(i, j)| mu * (q[i] + q[j] + R::splat(sign) * l[i] * l[j]) + volumetric - mu)
+        };
+        Blocks {
+            gradient: std::array::from_fn(|i| l[i] * (volumetric + mu * q[i] - mu)),
+            hessian: [diagonal[0], diagonal[1], diagonal[2], mixed[0], mixed[1], mixed[2]],
+            flip: even(1.0),
+            twist: even(-1.0),
+        }
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn has_pole(&self) -> bool {
+        false
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
+/// μ/2 (Σλ² − 3) − μ ln J + λ/2 (ln J)², J > 0.
+struct NeoHookean;
+
+impl Material for NeoHookean {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let log = (l[0] * l[1] * l[2]).ln();
+        let shear = R::splat(MU / 2.0) * (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] - R::splat(3.0));
+        shear + (R::splat(LAMBDA / 2.0) * log - R::splat(MU)) * log
+    }
+
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.blocks(stretches).gradient
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (mu, lambda, one) = (R::splat(MU), R::splat(LAMBDA), R::splat(1.0));
+        let c = lambda * (l[0] * l[1] * l[2]).ln() - mu;
+        let r = l.map(|l| one / l);
+        let diagonal = r.map(|r| mu + (lambda - c) * r * r);
+        let mixed = PAIRS.map(|(i, j)| lambda * r[i] * r[j]);
+        Blocks {
+            gradient: std::array::from_fn(|i| mu * l[i] + c * r[i]),
+            hessian: [diagonal[0], diagonal[1], diagonal[2], mixed[0], mixed[1], mixed[2]],
+            flip: PAIRS.map(|(i, j)| mu - c * r[i] * r[j]),
+            twist: PAIRS.map(|(i, j)| mu + c * r[i] * r[j]),
+        }
+    }
+
+    fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
+        R::splat(0.0).less(l[2])
+    }
+
+    fn has_pole(&self) -> bool {
+        false
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        true
+    }
+}
+
+/// μ Σ(λ − 1)² + λ/2 (Σλ − 3)²: not even, with a pole of the twist where two stretches are opposite.
+struct RotatedLinear;
+
+impl Material for RotatedLinear {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let [e1, e2, e3] = l.map(|l| l - R::splat(1.0));
+        let trace = e1 + e2 + e3;
+        R::splat(MU) * (e1 * e1 + e2 * e2 + e3 * e3) + R::splat(LAMBDA / 2.0) * trace * trace
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        let pressure = R::splat(LAMBDA) * (l[0] + l[1] + l[2] - R::splat(3.0));
+        l.map(|l| R::splat(2.0 * MU) * (l - R::splat(1.0)) + pressure)
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (diagonal, mixed) = (R::splat(2.0 * MU + LAMBDA), R::splat(LAMBDA));
+        let gradient = self.gradient(l);
+        let floor = pole_floor(l);
+        Blocks {
+            gradient,
+            hessian: [diagonal, diagonal, diagonal, mixed, mixed, mixed],
+            flip: [R::splat(2.0 * MU); 3],
+            twist: PAIRS.map(|(i, j)| (gradient[i] + gradient[j]) / (l[i] + l[j]).max(floor)),
+        }
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn has_pole(&self) -> bool {
+        true
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
+fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))
+}
+
+fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
+}
+
+/// A + s B.
+fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + s * B[i][j]))
+}
+
+fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
+    entries.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn with_stretches(random: &mut Random, l: [f64; 3]) -> Matrix3<f64> {
+    let (Q, W) = (random.rotation(), random.rotation());
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| Q[i][k] * l[k] * W[j][k]).sum()))
+}
+
+/// Deformations from harmless to equal and inverted stretches; only the first three are inside J > 0.
+const STRETCHES: [[f64; 3]; 7] = [
+    [1.7, 1.1, 0.6],
+    [1.3, 1.3, 0.8],
+    [1.0, 1.0, 1.0],
+    [1.2, 0.9, -0.5],
+    [1.1, 0.7, 0.0],
+    [0.5, 0.5, -0.2],
+    [2.0, 1e-9, -1e-10],
+];
+
+fn random_blocks(random: &mut Random) -> Blocks<f64> {
+    Blocks {
+        gradient: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+        hessian: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+        flip: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+        twist: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+    }
+}
+
+/// The 9×9 map between the principal frames, entry by entry from its definition.
+fn dense(blocks: &Blocks<f64>) -> [[f64; 9]; 9] {
+    let mut A = [[0.0; 9]; 9];
+    for k in 0..3 {
+        A[4 * k][4 * k] = blocks.hessian[k];
+    }
+    for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
+        A[4 * i][4 * j] = blocks.hessian[3 + pair];
+        A[4 * j][4 * i] = blocks.hessian[3 + pair];
+        let (ij, ji) = (3 * i + j, 3 * j + i);
+        // D⁻ on (1, 1)/√2 and D⁺ on (1, −1)/√2.
+        let (flip, twist) = (blocks.flip[pair], blocks.twist[pair]);
+        A[ij][ij] = flip / 2.0 + twist / 2.0;
+        A[ji][ji] = A[ij][ij];
+        A[ij][ji] = flip / 2.0 - twist / 2.0;
+        A[ji][ij] = A[ij][ji];
+    }
+    A
+}
+
+/// (U ⊗ W) A (U ⊗ W)ᵀ by four nested sums.
+fn in_the_world(U: &Matrix3<f64>, W: &Matrix3<f64>, A: &[[f64; 9]; 9]) -> [[f64; 9]; 9] {
+    let weight = |row: usize, r: usize| U[row / 3][r / 3] * W[row % 3][r % 3];
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            (0..81).map(|rc| weight(row, rc / 9) * A[rc / 9][rc % 9] * weight(column, rc % 9)).sum()
+        })
+    })
+}
+
+fn difference(A: &[[f64; 9]; 9], B: &[[f64; 9]; 9]) -> f64 {
+    norm(A.iter().flatten().zip(B.iter().flatten()).map(|(a, b)| a - b).collect::<Vec<_>>().iter())
+}
+
+#[test]
+fn the_contraction_equals_the_dense_product() {
+    let mut random = Random::new(11);
+    for _ in 0..200 {
+        // W need not be a rotation: an element's has any shape.
+        let (U, W, blocks) = (random.rotation(), random.matrix(), random_blocks(&mut random));
+        let expected = in_the_world(&U, &W, &dense(&blocks));
+        let mut K = [[0.0; 9]; 9];
+        contract(&U, &W, &blocks, |a, c, block| {
+            for x in 0..3 {
+                for y in 0..3 {
+                    K[3 * a + x][3 * c + y] = block[x][y];
+                    K[3 * c + y][3 * a + x] = block[x][y];
+                }
+            }
+        });
+        // Each entry is a sum of 81 products here and of 15 there, with terms of up to ‖W‖²‖A‖.
+        let error = difference(&K, &expected);
+        assert!(error < 100.0 * f64::EPSILON * norm(dense(&blocks).iter().flatten()), "{error:e}");
+    }
+}
+
+#[test]
+fn the_matrix_is_exactly_symmetric_and_agrees_with_the_product() {
+    let mut random = Random::new(12);
+    for _ in 0..200 {
+        let tangent =
+            Tangent { U: random.rotation(), V: random.rotation(), blocks: random_blocks(&mut random) };
+        let dP_dF = tangent.to_matrix();
+        for row in 0..9 {
+            for column in 0..9 {
+                assert_eq!(dP_dF[row][column].to_bits(), dP_dF[column][row].to_bits());
+            }
+        }
+        let dF = random.matrix();
+        let dP = tangent.apply(&dF);
+        for row in 0..9 {
+            let expected: f64 = (0..9).map(|column| dP_dF[row][column] * dF[column / 3][column % 3]).sum();
+            let error = (dP[row / 3][row % 3] - expected).abs();
+            // Two sandwiches with rotations and at most 15 terms of size ‖A‖‖dF‖ ≤ 5·3.
+            assert!(error < 50.0 * 15.0 * f64::EPSILON, "{error:e}");
+        }
+    }
+}
+
+#[test]
+fn single_precision_differs_by_its_rounding() {
+    let mut random = Random::new(13);
+    for stretches in STRETCHES {
+        let F = with_stretches(&mut random, stretches).map(|row| row.map(|x| x as f32));
+        let wide = evaluate(&SaintVenantKirchhoff, &F.map(|row| row.map(f64::from)), Filter::Clamp);
+        let narrow = evaluate(&SaintVenantKirchhoff, &F, Filter::Clamp);
+        let expected = wide.tangent.to_matrix();
+        let dP_dF = narrow.tangent.to_matrix().map(|row| row.map(f64::from));
+        // A polynomial of degree 2 in stretches up to 2, whose moduli are up to 5.5.
+        let scale = norm(expected.iter().flatten()) + 5.5 * 4.0;
+        let error = difference(&dP_dF, &expected);
+        assert!(error < 60.0 * f64::from(f32::EPSILON) * scale, "{error:e} at {stretches:?}");
+    }
+}
+
+#[test]
+fn rotating_space_or_rest_shape_rotates_stress_and_tangent() {
+    fn check(material: &impl Material, stretches: [f64; 3], random: &mut Random) {
+        let F = with_stretches(random, stretches);
+        let (Q, W) = (random.rotation(), random.rotation());
+        let rotated = product(&product(&Q, &F), &W);
+        let point = evaluate(material, &F, Filter::None);
+        let other = evaluate(material, &rotated, Filter::None);
+        let expected = product(&product(&Q, &point.stress), &W);
+        let error = norm(moved(&other.stress, -1.0, &expected).iter().flatten());
+        let dP_dF = point.tangent.to_matrix();
+        let scale = norm(dP_dF.iter().flatten());
+        // F is known to a few u after the rotations, and the stress then to ‖dP/dF‖ times that.
+        assert!(error < 100.0 * f64::EPSILON * scale, "stress {error:e} at {stretches:?}");
+        let dF = random.matrix();
+        let expected = product(&product(&Q, &point.tangent.apply(&dF)), &W);
+        let answer = other.tangent.apply(&product(&product(&Q, &dF), &W));
+        let error = norm(moved(&answer, -1.0, &expected).iter().flatten());
+        // These energies have second derivatives of F ↦ dP/dF of at most 50 ‖dP/dF‖ at these stretches.
+        assert!(error < 5000.0 * f64::EPSILON * scale, "tangent {error:e} at {stretches:?}");
+    }
+    let mut random = Random::new(14);
+    for stretches in STRETCHES {
+        check(&SaintVenantKirchhoff, stretches, &mut random);
+    }
+    for stretches in &STRETCHES[..3] {
+        check(&NeoHookean, *stretches, &mut random);
+    }
+    for stretches in &STRETCHES[..4] {
+        check(&RotatedLinear, *stretches, &mut random);
+    }
+}
+
+#[test]
+fn the_status_says_what_the_numbers_cannot() {
+    let at = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
+    let fine = Status::default();
+    let inverted = at([1.0, 1.0, -0.1]);
+    assert_eq!(evaluate(&SaintVenantKirchhoff, &inverted, Filter::None).status, fine);
+    assert_eq!(evaluate(&RotatedLinear, &inverted, Filter::None).status, fine);
+    assert!(evaluate(&NeoHookean, &inverted, Filter::None).status.refused);
+    assert!(evaluate_energy(&NeoHookean, &inverted).1.refused);
+    assert!(evaluate_stress(&NeoHookean, &inverted).1.refused);
+
+    let mirrored = evaluate(&RotatedLinear, &at([1.0, 1.0, -1.0]), Filter::None);
+    assert_eq!(mirrored.status, Status { bounded: true, ..fine });
+    assert!(mirrored.tangent.to_matrix().iter().flatten().all(|x| x.is_finite()));
+    let collapsed = evaluate(&RotatedLinear, &at([0.0; 3]), Filter::Clamp);
+    assert_eq!(collapsed.status, Status { bounded: true, ..fine });
+    assert!(collapsed.filtered && collapsed.tangent.blocks.twist == [0.0; 3]);
+
+    let broken = at([1.0, f64::NAN, 1.0]);
+    assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
+    assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).1.nonfinite);
+    assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).1.nonfinite);
+}
+
+#[test]
+fn nalgebra_stores_columns_and_we_store_rows() {
+    let rows = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    let matrix = to_nalgebra(&rows);
+    assert_eq!(matrix.as_slice(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
+    assert_eq!(from_nalgebra(&matrix), rows);
+}
