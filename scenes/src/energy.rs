@@ -119,7 +119,8 @@ pub struct Page<'a> {
 impl fmt::Display for Page<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, description } = self;
-        let Description { summary, formula, parameters, domain, extends, admissible, moduli, .. } = description;
+        let Description { summary, formula, parameters, domain, extends, admissible, moduli, .. } =
+            description;
         writeln!(f, "{name}\n  {summary}")?;
         writeln!(f, "  ψ = {formula}")?;
         for parameter in *parameters {

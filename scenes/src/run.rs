@@ -37,7 +37,8 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
 
     let part = Part { group: None, material: substance.elements, density: settings.density };
     let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
-    let mut simulation = Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
+    let mut simulation =
+        Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
     let start = start(settings.scene.start, mesh, &pins);
     simulation.set_positions(&start).map_err(|error| setup(&error))?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
@@ -199,10 +200,10 @@ impl<'a> Recording<'a> {
 
     fn frame(&mut self, number: usize, positions: &[[f64; 3]]) -> Result<(), Error> {
         let mesh = &self.geometry.mesh;
-        self.min_det_f =
-            self.min_det_f.min(measure::min_det_f(&mesh.positions, positions, &mesh.tets));
+        self.min_det_f = self.min_det_f.min(measure::min_det_f(&mesh.positions, positions, &mesh.tets));
         let vertices = self.geometry.surface_at(positions);
-        self.folder.write(&frame_file(number), |file| write_ply(file, &vertices, &self.geometry.triangles))?;
+        self.folder
+            .write(&frame_file(number), |file| write_ply(file, &vertices, &self.geometry.triangles))?;
         if self.chosen.contains(&number) {
             self.tiles.push(render::Frame { number, time: number as f64 * self.dt, vertices });
         }

@@ -133,10 +133,18 @@ impl Case {
         texts.iter().map(|text| text.parse().ok()).collect()
     }
 
-    /// ‖X − X*‖ in units of u (‖X*‖ + sens); infinite for NaN. Rounding the reference to `f64` costs half a unit.
+    /// The reference values, nearest `f64`.
     #[must_use]
-    pub fn error(&self, quantity: Quantity, values: &[f64], unit_roundoff: f64) -> f64 {
-        let expected = self.expected(quantity).unwrap_or_default();
+    pub fn reference(&self, quantity: Quantity) -> Vec<f64> {
+        self.expected(quantity).unwrap_or_default()
+    }
+
+    /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs half a unit.
+    ///
+    /// The noise is the size of terms that cancel by the energy's formula; zero for all but ψ near rest.
+    #[must_use]
+    pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
+        let expected = self.reference(quantity);
         let sensitivity = match quantity {
             Quantity::Energy => self.sens.psi,
             Quantity::Stress => self.sens.stress,
@@ -154,7 +162,7 @@ impl Case {
             largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
         };
         let distance = norm(&mut values.iter().zip(&expected).map(|(x, y)| x - y));
-        let scale = norm(&mut expected.iter().copied()) + sensitivity;
+        let scale = norm(&mut expected.iter().copied()) + sensitivity + noise;
         if values.len() != expected.len() || !distance.is_finite() {
             f64::INFINITY
         } else if distance == 0.0 {

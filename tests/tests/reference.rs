@@ -23,6 +23,11 @@ use piola_tests::cases::{Case, Quantity};
 const C: f64 = 30.0;
 
 fn main() -> ExitCode {
+    // `cargo test NAME` passes the name to every test target; this one is its own only test.
+    if std::env::args().skip(1).any(|argument| !argument.starts_with('-') && !"reference".contains(&argument))
+    {
+        return ExitCode::SUCCESS;
+    }
     let file = std::env::var_os("PIOLA_CASES").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/reference/cases.json")),
         PathBuf::from,
@@ -55,11 +60,8 @@ fn run(file: &std::path::Path) -> Result<usize, String> {
             .map_err(|error| format!("{}: {} {error}", case.id, case.material))?;
         for (precision, quantity, error) in judgements {
             let entry = worst.entry((entry.name, precision, quantity)).or_default();
-            if error > entry.error || entry.case.is_empty() {
+            if error >= entry.error {
                 *entry = Worst { error, case: format!("{} {}", case.id, case.tag) };
-            }
-            if quantity == Quantity::Energy {
-                continue;
             }
             if error <= C {
                 passed += 1;
@@ -72,7 +74,7 @@ fn run(file: &std::path::Path) -> Result<usize, String> {
         }
     }
     println!(
-        "Worst errors in units of u (‖X‖ + sens); P, dP/dF and its projection may reach {C}, ψ is not judged.\n"
+        "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + 2μ + λ); each may reach {C}.\n"
     );
     println!("{:20} {:4} {:10} {:>10}  case", "material", "", "quantity", "error");
     for ((material, precision, quantity), Worst { error, case }) in &worst {
@@ -123,7 +125,6 @@ impl Judge<'_> {
         let (energy, _) = point::evaluate_energy(material, &deformation);
         let plain = point::evaluate(material, &deformation, Filter::None);
         let clamped = point::evaluate(material, &deformation, Filter::Clamp);
-        let is_usable = !plain.status.refused && !plain.status.nonfinite;
         let flat = |rows: &[[R; 9]; 9]| rows.iter().flatten().map(|&x| widen(x)).collect::<Vec<_>>();
         let results = [
             (Quantity::Energy, vec![widen(energy)]),
@@ -131,9 +132,24 @@ impl Judge<'_> {
             (Quantity::Tangent, flat(&plain.tangent.to_matrix())),
             (Quantity::Projected, flat(&clamped.tangent.to_matrix())),
         ];
+        // What has no representation in this precision cannot be returned, but the status must say so, and only then.
+        let leaves_range =
+            |quantity| !self.0.reference(quantity).into_iter().all(|value| R::splat(value).is_finite());
+        let some_leave = Quantity::ALL.into_iter().any(leaves_range);
+        let is_wrongly_flagged = plain.status.refused || plain.status.nonfinite && !some_leave;
+        let moduli = material.moduli();
         let error = |(quantity, values): (Quantity, Vec<f64>)| {
-            let error = self.0.error(quantity, &values, R::UNIT_ROUNDOFF);
-            (precision, quantity, if is_usable { error } else { f64::INFINITY })
+            // At rest the terms of an energy are of the size of its moduli and cancel.
+            let noise =
+                if quantity == Quantity::Energy { 2.0 * moduli.mu + moduli.lambda.abs() } else { 0.0 };
+            let error = if is_wrongly_flagged {
+                f64::INFINITY
+            } else if leaves_range(quantity) {
+                if plain.status.nonfinite { 0.0 } else { f64::INFINITY }
+            } else {
+                self.0.error(quantity, &values, noise, R::UNIT_ROUNDOFF)
+            };
+            (precision, quantity, error)
         };
         results.map(error).to_vec()
     }
