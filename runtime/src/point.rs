@@ -106,7 +106,7 @@ pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filte
 
 /// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
 #[inline(always)]
-fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
+pub(crate) fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 

@@ -13,6 +13,8 @@ pub mod element;
 pub mod linear;
 pub mod pattern;
 pub mod pins;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub use element::{Element, ElementEnergy, ElementStiffness, Survey};
 pub use pins::{PinError, Pins};

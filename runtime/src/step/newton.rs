@@ -6,7 +6,8 @@ use std::fmt;
 
 use faer::sparse::SparseColMatRef;
 
-use crate::system::element::{Filter, Survey};
+use crate::point::Filter;
+use crate::system::element::Survey;
 use crate::system::linear::{Cholesky, LinearError};
 use crate::system::pattern::Pattern;
 

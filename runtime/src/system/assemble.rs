@@ -22,8 +22,9 @@
 use rayon::prelude::*;
 
 use super::Body;
-use super::element::{ElementStiffness, Filter, Survey, Svd, pair};
+use super::element::{ElementStiffness, Survey, pair};
 use super::pattern::Pattern;
+use crate::point::{Filter, Svd};
 
 /// Elements of a block, evaluated by one dynamic dispatch for each material in it: enough to pay for it, few enough for their data to stay in the cache.
 const BLOCK: usize = 64;
@@ -256,3 +257,6 @@ impl FromIterator<f64> for Compensated {
         total
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -32,9 +32,11 @@ impl Cholesky {
     /// # Errors
     /// Where the factor does not fit into memory.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, LinearError> {
+        // Without a permutation faer takes the pattern to be an upper triangle, whatever the side it is told.
+        let upper = pattern.transpose().to_col_major().map_err(|_| LinearError::OutOfMemory)?;
         let parameters = CholeskySymbolicParams::default();
         let symbolic =
-            factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Identity, parameters)
+            factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters)
                 .map_err(|_| LinearError::OutOfMemory)?;
         let scratch = symbolic
             .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())

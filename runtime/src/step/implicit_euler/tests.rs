@@ -1,0 +1,351 @@
+use super::*;
+use crate::mesh::{Bounds, TetMesh, read_msh};
+use crate::point::Filter;
+use crate::step::{Convergence, NewtonSettings};
+use crate::system::ElementEnergy;
+use crate::system::testing::{KIRCHHOFF, Noise, ROTATED, Refusing, RotatedLinear, beam};
+
+fn settings(newton: NewtonSettings) -> Settings {
+    Settings { newton, ..Settings::default() }
+}
+
+fn simulation(
+    mesh: &TetMesh,
+    material: impl ElementEnergy + 'static,
+    pins: &Pins,
+    settings: Settings,
+) -> Simulation {
+    Simulation::new(Body::new(mesh, material, 1000.0).expect("a body"), pins, settings).expect("a simulation")
+}
+
+fn left_end(mesh: &TetMesh) -> Pins {
+    Pins::in_box(mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end")
+}
+
+fn total(masses: &[f64], vectors: &[[f64; 3]]) -> [f64; 3] {
+    std::array::from_fn(|c| masses.iter().zip(vectors).map(|(m, v)| m * v[c]).sum())
+}
+
+#[test]
+fn a_free_body_falls_without_deforming() {
+    let mesh = beam(4);
+    let gravity = [1.0, -9.81, 0.5];
+    let damping = 0.7;
+    let dt = 0.02;
+    let mut free = simulation(
+        &mesh,
+        ROTATED,
+        &Pins::none(),
+        Settings { gravity, damping, ..settings(NewtonSettings::default()) },
+    );
+    let (mut v, mut fall) = ([0.0; 3], [0.0; 3]);
+    for _ in 0..10 {
+        let report = free.step(dt).expect("a fall");
+        assert_eq!(report.newton.step_lengths, [1.0], "one step, as the objective is quadratic along it");
+        for c in 0..3 {
+            // (v − vₙ)/h = g − α v
+            v[c] = (v[c] + dt * gravity[c]) / (1.0 + dt * damping);
+            fall[c] += dt * v[c];
+        }
+    }
+    for (x, rest) in free.positions().iter().zip(&mesh.positions) {
+        for c in 0..3 {
+            // A linear solve of condition 10⁴ per step.
+            assert!((x[c] - rest[c] - fall[c]).abs() <= 1e-10);
+        }
+    }
+}
+
+#[test]
+fn a_free_body_keeps_its_momentum() {
+    let mesh = beam(4);
+    let mut free = simulation(
+        &mesh,
+        KIRCHHOFF,
+        &Pins::none(),
+        settings(NewtonSettings { tolerance: 1e-10, ..Default::default() }),
+    );
+    let mut noise = Noise(3);
+    free.set_positions(&noise.shake(&mesh.positions, 0.02)).expect("finite");
+    free.set_velocities(&noise.shake(&vec![[0.0; 3]; mesh.positions.len()], 1.0)).expect("finite");
+    let before = total(free.body().masses(), free.velocities());
+    for _ in 0..5 {
+        free.step(0.01).expect("a step");
+    }
+    let after = total(free.body().masses(), free.velocities());
+    let mass: f64 = free.body().masses().iter().sum();
+    for c in 0..3 {
+        // Residuals fall to 10⁻¹⁰ of forces of about 10³ N, over five steps of 0.01 s.
+        assert!((after[c] - before[c]).abs() <= 1e-8 * mass, "{before:?} became {after:?}");
+    }
+}
+
+#[test]
+fn energy_never_grows_without_loads() {
+    let mesh = beam(5);
+    for newton in [NewtonSettings::single(), NewtonSettings::default()] {
+        let mut body = simulation(&mesh, ROTATED, &left_end(&mesh), settings(newton));
+        let mut start = Noise(4).shake(&mesh.positions, 0.15);
+        start[..4].copy_from_slice(&mesh.positions[..4]);
+        body.set_positions(&start).expect("finite");
+        let mut energy = body.energies().total();
+        for _ in 0..60 {
+            let report = body.step(0.02).expect("a step");
+            let next = report.energies.total();
+            // The minimised objective bounds the energy by that of the state before, up to the rounding of both.
+            assert!(next <= energy * (1.0 + 1e-12), "{energy} grew to {next}");
+            energy = next;
+        }
+    }
+}
+
+#[test]
+fn full_newton_converges_quadratically() {
+    let mesh = beam(6);
+    let gravity = [0.0, -9.81, 0.0];
+    let residual_after = |iterations: usize| {
+        let newton = NewtonSettings { filter: Filter::None, max_iterations: iterations, tolerance: 1e-15 };
+        let mut body =
+            simulation(&mesh, KIRCHHOFF, &left_end(&mesh), Settings { gravity, ..settings(newton) });
+        body.step(0.05).expect("a step").newton.residual
+    };
+    // The residual of a report is the one before its last iteration.
+    let residuals: Vec<f64> = (1..=5).map(residual_after).collect();
+    for pair in residuals.windows(2).skip(1) {
+        let ratio = pair[1] / (pair[0] * pair[0]);
+        let constant = residuals[2] / (residuals[1] * residuals[1]);
+        let floor = 1e-11 * residuals[0];
+        assert!(ratio <= 10.0 * constant || pair[1] <= floor, "residuals {residuals:?}");
+    }
+    assert!(residuals[4] <= 1e-8 * residuals[0], "residuals {residuals:?}");
+}
+
+#[test]
+fn a_report_says_why_newton_ended() {
+    let mesh = beam(3);
+    let gravity = [0.0, -9.81, 0.0];
+    let run = |newton: NewtonSettings| {
+        let mut body =
+            simulation(&mesh, KIRCHHOFF, &left_end(&mesh), Settings { gravity, ..settings(newton) });
+        body.step(0.05).expect("a step").newton
+    };
+    assert_eq!(run(NewtonSettings::default()).convergence, Convergence::Tolerance);
+    let single = run(NewtonSettings::single());
+    assert_eq!((single.convergence, single.iterations), (Convergence::Limit, 1));
+    let endless = run(NewtonSettings { tolerance: 0.0, ..NewtonSettings::default() });
+    assert_eq!(endless.convergence, Convergence::Rounding, "{endless:?}");
+    assert!(endless.residual <= 1e-9 * endless.first_residual, "{endless:?}");
+}
+
+#[test]
+fn a_body_at_rest_stays_at_rest() {
+    let mesh = beam(3);
+    let mut body = simulation(&mesh, ROTATED, &Pins::none(), settings(NewtonSettings::single()));
+    for _ in 0..3 {
+        body.step(0.1).expect("a step");
+    }
+    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+        for c in 0..3 {
+            assert!((x[c] - rest[c]).abs() <= 1e-14);
+        }
+    }
+}
+
+#[test]
+fn pins_hold_and_move_as_told() {
+    let mesh = beam(4);
+    let pins = left_end(&mesh);
+    for newton in [NewtonSettings::single(), NewtonSettings::default()] {
+        let mut body = simulation(&mesh, ROTATED, &pins, Settings { damping: 5.0, ..settings(newton) });
+        for step in 1..=40 {
+            let shift = 0.01 * step as f64;
+            for &node in pins.nodes() {
+                let rest = mesh.positions[node];
+                body.prescribe(node, [rest[0] + shift, rest[1], rest[2] - shift]).expect("pinned");
+            }
+            body.step(0.02).expect("a step");
+            for &node in pins.nodes() {
+                assert_eq!(body.positions()[node][0], mesh.positions[node][0] + shift);
+            }
+        }
+        for _ in 0..200 {
+            body.step(0.05).expect("a step");
+        }
+        for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+            // Damped for 10 s at 5/s, the beam has followed.
+            assert!(
+                (x[0] - rest[0] - 0.4).abs() + (x[2] - rest[2] + 0.4).abs() <= 1e-6,
+                "{x:?} from {rest:?}"
+            );
+        }
+    }
+}
+
+/// A rigid translation of the pins moves a body without inertia along in the first linear system already.
+#[test]
+fn moving_pins_enter_the_right_side() {
+    let mesh = beam(3);
+    let pins = left_end(&mesh);
+    let mut body = simulation(&mesh, ROTATED, &pins, settings(NewtonSettings::single()));
+    for &node in pins.nodes() {
+        let rest = mesh.positions[node];
+        body.prescribe(node, [rest[0] + 1.0, rest[1], rest[2]]).expect("pinned");
+    }
+    // In 10⁵ s inertia is 10⁻¹⁴ of the stiffness.
+    let report = body.step(1e5).expect("a step");
+    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+        assert!((x[0] - rest[0] - 1.0).abs() <= 1e-9, "{report:?}");
+    }
+}
+
+#[test]
+fn a_pull_stretches_until_forces_balance() {
+    let mesh = beam(2);
+    let mut body = simulation(
+        &mesh,
+        ROTATED,
+        &Pins::none(),
+        Settings { damping: 10.0, ..settings(NewtonSettings::default()) },
+    );
+    let element = body.body().elements()[3];
+    let anchor = crate::mesh::embed::Anchor { nodes: element.nodes, weights: [0.25; 4] };
+    let target = [0.3, 0.4, -0.2];
+    body.set_pulls(&[Pull { anchor, target, stiffness: 500.0 }]).expect("one element");
+    for _ in 0..400 {
+        body.step(0.05).expect("a step");
+    }
+    let point = anchor.position(body.positions());
+    for c in 0..3 {
+        assert!((point[c] - target[c]).abs() <= 1e-6, "{point:?}");
+    }
+    body.set_pulls(&[Pull::on_node(0, [0.0; 3], 1.0), Pull::on_node(11, [0.0; 3], 0.0)]).expect("nodes");
+    let far = crate::mesh::embed::Anchor { nodes: [0, 11, 0, 0], weights: [0.5, 0.5, 0.0, 0.0] };
+    let error = body.set_pulls(&[Pull { anchor: far, target, stiffness: 1.0 }]).expect_err("two ends");
+    assert_eq!(error, SetupError::PullAcrossElements { index: 0 });
+    assert_eq!(body.pulls().len(), 2, "the pulls before are still there");
+}
+
+#[test]
+fn a_collapsed_body_recovers_without_nan() {
+    let mesh = beam(4);
+    let pins = left_end(&mesh);
+    let flat = |x: &[f64; 3]| [0.0, x[1], x[2]];
+    let point = |_: &[f64; 3]| [0.0; 3];
+    let inside_out = |x: &[f64; 3]| [-x[0], x[1], x[2]];
+    let collapses: [&dyn Fn(&[f64; 3]) -> [f64; 3]; 3] = [&flat, &point, &inside_out];
+    for collapse in collapses {
+        let mut body = simulation(
+            &mesh,
+            ROTATED,
+            &pins,
+            Settings { damping: 2.0, ..settings(NewtonSettings::single()) },
+        );
+        let start =
+            mesh.positions.iter().enumerate().map(|(node, x)| if node < 4 { *x } else { collapse(x) });
+        body.set_positions(&start.collect::<Vec<_>>()).expect("finite");
+        for _ in 0..60 {
+            let report = body.step(1.0 / 30.0).expect("a step");
+            assert!(report.energies.total().is_finite() && report.min_det.is_finite());
+        }
+        assert!(body.positions().iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
+    let mesh = beam(3);
+    let pins = left_end(&mesh);
+    let soft = RotatedLinear { mu: 300.0, lambda: 0.0 };
+    let gravity = [-400.0, 0.0, 0.0];
+    let mut body =
+        simulation(&mesh, Refusing(soft), &pins, Settings { gravity, ..settings(NewtonSettings::single()) });
+    let mut refused = 0;
+    for _ in 0..20 {
+        let report = body.step(0.05).expect("a shorter step");
+        assert!(report.min_det > 0.0);
+        refused += report.newton.refused_trials;
+    }
+    assert!(refused > 0, "so much gravity would turn the elements inside out");
+
+    let before = (body.positions().to_vec(), body.velocities().to_vec());
+    for &node in pins.nodes() {
+        body.prescribe(node, [9.0, 0.0, 0.0]).expect("pinned");
+    }
+    let error = body.step(0.05).expect_err("pins far on the other side");
+    assert!(matches!(error, StepError::Newton(NewtonError::PinsMoveTooFar { .. })), "{error}");
+    assert_eq!(before, (body.positions().to_vec(), body.velocities().to_vec()));
+    for &node in pins.nodes() {
+        body.prescribe(node, mesh.positions[node]).expect("pinned");
+    }
+    body.step(0.05).expect("the state is as good as before");
+}
+
+#[test]
+fn an_indefinite_matrix_is_shifted_and_reported() {
+    let mesh = beam(3);
+    let newton = NewtonSettings { filter: Filter::None, max_iterations: 1, tolerance: 0.0 };
+    let mut body = simulation(&mesh, KIRCHHOFF, &left_end(&mesh), settings(newton));
+    let squeezed: Vec<_> = mesh.positions.iter().map(|x| [0.4 * x[0], x[1], x[2]]).collect();
+    body.set_positions(&squeezed).expect("finite");
+    let report = body.step(0.1).expect("a step with a shift");
+    assert!(report.newton.shift > 0.0);
+}
+
+#[test]
+fn nonsense_is_refused_with_a_reason() {
+    let mesh = beam(1);
+    let body = || Body::new(&mesh, ROTATED, 1000.0).expect("a body");
+    let message = |change: &dyn Fn(&mut Settings)| {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        Simulation::new(body(), &Pins::none(), settings).expect_err("nonsense").to_string()
+    };
+    assert_eq!(message(&|s| s.damping = -1.0), "damping must be finite and not negative");
+    assert_eq!(message(&|s| s.gravity[1] = f64::NAN), "gravity must be finite");
+    assert_eq!(message(&|s| s.newton.max_iterations = 0), "Newton's method needs at least one iteration");
+    assert_eq!(message(&|s| s.newton.tolerance = f64::NAN), "the tolerance must be at least 0 and below 1");
+    assert_eq!(message(&|s| s.line_search.shrink = 1.0), "the shrinking factor must be between 0 and 1");
+
+    let error = Simulation::new(body(), &Pins::at([8]), Settings::default()).expect_err("no such node");
+    assert_eq!(error.to_string(), "there is no node 8 (from 0) among 8");
+    let mut simulation = Simulation::new(body(), &Pins::at([1]), Settings::default()).expect("a simulation");
+    assert_eq!(simulation.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));
+    assert_eq!(simulation.set_positions(&[[0.0; 3]]), Err(SetupError::Length { expected: 8, found: 1 }));
+    assert_eq!(simulation.set_velocities(&[[f64::INFINITY; 3]; 8]), Err(SetupError::NotFinite { node: 0 }));
+    assert_eq!(simulation.set_pulls(&[Pull::on_node(0, [0.0; 3], -1.0)]), Err(SetupError::Pull { index: 0 }));
+    let error = simulation.step(0.0).expect_err("no time");
+    assert_eq!(error.to_string(), "the time step is 0 s; it must be a positive number");
+}
+
+#[test]
+fn a_body_with_every_node_pinned_moves_as_told() {
+    let mesh = beam(1);
+    let mut body = simulation(&mesh, ROTATED, &Pins::at(0..8), settings(NewtonSettings::default()));
+    body.prescribe(3, [0.2, 0.2, 0.2]).expect("pinned");
+    body.step(0.1).expect("nothing to solve");
+    assert_eq!(body.positions()[3], [0.2; 3]);
+    assert_eq!(body.positions()[4], mesh.positions[4]);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/assets/dinosaur.msh");
+    let mesh = read_msh(path).expect("a committed mesh");
+    let start = Noise(5).shake(&mesh.positions, 0.05);
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let mut body =
+                simulation(&mesh, ROTATED, &Pins::at([0, 1, 2]), settings(NewtonSettings::single()));
+            let mut positions = start.clone();
+            positions[..3].copy_from_slice(&mesh.positions[..3]);
+            body.set_positions(&positions).expect("finite");
+            let reports: Vec<_> = (0..5).map(|_| body.step(1.0 / 30.0).expect("a step")).collect();
+            (body.positions().to_vec(), reports)
+        })
+    };
+    let (one, two) = (run(1), run(2));
+    // Equal floating-point numbers are equal bits but for the sign of zero, which cannot pass on.
+    assert_eq!(one, two);
+    assert_eq!(one, run(3));
+}

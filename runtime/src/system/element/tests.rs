@@ -1,0 +1,184 @@
+use super::*;
+use crate::point::svd;
+use crate::system::Body;
+use crate::system::testing::{KIRCHHOFF, Noise, ROTATED, beam};
+
+const IDENTITY: Svd<f64> = {
+    let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Svd { U: one, stretches: [1.0; 3], V: one }
+};
+
+/// A tetrahedron of a beam with its nodes moved at random.
+fn sample(seed: u64, amplitude: f64) -> (Element, Vec<[f64; 3]>) {
+    let mesh = beam(2);
+    let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
+    let element = body.elements()[(seed % 12) as usize];
+    (element, Noise(seed).shake(&mesh.positions, amplitude))
+}
+
+fn energy(material: &dyn ElementEnergy, element: &Element, positions: &[[f64; 3]]) -> f64 {
+    let (mut points, mut energies) = ([IDENTITY], [0.0]);
+    material.evaluate(&[*element], positions, &mut points, &mut energies);
+    energies[0]
+}
+
+fn derivatives(
+    material: &dyn ElementEnergy,
+    element: &Element,
+    positions: &[[f64; 3]],
+    filter: Filter,
+) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
+    let (mut points, mut energies) = ([IDENTITY], [0.0]);
+    let (mut gradients, mut stiffnesses) = ([[[0.0; 3]; 4]], [ElementStiffness::ZERO]);
+    material.evaluate(&[*element], positions, &mut points, &mut energies);
+    let survey = material.stiffnesses(&[*element], &points, filter, &mut gradients, &mut stiffnesses);
+    let with_stiffness = gradients;
+    material.gradients(&[*element], &points, &mut gradients);
+    assert_eq!(gradients, with_stiffness, "the gradient is the same with and without a stiffness");
+    (gradients[0], stiffnesses[0].to_matrix(), survey)
+}
+
+fn moved(element: &Element, positions: &[[f64; 3]], unknown: usize, by: f64) -> Vec<[f64; 3]> {
+    let mut positions = positions.to_vec();
+    positions[element.nodes[unknown / 3]][unknown % 3] += by;
+    positions
+}
+
+/// The error of a central difference falls by 4 when the step is halved: a slope, not a closeness.
+#[track_caller]
+fn check_slope(exact: f64, scale: f64, difference: impl Fn(f64) -> f64) {
+    // The elements are 0.1 m wide, so that these are relative steps of 10⁻² and less.
+    let error = |h: f64| (difference(h) - exact).abs();
+    let (coarse, fine) = (error(1e-3), error(2.5e-4));
+    // Rounding of the difference, of terms that are at most `scale`·h large: u·scale·h/h², with room.
+    let rounding = 1e-9 * scale;
+    assert!(
+        fine <= coarse / 12.0 + rounding,
+        "error {coarse:e} at 1e-3, {fine:e} at 2.5e-4, exact {exact:e}"
+    );
+}
+
+#[test]
+fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients() {
+    for seed in 0..12 {
+        // Twice the size of an element: more than half of these are inverted.
+        let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.2 });
+        for material in [&KIRCHHOFF as &dyn ElementEnergy, &ROTATED] {
+            let (gradient, stiffness, _) = derivatives(material, &element, &positions, Filter::None);
+            let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
+            for unknown in 0..12 {
+                let at = |by: f64| moved(&element, &positions, unknown, by);
+                check_slope(gradient[unknown / 3][unknown % 3], scale, |h| {
+                    (energy(material, &element, &at(h)) - energy(material, &element, &at(-h))) / (2.0 * h)
+                });
+                for row in 0..12 {
+                    let entry =
+                        |by: f64| derivatives(material, &element, &at(by), Filter::None).0[row / 3][row % 3];
+                    // Third derivatives of rotated linear elasticity grow without bound towards its pole.
+                    if (positions_are_tame)(&element, &positions) {
+                        check_slope(stiffness[row][unknown], scale, |h| (entry(h) - entry(-h)) / (2.0 * h));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Whether λ2 + λ3 is so large that steps of a hundredth do not reach the pole.
+fn positions_are_tame(element: &Element, positions: &[[f64; 3]]) -> bool {
+    let [_, second, third] = svd(&element.deformation_gradient(positions)).stretches;
+    second + third > 0.3
+}
+
+#[test]
+fn stiffnesses_are_exactly_symmetric_and_know_no_translation() {
+    for seed in 0..12 {
+        let (element, positions) = sample(seed, 0.1);
+        let (gradient, stiffness, _) = derivatives(&KIRCHHOFF, &element, &positions, Filter::Clamp);
+        let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
+        for row in 0..12 {
+            for column in 0..12 {
+                assert_eq!(stiffness[row][column], stiffness[column][row]);
+            }
+            for c in 0..3 {
+                let sum: f64 = (0..4).map(|node| stiffness[row][3 * node + c]).sum();
+                // Six additions of numbers up to `scale`.
+                assert!(sum.abs() <= 16.0 * f64::EPSILON * scale);
+            }
+        }
+        for c in 0..3 {
+            let (sum, size) = gradient.iter().fold((0.0, 0.0), |(s, a), g| (s + g[c], a + g[c].abs()));
+            assert!(f64::abs(sum) <= 4.0 * f64::EPSILON * size);
+        }
+    }
+}
+
+#[test]
+fn a_filtered_stiffness_is_semidefinite_and_counted() {
+    let mut filtered = 0;
+    for seed in 0..12 {
+        let (element, positions) = sample(seed, 0.1);
+        for filter in [Filter::Clamp, Filter::Absolute] {
+            let (_, stiffness, survey) = derivatives(&KIRCHHOFF, &element, &positions, filter);
+            filtered += survey.filtered;
+            let matrix = nalgebra::SMatrix::<f64, 12, 12>::from_fn(|row, column| stiffness[row][column]);
+            let eigenvalues = matrix.symmetric_eigenvalues();
+            // Backward error of a symmetric eigensolver: a small multiple of n u ‖K‖.
+            assert!(eigenvalues.min() >= -24.0 * f64::EPSILON * eigenvalues.max(), "{eigenvalues}");
+        }
+    }
+    assert!(filtered > 0, "some of these elements are compressed so much that the filter has work");
+}
+
+#[test]
+fn an_affine_map_gives_every_element_the_same_stress() {
+    let mesh = beam(3);
+    let F = [[1.1, 0.2, -0.1], [0.0, 0.8, 0.3], [0.1, -0.2, 1.2]];
+    let map = |x: &[f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|a| F[a][0] * x[0] + F[a][1] * x[1] + F[a][2] * x[2] + 0.7)
+    };
+    let positions: Vec<_> = mesh.positions.iter().map(map).collect();
+    let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
+    let mut total = vec![[0.0; 3]; positions.len()];
+    for element in body.elements() {
+        let found = element.deformation_gradient(&positions);
+        for a in 0..3 {
+            for b in 0..3 {
+                // Differences of positions up to 2 over edges of 0.1 m.
+                assert!((found[a][b] - F[a][b]).abs() <= 100.0 * f64::EPSILON);
+            }
+        }
+        let (gradient, ..) = derivatives(&KIRCHHOFF, element, &positions, Filter::None);
+        for (node, g) in element.nodes.iter().zip(gradient) {
+            for c in 0..3 {
+                total[*node][c] += g[c];
+            }
+        }
+    }
+    // Equal stress everywhere leaves inner nodes without a force; this beam has none, but the total is zero too, and
+    // so is the total moment of a symmetric Cauchy stress.
+    let mut force = [0.0; 3];
+    let mut moment = [0.0; 3];
+    for (x, g) in positions.iter().zip(&total) {
+        let m = crate::mesh::tet::cross(*x, *g);
+        for c in 0..3 {
+            force[c] += g[c];
+            moment[c] += m[c];
+        }
+    }
+    let size: f64 = total.iter().flatten().map(|g| g.abs()).sum();
+    for c in 0..3 {
+        assert!(force[c].abs() <= 1e-13 * size, "sums of some hundred terms, u each");
+        assert!(moment[c].abs() <= 1e-13 * size, "arms are below 2 m");
+    }
+}
+
+#[test]
+fn a_survey_names_the_first_offender() {
+    let (element, mut positions) = sample(3, 0.0);
+    positions[element.nodes[1]][2] = f64::NAN;
+    let (mut points, mut energies) = ([IDENTITY], [0.0]);
+    let survey = KIRCHHOFF.evaluate(&[element], &positions, &mut points, &mut energies);
+    assert_eq!((survey.nonfinite, survey.refused, survey.first_offender), (1, 0, Some(element.tag)));
+    assert!(!survey.is_admissible());
+}
