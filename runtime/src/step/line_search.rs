@@ -55,6 +55,8 @@ pub enum Outcome {
         trials: usize,
         /// How many of them were outside the domain.
         refused: usize,
+        /// Whether the change of the objective was noise, so that the slope decided.
+        by_slope: bool,
     },
     /// No step was accepted.
     Failed {
@@ -74,9 +76,10 @@ pub fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings
             None => refused += 1,
             Some(Change { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
+                let noisy = difference.abs() <= noise;
                 // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without differences.
-                if enough || (difference.abs() <= noise && line.slope() <= (2.0 * delta - 1.0) * slope) {
-                    return Outcome::Accepted { step, trials, refused };
+                if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
+                    return Outcome::Accepted { step, trials, refused, by_slope: noisy };
                 }
             }
         }
@@ -128,7 +131,7 @@ mod tests {
             |s| Some(s * s / 2.0 - s),
             |s| s - 1.0,
             0.0,
-            Outcome::Accepted { step: 1.0, trials: 1, refused: 0 },
+            Outcome::Accepted { step: 1.0, trials: 1, refused: 0, by_slope: false },
         );
     }
 
@@ -138,23 +141,23 @@ mod tests {
             |s| Some(8.0 * s * s - s),
             |s| 16.0 * s - 1.0,
             0.0,
-            Outcome::Accepted { step: 0.0625, trials: 5, refused: 0 },
+            Outcome::Accepted { step: 0.0625, trials: 5, refused: 0, by_slope: false },
         );
         check(
             |s| (s < 0.3).then_some(-s),
             |_| -1.0,
             0.0,
-            Outcome::Accepted { step: 0.25, trials: 3, refused: 2 },
+            Outcome::Accepted { step: 0.25, trials: 3, refused: 2, by_slope: false },
         );
     }
 
     #[test]
     fn below_the_noise_the_slope_decides() {
         // The difference says "uphill", but it is noise: the minimum is at 1.
-        let accepted = Outcome::Accepted { step: 1.0, trials: 1, refused: 0 };
+        let accepted = Outcome::Accepted { step: 1.0, trials: 1, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted);
         // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
-        let halved = Outcome::Accepted { step: 0.5, trials: 2, refused: 0 };
+        let halved = Outcome::Accepted { step: 0.5, trials: 2, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
     }
 

@@ -28,7 +28,7 @@ pub struct NewtonSettings {
 impl Default for NewtonSettings {
     /// Full Newton to a relative 10⁻⁶ with clamped eigenvalues.
     fn default() -> Self {
-        Self { filter: Filter::default(), max_iterations: 50, tolerance: 1e-6 }
+        Self { filter: Filter::Clamp, max_iterations: 50, tolerance: 1e-6 }
     }
 }
 
@@ -125,12 +125,19 @@ pub(crate) fn minimize(
         bounded: 0,
         shift: 0.0,
     };
+    // Whether the step before changed the objective by no more than noise.
+    let mut by_slope = false;
     while report.iterations < settings.max_iterations {
         // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
         if report.iterations > 0 {
             objective.elastic.evaluate_gradients(objective.body);
             objective.gradient(x, &mut workspace.gradient);
+            let before = report.residual;
             if report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings) {
+                break;
+            }
+            if by_slope && report.residual > 0.5 * before {
+                report.convergence = Convergence::Rounding;
                 break;
             }
         }
@@ -176,7 +183,8 @@ pub(crate) fn minimize(
             backtrack(&mut objective.along(x, direction, trial, gradient), slope, line_search)
         };
         match outcome {
-            Outcome::Accepted { step, refused, .. } => {
+            Outcome::Accepted { step, refused, by_slope: slope_decided, .. } => {
+                by_slope = slope_decided;
                 x.copy_from_slice(&workspace.trial);
                 report.step_lengths.push(step);
                 report.refused_trials += refused;

@@ -98,20 +98,35 @@ impl Material for RotatedLinear {
     }
 }
 
-/// Rotated linear elasticity that refuses det F ≤ 0.
-pub(crate) struct Refusing(pub(crate) RotatedLinear);
+/// Neo-Hookean elasticity, which refuses J ≤ 0: ψ = μ/2 (I1 − 3) − μ ln J + λ/2 ln² J.
+pub(crate) struct NeoHookean {
+    pub(crate) mu: f64,
+    pub(crate) lambda: f64,
+}
 
-impl Material for Refusing {
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
-        self.0.energy(stretches)
+impl Material for NeoHookean {
+    fn energy<R: Real>(&self, x: [R; 3]) -> R {
+        let log = (x[0] * x[1] * x[2]).ln();
+        let squares = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        let (mu, lambda) = (R::splat(self.mu), R::splat(self.lambda / 2.0));
+        R::splat(self.mu / 2.0) * (squares - R::splat(3.0)) - mu * log + lambda * log * log
     }
 
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.0.gradient(stretches)
+    fn gradient<R: Real>(&self, x: [R; 3]) -> [R; 3] {
+        self.blocks(x).gradient
     }
 
-    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
-        self.0.blocks(stretches)
+    fn blocks<R: Real>(&self, x: [R; 3]) -> Blocks<R> {
+        let (mu, lambda) = (R::splat(self.mu), R::splat(self.lambda));
+        let pressure = mu - lambda * (x[0] * x[1] * x[2]).ln();
+        let diagonal = x.map(|x| mu + (pressure + lambda) / (x * x));
+        let mixed = PAIRS.map(|(i, j)| lambda / (x[i] * x[j]));
+        Blocks {
+            gradient: x.map(|x| mu * x - pressure / x),
+            hessian: [diagonal[0], diagonal[1], diagonal[2], mixed[0], mixed[1], mixed[2]],
+            flip: PAIRS.map(|(i, j)| mu + pressure / (x[i] * x[j])),
+            twist: PAIRS.map(|(i, j)| mu - pressure / (x[i] * x[j])),
+        }
     }
 
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
@@ -119,7 +134,7 @@ impl Material for Refusing {
     }
 
     fn has_pole(&self) -> bool {
-        true
+        false
     }
 
     fn ends_at_zero_volume(&self) -> bool {
