@@ -150,7 +150,9 @@ impl Printer<'_> {
 
     fn power(&self, base: Id, exponent: Exponent) -> String {
         if exponent == Exponent::ONE {
-            return self.print(base, Context::Product);
+            // What follows a sum would seem to belong to it.
+            let is_sum = matches!(self.graph.node(base), Node::Sum(..));
+            return self.print(base, if is_sum { Context::Power } else { Context::Product });
         }
         format!("{}{}", self.print(base, Context::Power), self.exponent(exponent))
     }
@@ -237,5 +239,32 @@ fn symbol(name: &str) -> String {
     match GREEK.iter().find(|(word, _)| *word == head) {
         Some((_, letter)) => format!("{letter}{tail}"),
         None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quote::quote;
+
+    use super::*;
+    use crate::model::model;
+    use crate::parse::parse;
+
+    #[test]
+    fn formulas_read_like_the_declaration() {
+        let item = quote! {
+            fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: [f64; N], alpha: [f64; N], kappa: f64) -> f64 {
+                sum(|p| mu[p] / alpha[p] * (l1.powf(alpha[p]) + l2.powf(alpha[p]) + l3.powf(alpha[p]) - 3.0))
+                    - sum(|p| mu[p]) * J.ln() + kappa / 2.0 * (J - 1.0).powi(2) + kappa * (I1b - 3.0)
+            }
+        };
+        let declaration = parse(quote!(domain(J > 0.0)), item).unwrap();
+        let mut model = model(&declaration).unwrap();
+        let mut print = |id| formula(&mut model.graph, &declaration, id);
+        assert_eq!(
+            print(model.energy),
+            "Σₚ μₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3)/αₚ + 1/2 κ (J − 1)² + κ (I1 J^(−2/3) − 3) − (Σₚ μₚ) ln J"
+        );
+        assert_eq!(model.moduli.map(&mut print), ["1/2 (4 κ + Σₚ μₚ αₚ)", "−1/3 κ"]);
     }
 }

@@ -151,7 +151,8 @@ fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| graph.substitute(h, [one; 3]));
     let difference = graph.sub(normal, mixed);
     let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
-    [graph.scale(difference, half), mixed]
+    let shear = graph.scale(difference, half);
+    [shear, mixed].map(|modulus| simplify(graph, modulus))
 }
 
 /// `J > 0.0`, the condition that is spelled out for the sign of the last stretch.

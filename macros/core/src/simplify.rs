@@ -1,15 +1,17 @@
-//! Removes cancellation that the user's formula implies.
+//! Puts together what differentiation takes apart.
 //!
-//! With a denominator β + s, β a number and s a sum without constant, each left side subtracts what is nearly equal where
-//! s is small or large:
+//! With a number c, a denominator β + s, β a number and s a sum without constant:
 //!
 //! ```text
 //! w − βw/(β + s) = s w/(β + s)
 //! w − s w/(β + s) = βw/(β + s)
+//! w s + c w = w (s + c)
+//! Σₚ a + c Σₚ b = Σₚ (a + c b)
 //! ```
 //!
-//! The first arises from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid
-//! near collapse, where I1 is tiny and the left side has no correct digit.
+//! The first two remove cancellation: each left side subtracts what is nearly equal where s is small or large. They arise
+//! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
+//! where I1 is tiny and the left side has no correct digit. The others save operations.
 
 use std::collections::HashMap;
 
@@ -26,7 +28,10 @@ fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
         return done;
     }
     let mut result = graph.map_children(e, &mut |graph, child| rewrite(graph, child, memo));
-    while let Some(simpler) = cancel_against_denominator(graph, result) {
+    while let Some(simpler) = cancel_against_denominator(graph, result)
+        .or_else(|| collect_into_factor(graph, result))
+        .or_else(|| join_sums(graph, result))
+    {
         result = simpler;
     }
     memo.insert(e, result);
@@ -57,14 +62,63 @@ fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {
                 }
                 let factors = [(w, 1), (factor, 1), (denominator, -1)];
                 let combined = graph.product(&factors.map(|(base, n)| (base, Exponent::integer(n))));
-                let mut kept: Vec<_> =
-                    terms.iter().copied().filter(|&(term, _)| term != fraction && term != w).collect();
-                kept.push((combined, c));
-                return Some(graph.linear(constant, &kept));
+                return Some(replace(graph, constant, &terms, [fraction, w], (combined, c)));
             }
         }
     }
     None
+}
+
+/// w s + c w = w (s + c)
+fn collect_into_factor(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
+    for &(product, coefficient) in &terms {
+        let Node::Product(factors) = graph.node(product).clone() else { continue };
+        for (sum, exponent) in factors {
+            if exponent != Exponent::ONE || !matches!(graph.node(sum), Node::Linear { .. }) {
+                continue;
+            }
+            let w = graph.div(product, sum);
+            let Some(&(_, other)) = terms.iter().find(|&&(term, _)| term == w) else { continue };
+            let shift = other.checked_mul(coefficient.checked_powi(-1)?)?;
+            let shifted = graph.linear(shift, &[(sum, Rational::ONE)]);
+            let collected = graph.mul(w, shifted);
+            return Some(replace(graph, constant, &terms, [product, w], (collected, coefficient)));
+        }
+    }
+    None
+}
+
+/// Σₚ a + c Σₚ b = Σₚ (a + c b)
+fn join_sums(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
+    let as_sum = |&(term, c): &(Id, Rational)| match *graph.node(term) {
+        Node::Sum(length, body) => Some((length, term, body, c)),
+        _ => None,
+    };
+    let sums: Vec<_> = terms.iter().filter_map(as_sum).collect();
+    for (k, &(length, first, a, c)) in sums.iter().enumerate() {
+        if let Some(&(_, second, b, d)) = sums[k + 1..].iter().find(|other| other.0 == length) {
+            let body = graph.linear(Rational::ZERO, &[(a, c), (b, d)]);
+            let body = simplify(graph, body);
+            let joined = graph.sum(length, body);
+            return Some(replace(graph, constant, &terms, [first, second], (joined, Rational::ONE)));
+        }
+    }
+    None
+}
+
+/// The sum with two of its terms replaced by one.
+fn replace(
+    graph: &mut Graph,
+    constant: Rational,
+    terms: &[(Id, Rational)],
+    old: [Id; 2],
+    new: (Id, Rational),
+) -> Id {
+    let mut kept: Vec<_> = terms.iter().copied().filter(|(term, _)| !old.contains(term)).collect();
+    kept.push(new);
+    graph.linear(constant, &kept)
 }
 
 #[cfg(test)]
