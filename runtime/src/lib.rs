@@ -7,6 +7,9 @@
 
 extern crate self as piola;
 
+pub mod contract;
+#[cfg(test)]
+mod hand_written;
 pub mod lanes;
 pub mod material;
 pub mod mesh;

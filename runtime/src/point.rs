@@ -1,8 +1,8 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
-//! F = U diag(λ) Vᵀ ([`svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames carry them
-//! back: P = U diag(ψi) Vᵀ ([`stress`]) and dP/dF as a block-diagonal map between the frames ([`tangent`], which derives it),
-//! made semidefinite on request ([`project`]). Everything is generic over the real type, and what cannot be computed is said
+//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames carry them
+//! back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames ([`tangent`], which derives it),
+//! made semidefinite on request ([`mod@project`]). Everything is generic over the real type, and what cannot be computed is said
 //! in a [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
@@ -18,7 +18,7 @@ use crate::material::{Blocks, Material, Status};
 use crate::quotient::pole_floor;
 
 pub mod gradient;
-mod matrix;
+pub(crate) mod matrix;
 pub mod project;
 pub mod stress;
 pub mod svd;

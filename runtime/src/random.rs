@@ -1,8 +1,8 @@
-//! Reproducible random numbers: SplitMix64 [SLF14], small enough that no dependency is worth its place.
+//! Reproducible random numbers: SplitMix64 \[SLF14\], small enough that no dependency is worth its place.
 //!
 //! Whoever draws samples states a seed, and gets the same samples on every machine.
 //!
-//! [SLF14] Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
+//! \[SLF14\] Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
 
 /// A stream of pseudorandom numbers.
 #[derive(Clone, Debug)]

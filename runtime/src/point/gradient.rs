@@ -1,4 +1,4 @@
-//! The derivatives of the singular value decomposition itself: dU, dλ, dVᵀ along dF [PL00].
+//! The derivatives of the singular value decomposition itself: dU, dλ, dVᵀ along dF \[PL00\].
 //!
 //! Stress and tangent never need them (see [`tangent`](super::tangent)); they are for those who follow the principal
 //! directions, for instance in anisotropy or in plots.
@@ -9,7 +9,7 @@
 //! reported in [`SvdGradient::singular`], and is whatever the division by the gap gives, infinity and NaN included. No
 //! regularisation could give a right value where there is none. dλ exists everywhere but for the order of the stretches.
 //!
-//! [PL00] Papadopoulo, Lourakis, *Estimating the Jacobian of the singular value decomposition: theory and applications*, 2000.
+//! \[PL00\] Papadopoulo, Lourakis, *Estimating the Jacobian of the singular value decomposition: theory and applications*, 2000.
 
 #![expect(non_snake_case, reason = "U, V, dF as in the literature")]
 

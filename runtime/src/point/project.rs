@@ -8,7 +8,7 @@
 //! What floating point does here. A filtered eigenvalue is zero up to u ‖dP/dF‖ of either sign; where nothing is negative
 //! beyond doubt, the block comes back bit for bit.
 //!
-//! [CLLZJ24] Chen, Liu, Levin, Zheng, Jacobson, *Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for
+//! \[CLLZJ24\] Chen, Liu, Levin, Zheng, Jacobson, *Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for
 //! Projected Newton*, 2024.
 
 #![expect(non_snake_case, reason = "A, L, Q as in linear algebra")]
@@ -25,7 +25,7 @@ pub enum Filter {
     None,
     /// They become zero: the semidefinite matrix nearest in the Frobenius norm.
     Clamp,
-    /// They change sign [CLLZJ24]: directions of negative curvature are stiff instead of free.
+    /// They change sign \[CLLZJ24\]: directions of negative curvature are stiff instead of free.
     Absolute,
 }
 

@@ -1,7 +1,7 @@
 //! The signed singular value decomposition of a deformation gradient.
 //!
-//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F [ITF04]. The method is
-//! one-sided Jacobi [DV92]: columns of F V are made orthogonal two by two, the longer one first, for a fixed number of
+//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\]. The method is
+//! one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one first, for a fixed number of
 //! sweeps. There is no branch on a value and no count that depends on one, so that a matrix among others in lanes
 //! gets the bits it would get alone.
 //!
@@ -13,9 +13,9 @@
 //!
 //! This module knows no material. Reading V by columns vk and U by columns uk, F vk = λk uk.
 //!
-//! [ITF04] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*, 2004.
-//! [DV92] Demmel, Veselić, *Jacobi's method is more accurate than QR*, 1992.
-//! [Duff17] Duff et al., *Building an orthonormal basis, revisited*, 2017.
+//! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*, 2004.
+//! \[DV92\] Demmel, Veselić, *Jacobi's method is more accurate than QR*, 1992.
+//! \[Duff17\] Duff et al., *Building an orthonormal basis, revisited*, 2017.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 

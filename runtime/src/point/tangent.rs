@@ -2,7 +2,7 @@
 //!
 //! # From the singular value decomposition to fifteen numbers
 //!
-//! [SZLSB11] differentiates P through the derivatives of U, λ and V. Nine 2×2 systems per pair of stretches give those, and
+//! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. Nine 2×2 systems per pair of stretches give those, and
 //! where two stretches meet the systems are singular. This derivation follows the same equations up to that point and
 //! then leaves out the systems: what they would be solved for cancels.
 //!
@@ -65,7 +65,7 @@
 //! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs to (ij + ji)/√2, a
 //! change of shape, and equals 2μ at rest; D⁺ belongs to (ij − ji)/√2, an infinitesimal rotation, and is 0 at rest. The map
 //! has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of [`Blocks`]. Its eigenvalues are those of dP/dF, since
-//! dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so [`project`](super::project) works on it instead.
+//! dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so [`project`](mod@super::project) works on it instead.
 //!
 //! # From fifteen numbers to matrices
 //!
@@ -83,7 +83,7 @@
 //!
 //! This module knows no material and no mesh.
 //!
-//! [SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 #![expect(non_snake_case, reason = "U, V, W, dF, dP as in the essay above")]
 
@@ -166,7 +166,7 @@ impl<R: Real> Blocks<R> {
 /// coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K between (c, y) and
 /// (a, x) is the same number as between (a, x) and (c, y).
 ///
-/// With W = V, K is dP/dF. With W[n] = √volume · Vᵀ∇N_n for the gradients of three shape functions over the rest shape, K is
+/// With W = V, K is dP/dF. With `W[n]` = √volume · Vᵀ∇Nn for the gradients of three shape functions over the rest shape, K is
 /// the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum. About 490
 /// multiplications and additions.
 #[inline(always)]

@@ -125,6 +125,18 @@ fn what_is_semidefinite_stays_bit_for_bit() {
     }
 }
 
+/// What is left after clamping may be tiny beside what was clamped; its error must be too.
+#[test]
+fn nothing_is_left_of_a_negative_definite_hessian() {
+    let mut random = Random::new(36);
+    for _ in 0..100 {
+        let spectrum = std::array::from_fn(|_| random.uniform(-1.0, -0.1));
+        let mut blocks = random_blocks(&mut random);
+        blocks.hessian = hessian_with(&mut random, spectrum);
+        assert_eq!(project(&blocks, Filter::Clamp).0.hessian, [0.0; 6]);
+    }
+}
+
 #[test]
 fn rest_is_not_reported_as_filtered() {
     let mut random = Random::new(35);

@@ -1,0 +1,125 @@
+//! Rules on rotations: of space, of the rest shape, and among equal stretches.
+
+#![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
+
+use super::{
+    Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, samples, stiffness, stress_scale,
+};
+use crate::material::{Material, PAIRS};
+use crate::point::matrix::multiply;
+use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
+use crate::random::Random;
+
+/// ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
+///
+/// # Errors
+/// The first violation.
+pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Objectivity);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        let Q = random.rotation();
+        rotated(&mut judge, material, stretches, &Q, &diagonal([1.0; 3]))?;
+    }
+    judge.finding()
+}
+
+/// ψ(F W) = ψ(F) and P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj, ψi = ψj and ψii = ψjj.
+///
+/// # Errors
+/// The first violation.
+pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Isotropy);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        let W = random.rotation();
+        rotated(&mut judge, material, stretches, &diagonal([1.0; 3]), &W)?;
+        for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
+        {
+            if material.admits(equal) {
+                interchangeable(&mut judge, material, equal)?;
+            }
+        }
+    }
+    judge.finding()
+}
+
+/// A : (dP/dF) B = B : (dP/dF) A for random A, B.
+///
+/// # Errors
+/// The first violation.
+pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::SymmetricTangent);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
+        let point = evaluate(material, &F, Filter::None);
+        let (A, B) = (random.matrix(), random.matrix());
+        let inner =
+            |X: &Matrix3<f64>, Y: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * Y[k / 3][k % 3]).sum();
+        let (one, other) = (inner(&A, &point.tangent.apply(&B)), inner(&B, &point.tangent.apply(&A)));
+        // Sums of some 200 products of the tangent with ‖A‖‖B‖ ≤ 9.
+        let tolerance = 500.0 * UNIT * 9.0 * stiffness(&point.tangent.blocks);
+        judge.compare(|| "tangent between two random increments".into(), stretches, one, other, tolerance)?;
+    }
+    judge.finding()
+}
+
+/// Energy and stress at Q diag(λ) W against those at diag(λ), which need no decomposition.
+fn rotated(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    Q: &Matrix3<f64>,
+    W: &Matrix3<f64>,
+) -> Result<(), Violation> {
+    let F = multiply(&multiply(Q, &diagonal(stretches)), W);
+    let blocks = material.blocks(stretches);
+    let scale = stress_scale(&blocks, stretches);
+    // The product and the decomposition know F to some 30 u, and each of the rotations Q, W is one to a few u.
+    let tolerance = 100.0 * UNIT * scale;
+    let energy = material.energy(stretches);
+    let energy_tolerance = tolerance * stretches[0] + 100.0 * UNIT * energy.abs();
+    let found = evaluate_energy(material, &F).0;
+    judge.compare(|| "energy after a rotation".into(), stretches, found, energy, energy_tolerance)?;
+    let found = evaluate_stress(material, &F).0;
+    let expected = multiply(&multiply(Q, &diagonal(blocks.gradient)), W);
+    for i in 0..3 {
+        for j in 0..3 {
+            let name = || format!("entry ({}, {}) of the stress after a rotation", i + 1, j + 1);
+            judge.compare(name, stretches, found[i][j], expected[i][j], tolerance)?;
+        }
+    }
+    Ok(())
+}
+
+/// First and second derivatives by two equal stretches agree, and so do their mixed ones with the third.
+fn interchangeable(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+) -> Result<(), Violation> {
+    let blocks = material.blocks(stretches);
+    let mixed = |i: usize, j: usize| {
+        let pair = PAIRS.iter().position(|&pair| pair == (i.min(j), i.max(j)));
+        pair.map_or(f64::NAN, |pair| blocks.hessian[3 + pair])
+    };
+    let tolerance = 100.0 * UNIT * stress_scale(&blocks, stretches);
+    let curvature = 100.0 * UNIT * stiffness(&blocks);
+    for (i, j) in PAIRS {
+        if stretches[i] != stretches[j] {
+            continue;
+        }
+        let k = 3 - i - j;
+        judge.compare(|| gradient_name(j), stretches, blocks.gradient[j], blocks.gradient[i], tolerance)?;
+        let name = || format!("second derivative of the energy by stretch {}", j + 1);
+        judge.compare(name, stretches, blocks.hessian[j], blocks.hessian[i], curvature)?;
+        let name = || format!("second derivative of the energy by stretches {} and {}", j + 1, k + 1);
+        judge.compare(name, stretches, mixed(j, k), mixed(i, k), curvature)?;
+    }
+    Ok(())
+}
+
+pub(super) fn diagonal(d: [f64; 3]) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }))
+}

@@ -1,0 +1,127 @@
+//! The rule on quotients: flips and twists against means of second derivatives, which cancel nowhere.
+//!
+//! On the line x = m + t, y = m − t the difference ψx − ψy vanishes at t = 0 and has the slope ψxx − 2ψxy + ψyy, so that
+//!
+//! ```text
+//! D⁻(m + T, m − T) = (ψx − ψy)/2T = mean over 0 ≤ t ≤ T of (ψxx − 2ψxy + ψyy)/2
+//! ```
+//!
+//! for every gap 2T, zero included. On x = t + m, y = t − m the sum ψx + ψy of an even energy does likewise with
+//! ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to full accuracy over
+//! gaps of a tenth of the stretches. Elsewhere nothing cancels and the quotients are what their definition says.
+
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, samples, stiffness};
+use crate::material::{Blocks, Material, PAIRS};
+use crate::random::Random;
+
+/// Flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all other samples.
+///
+/// # Errors
+/// The first violation.
+pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Quotients);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        by_definition(&mut judge, material, stretches)?;
+        for exponent in 1..=17 {
+            let gap = if exponent == 17 { 0.0 } else { 10f64.powi(-exponent) };
+            close(&mut judge, material, settings, stretches, gap)?;
+            opposite(&mut judge, material, stretches, gap)?;
+        }
+    }
+    judge.finding()
+}
+
+/// The quotients against (ψi ∓ ψj)/(λi ∓ λj), as exactly as that is known.
+fn by_definition(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+    let blocks = material.blocks(stretches);
+    for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
+        let (a, b) = (blocks.gradient[i], blocks.gradient[j]);
+        let terms = a.abs() + b.abs() + stiffness(&blocks) * stretches[0];
+        for (name, found, numerator, denominator) in [
+            ("flip", blocks.flip[pair], a - b, stretches[i] - stretches[j]),
+            ("twist", blocks.twist[pair], a + b, stretches[i] + stretches[j]),
+        ] {
+            if denominator.abs() < 1e-3 * stretches[0] {
+                continue;
+            }
+            let tolerance = 100.0 * UNIT * terms / denominator.abs();
+            judge.compare(|| pair_name(name, pair), stretches, found, numerator / denominator, tolerance)?;
+        }
+    }
+    Ok(())
+}
+
+/// Flips of stretches that are close to each other.
+fn close(
+    judge: &mut Judge,
+    material: &impl Material,
+    settings: &Settings,
+    stretches: [f64; 3],
+    gap: f64,
+) -> Result<(), Violation> {
+    let [l1, l2, l3] = stretches;
+    // The pair is moved together around its mean, the other stretch stays; descending order is kept.
+    for (pair, center, other) in [(0, 0.5 * (l1 + l2), l3), (2, 0.5 * (l1 + l2), l1 * 2.0)] {
+        let half = 0.5 * gap * center;
+        let at = |t: f64| {
+            let (x, y) = (center + t, center - t);
+            if pair == 0 { [x, y, other] } else { [other, x, y] }
+        };
+        let crosses = settings.threshold.is_some_and(|epsilon| (center - epsilon).abs() <= half);
+        let descends = pair == 2 || center - half >= other.abs();
+        if !descends || crosses || !material.admits(at(0.0)) || !material.admits(at(half)) {
+            continue;
+        }
+        let (i, j) = PAIRS[pair];
+        // The gap that floating point stores is not quite the one asked for.
+        let stored = at(half);
+        let exact = 0.5 * (stored[i] - stored[j]);
+        let expected = mean(exact, |t| {
+            let blocks = material.blocks(at(t));
+            0.5 * (blocks.hessian[i] + blocks.hessian[j]) - blocks.hessian[3 + pair]
+        });
+        let blocks = material.blocks(stored);
+        judge.compare(|| pair_name("flip", pair), stored, blocks.flip[pair], expected, tolerance(&blocks))?;
+    }
+    Ok(())
+}
+
+/// Twists of stretches that are nearly opposite, where the energy is smooth there.
+fn opposite(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    gap: f64,
+) -> Result<(), Violation> {
+    let [l1, l2, _] = stretches;
+    let half = 0.5 * gap * l2;
+    let at = |t: f64| [l1.max(1.1 * l2), t + l2, t - l2];
+    if material.has_pole() || !material.admits(at(0.0)) || !material.admits(at(half)) {
+        return Ok(());
+    }
+    let stored = at(half);
+    let exact = 0.5 * (stored[1] + stored[2]);
+    let expected = mean(exact, |t| {
+        let blocks = material.blocks(at(t));
+        0.5 * (blocks.hessian[1] + blocks.hessian[2]) + blocks.hessian[5]
+    });
+    let blocks = material.blocks(stored);
+    judge.compare(|| pair_name("twist", 2), stored, blocks.twist[2], expected, tolerance(&blocks))
+}
+
+/// Second derivatives are known to some u times the largest of them, and to as much again from the stretches' rounding.
+fn tolerance(blocks: &Blocks<f64>) -> f64 {
+    200.0 * UNIT * stiffness(blocks)
+}
+
+/// The mean of f over [0, end] by Gauss's rule with eight points [Abramowitz, Stegun, table 25.4].
+fn mean(end: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const RULE: [(f64, f64); 4] = [
+        (0.183434642495649804939476142360, 0.362683783378361982965150449277),
+        (0.525532409916328985817739049189, 0.313706645877887287337962201987),
+        (0.796666477413626739591553936476, 0.222381034453374470544355994426),
+        (0.960289856497536231683560868569, 0.101228536290376259152531354310),
+    ];
+    RULE.iter().map(|&(x, w)| 0.5 * w * (f(0.5 * end * (1.0 + x)) + f(0.5 * end * (1.0 - x)))).sum()
+}

@@ -1,0 +1,27 @@
+//! Where the contract looks: stretches in descending order, of which the material admits all.
+
+use super::Settings;
+use crate::material::Material;
+use crate::random::Random;
+
+/// Random descending stretches within the range, plus inverted ones, as far as the material admits them.
+///
+/// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
+pub(super) fn stretches(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+    let (low, high) = settings.range;
+    (0..settings.points)
+        .map(|k| {
+            let mut l: [f64; 3] = std::array::from_fn(|_| random.uniform(low.ln(), high.ln()).exp());
+            l.sort_by(|a, b| b.total_cmp(a));
+            if k % 4 == 3 {
+                // Away from λ3 = 0 and λ2 + λ3 = 0, where difference quotients would need steps of their own.
+                l[2] = random.uniform(0.05, 0.9).copysign(random.uniform(-1.0, 1.0)) * l[1];
+            }
+            l
+        })
+        .filter(|&l| material.admits(l))
+        .filter(|l| {
+            settings.threshold.is_none_or(|epsilon| l.iter().all(|l| (l - epsilon).abs() > 1.0 / 32.0))
+        })
+        .collect()
+}

@@ -1,0 +1,117 @@
+//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding takes over.
+//!
+//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative leaves an error
+//! that does not shrink with h.
+
+#![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
+
+use super::frames::diagonal;
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, samples, stiffness, stress_scale};
+use crate::material::Material;
+use crate::point::matrix::multiply;
+use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
+use crate::random::Random;
+
+/// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h².
+///
+/// # Errors
+/// The first violation.
+pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::StressSlope);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        energy_at(&mut judge, material, stretches, 2, &mut random)?;
+    }
+    judge.finding()
+}
+
+/// (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
+///
+/// # Errors
+/// The first violation.
+pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::TangentSlope);
+    let mut random = Random::new(settings.seed);
+    for stretches in samples::stretches(material, settings, &mut random) {
+        stress_at(&mut judge, material, stretches, 2, &mut random)?;
+    }
+    judge.finding()
+}
+
+/// A random frame and direction at these stretches, the direction so short that no step of ½ changes the sign of det F or reaches a pole.
+fn line(stretches: [f64; 3], random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
+    let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
+    let A = random.matrix();
+    let length = A.iter().flatten().map(|a| a * a).sum::<f64>().sqrt();
+    // Distances to det F = 0 and to the pole at λ2 + λ3 = 0.
+    let scale = stretches[2].abs().min(stretches[1] + stretches[2]) / length;
+    (F, A.map(|row| row.map(|a| a * scale)))
+}
+
+fn moved(F: &Matrix3<f64>, h: f64, A: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| F[i][j] + h * A[i][j]))
+}
+
+/// The derivative of the energy along a random line, judged at rate h^`order`.
+pub(super) fn energy_at(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    order: i32,
+    random: &mut Random,
+) -> Result<(), Violation> {
+    let (F, A) = line(stretches, random);
+    let P = evaluate_stress(material, &F).0;
+    let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
+    let blocks = material.blocks(stretches);
+    let energy = material.energy(stretches).abs();
+    let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + energy);
+    let along = |h: f64| evaluate_energy(material, &moved(&F, h, &A)).0;
+    let name = || "difference quotient of the energy along a random line".into();
+    slope(judge, name, stretches, along, derivative, order, rounding)
+}
+
+/// The derivative of one component of the stress along a random line, judged at rate h^`order`.
+pub(super) fn stress_at(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    order: i32,
+    random: &mut Random,
+) -> Result<(), Violation> {
+    let (F, A) = line(stretches, random);
+    let B = random.matrix();
+    let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
+    let point = evaluate(material, &F, Filter::None);
+    let blocks = material.blocks(stretches);
+    let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
+    let along = |h: f64| inner(&evaluate_stress(material, &moved(&F, h, &A)).0);
+    let name = || "difference quotient of the stress along a random line".into();
+    slope(judge, name, stretches, along, inner(&point.tangent.apply(&A)), order, rounding)
+}
+
+/// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
+///
+/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One step alone would
+/// not do: its error may happen to vanish between two orders of opposite sign.
+fn slope(
+    judge: &mut Judge,
+    name: impl Fn() -> String + Copy,
+    stretches: [f64; 3],
+    f: impl Fn(f64) -> f64,
+    derivative: f64,
+    order: i32,
+    rounding: f64,
+) -> Result<(), Violation> {
+    let quotient = |h: f64| (f(h) - f(-h)) / (2.0 * h);
+    let steps = || (6..=22).step_by(2).map(|k| 2f64.powi(-k));
+    let truncation = steps()
+        .take(3)
+        .map(|h| (quotient(h) - derivative).abs() / h.powi(order))
+        .fold(0.0, |largest: f64, e| if e.is_nan() { e } else { largest.max(e) });
+    for h in steps().skip(3) {
+        let tolerance = 2.0 * truncation * h.powi(order) + rounding / h;
+        judge.compare(name, stretches, quotient(h), derivative, tolerance)?;
+    }
+    Ok(())
+}
