@@ -5,6 +5,15 @@
 use std::fmt;
 
 /// A tetrahedral mesh at rest.
+///
+/// ```
+/// use piola::mesh::TetMesh;
+///
+/// let corner = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 5.0]];
+/// let mesh = TetMesh::new(corner, vec![[0, 1, 2, 3]]);
+/// assert_eq!(mesh.rest_shapes()?[0].volume, 5.0);
+/// # Ok::<(), piola::mesh::MeshError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TetMesh {
     /// Rest position of each node, m.

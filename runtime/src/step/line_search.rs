@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn failure_is_a_value() {
         let step = 0.5f64.powi(47);
-        check(|s| Some(s), |_| -1.0, 0.0, Outcome::Failed { step, refused: 0 });
+        check(Some, |_| -1.0, 0.0, Outcome::Failed { step, refused: 0 });
         check(|_| None, |_| -1.0, 0.0, Outcome::Failed { step, refused: 48 });
         check(|_| Some(f64::NAN), |_| -1.0, 0.0, Outcome::Failed { step, refused: 0 });
     }

@@ -147,10 +147,10 @@ pub(crate) fn minimize(
         objective.gradient(x, &mut workspace.gradient);
         match pins_move {
             Some(d) => objective.add_product(d, &mut workspace.gradient),
-            None if report.iterations == 0 => {
-                if report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings) {
-                    break;
-                }
+            None if report.iterations == 0
+                && report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings) =>
+            {
+                break;
             }
             None => {}
         }

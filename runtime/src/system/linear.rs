@@ -1,12 +1,13 @@
 //! Sparse Cholesky factorisation A = L Lᵀ, analysed once and refactored for each new set of values.
 //!
 //! Sequential on purpose: at the sizes of real-time bodies (fewer than 10⁴ unknowns) threads cost more than they
-//! bring. This module knows no nodes; unknowns come already in an order that keeps L sparse.
+//! bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes; unknowns come already in an order that keeps L sparse.
 
 use std::fmt;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
@@ -34,7 +35,11 @@ impl Cholesky {
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, LinearError> {
         // Without a permutation faer takes the pattern to be an upper triangle, whatever the side it is told.
         let upper = pattern.transpose().to_col_major().map_err(|_| LinearError::OutOfMemory)?;
-        let parameters = CholeskySymbolicParams::default();
+        // Dense kernels pay from a few hundred unknowns on; by its own estimate faer would begin later.
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
         let symbolic =
             factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters)
                 .map_err(|_| LinearError::OutOfMemory)?;

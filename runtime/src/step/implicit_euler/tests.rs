@@ -232,8 +232,7 @@ fn a_collapsed_body_recovers_without_nan() {
     let flat = |x: &[f64; 3]| [0.0, x[1], x[2]];
     let point = |_: &[f64; 3]| [0.0; 3];
     let inside_out = |x: &[f64; 3]| [-x[0], x[1], x[2]];
-    let collapses: [&dyn Fn(&[f64; 3]) -> [f64; 3]; 3] = [&flat, &point, &inside_out];
-    for collapse in collapses {
+    for collapse in [flat as fn(&[f64; 3]) -> [f64; 3], point, inside_out] {
         let mut body = simulation(
             &mesh,
             ROTATED,
