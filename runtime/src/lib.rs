@@ -4,6 +4,45 @@
 //! implicit simulator needs: energy, first Piola stress, tangent and its semidefinite projection, element forces and
 //! stiffness, an implicit time step. No derivative is written by hand, no spacing of the stretches is special,
 //! inverted elements are ordinary elements.
+//!
+//! ```
+//! use piola::point::{Filter, evaluate};
+//! use piola::{Material, material};
+//!
+//! /// Compressible neo-Hookean solid.
+//! #[material(domain(J > 0.0), extend)]
+//! pub fn Rubber(
+//!     [l1, l2, l3]: [f64; 3],
+//!     /// Shear modulus μ, Pa.
+//!     mu: f64,
+//!     /// First Lamé parameter λ, Pa.
+//!     lambda: f64,
+//! ) -> f64 {
+//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let rubber = Rubber::new(1e6, 5e6)?;
+//! let shear: [[f64; 3]; 3] = [[1.0, 0.2, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let point = evaluate(&rubber, &shear, Filter::Clamp);
+//! assert!((point.stress[0][1] - 0.2e6).abs() < 1e-3);
+//! piola::contract::check(&rubber, &Default::default())?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! From the bottom up, each module knowing only those above it:
+//!
+//! * [`lanes`]: the real numbers everything is generic over;
+//! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
+//! * [`point`]: F to P and dP/dF through a signed singular value decomposition;
+//! * [`contract`]: what a material must satisfy, as functions for tests;
+//! * [`mesh`]: tetrahedra, their files, embedded surfaces;
+//! * [`system`]: forces, stiffness and their sparse assembly, pins, factorisation;
+//! * [`step`]: implicit Euler by Newton's method.
+//!
+//! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
+//! implicit Euler.
 
 extern crate self as piola;
 

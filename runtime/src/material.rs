@@ -2,7 +2,7 @@
 //!
 //! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches
 //! λ1 ≥ λ2 ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second derivatives
-//! in the stretches and, for each pair of them, two difference quotients (names after [SGK19]):
+//! in the stretches and, for each pair of them, two difference quotients (names after \[SGK19\]):
 //!
 //! ```text
 //! flip   D⁻ij = (ψi − ψj) / (λi − λj)
@@ -11,7 +11,7 @@
 //!
 //! Pairs are ordered (1,2), (1,3), (2,3) everywhere: [`PAIRS`].
 //!
-//! [SGK19] Smith, de Goes, Kim, *Analytic Eigensystems for Isotropic Distortion Energies*, 2019.
+//! \[SGK19\] Smith, de Goes, Kim, *Analytic Eigensystems for Isotropic Distortion Energies*, 2019.
 //!
 //! This module knows no matrices: how the derivatives become a stress is the business of [`crate::point`].
 
