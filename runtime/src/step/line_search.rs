@@ -1,11 +1,11 @@
 //! Backtracking: how much of a step to take.
 //!
-//! A trial is accepted where it decreases the objective enough [Arm66]. Near a minimum the decrease drowns in rounding;
+//! A trial is accepted where it decreases the objective enough \[Arm66\]. Near a minimum the decrease drowns in rounding;
 //! there the slope decides instead, which is still accurate: the "approximate Wolfe" condition [HZ05 eq. 4.1]. A trial
 //! outside the domain of the objective is a step too long.
 //!
-//! [Arm66] Armijo, *Minimization of functions having Lipschitz continuous first partial derivatives*, 1966.
-//! [HZ05] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line Search*, 2005.
+//! \[Arm66\] Armijo, *Minimization of functions having Lipschitz continuous first partial derivatives*, 1966.
+//! \[HZ05\] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line Search*, 2005.
 //!
 //! This module knows a function of one variable and nothing else.
 

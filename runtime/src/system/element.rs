@@ -12,7 +12,7 @@
 //! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the eigenvalues of
 //! the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements; both are semidefinite.
 //!
-//! [SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 //!
 //! This module knows no sparsity and no time.
 

@@ -1,9 +1,10 @@
 use super::*;
 use crate::mesh::{Bounds, TetMesh, read_msh};
 use crate::point::Filter;
+use crate::random::Random;
 use crate::step::{Convergence, NewtonSettings};
 use crate::system::ElementEnergy;
-use crate::system::testing::{KIRCHHOFF, NeoHookean, Noise, ROTATED, beam};
+use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 fn settings(newton: NewtonSettings) -> Settings {
     Settings { newton, ..Settings::default() }
@@ -65,9 +66,9 @@ fn a_free_body_keeps_its_momentum() {
         &Pins::none(),
         settings(NewtonSettings { tolerance: 1e-10, ..Default::default() }),
     );
-    let mut noise = Noise(3);
-    free.set_positions(&noise.shake(&mesh.positions, 0.02)).expect("finite");
-    free.set_velocities(&noise.shake(&vec![[0.0; 3]; mesh.positions.len()], 1.0)).expect("finite");
+    let mut random = Random::new(3);
+    free.set_positions(&shake(&mut random, &mesh.positions, 0.02)).expect("finite");
+    free.set_velocities(&shake(&mut random, &vec![[0.0; 3]; mesh.positions.len()], 1.0)).expect("finite");
     let before = total(free.body().masses(), free.velocities());
     for _ in 0..5 {
         free.step(0.01).expect("a step");
@@ -85,7 +86,7 @@ fn energy_never_grows_without_loads() {
     let mesh = beam(5);
     for newton in [NewtonSettings::single(), NewtonSettings::default()] {
         let mut body = simulation(&mesh, ROTATED, &left_end(&mesh), settings(newton));
-        let mut start = Noise(4).shake(&mesh.positions, 0.15);
+        let mut start = shake(&mut Random::new(4), &mesh.positions, 0.15);
         start[..4].copy_from_slice(&mesh.positions[..4]);
         body.set_positions(&start).expect("finite");
         let mut energy = body.energies().total();
@@ -254,9 +255,9 @@ fn a_collapsed_body_recovers_without_nan() {
 fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
     let mesh = beam(3);
     let pins = left_end(&mesh);
-    let soft = NeoHookean { mu: 3000.0, lambda: 3000.0 };
     let gravity = [-400.0, 0.0, 0.0];
-    let mut body = simulation(&mesh, soft, &pins, Settings { gravity, ..settings(NewtonSettings::single()) });
+    let mut body =
+        simulation(&mesh, NEO_HOOKEAN, &pins, Settings { gravity, ..settings(NewtonSettings::single()) });
     let mut refused = 0;
     for _ in 0..20 {
         let report = body.step(0.05).expect("a shorter step");
@@ -329,7 +330,7 @@ fn a_body_with_every_node_pinned_moves_as_told() {
 fn any_number_of_threads_gives_the_same_bits() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/assets/dinosaur.msh");
     let mesh = read_msh(path).expect("a committed mesh");
-    let start = Noise(5).shake(&mesh.positions, 0.05);
+    let start = shake(&mut Random::new(5), &mesh.positions, 0.05);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {

@@ -1,7 +1,8 @@
 use super::*;
+use crate::random::Random;
 use crate::system::Pins;
 use crate::system::linear::Cholesky;
-use crate::system::testing::{KIRCHHOFF, Noise, beam};
+use crate::system::testing::{KIRCHHOFF, beam, shake};
 use faer::sparse::SparseColMatRef;
 
 /// The matrix of a shaken beam with two pinned nodes: dense by plain scattering, sparse by gathering.
@@ -12,7 +13,7 @@ fn gathering_gives_what_scattering_gives() {
     let pins = Pins::at([5, 17]);
     let pattern = Pattern::new(mesh.positions.len(), body.elements(), &pins).expect("small");
     let mut elastic = Elastic::new(&body);
-    elastic.evaluate(&body, &Noise(1).shake(&mesh.positions, 0.01));
+    elastic.evaluate(&body, &shake(&mut Random::new(1), &mesh.positions, 0.01));
     elastic.evaluate_stiffnesses(&body, Filter::None);
     let mut values = vec![f64::NAN; pattern.entries().row_idx().len()];
     elastic.fill(&pattern, |node| node as f64, &mut values);
@@ -58,12 +59,12 @@ fn a_factor_solves_the_system_it_was_made_from() {
     elastic.evaluate_stiffnesses(&body, Filter::None);
     let mut values = vec![0.0; pattern.entries().row_idx().len()];
     let mut cholesky = Cholesky::new(pattern.entries()).expect("small");
-    let mut noise = Noise(2);
+    let mut random = Random::new(2);
     for diagonal in [1.0e3, 1.0e6] {
         elastic.fill(&pattern, |_| diagonal, &mut values);
         let matrix = SparseColMatRef::new(pattern.entries(), &values[..]);
         cholesky.factor(matrix).expect("positive definite");
-        let exact: Vec<f64> = (0..pattern.unknowns()).map(|_| noise.next()).collect();
+        let exact: Vec<f64> = (0..pattern.unknowns()).map(|_| random.uniform(-1.0, 1.0)).collect();
         let lower = matrix.to_dense();
         let entry = |i: usize, j: usize| if i >= j { lower[(i, j)] } else { lower[(j, i)] };
         let mut b: Vec<f64> =
