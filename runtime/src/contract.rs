@@ -19,16 +19,16 @@
 //! | [`stress_slope`] | difference quotients of ψ approach P as h² |
 //! | [`tangent_slope`] | difference quotients of P approach dP/dF as h² |
 //! | [`quotients`] | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
-//! | [`extension`] | across the threshold of an extension ψ stays twice differentiable, and below it drives inverted material back |
+//! | [`extension`] | ψ is twice differentiable across the threshold and drives inverted material back below it |
 //! | [`moduli`] | the small-strain moduli that a declaration states are those of its Hessian |
 //!
-//! A check returns what it found or the first [`Violation`]; nothing is printed, nothing panics. Samples are reproducible: they
-//! follow from [`Settings::seed`]. Points that the material does not admit are left out, and a check that could not compare
-//! anything says so.
+//! A check returns what it found or the first [`Violation`]; nothing is printed, nothing panics. Samples are
+//! reproducible: they follow from [`Settings::seed`]. Points that the material does not admit are left out, and a
+//! check that could not compare anything says so.
 //!
-//! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the tangent times the
-//! quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign or factor exceeds it by ten
-//! orders of magnitude.
+//! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the tangent
+//! times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign or factor
+//! exceeds it by ten orders of magnitude.
 //!
 //! This module knows materials only through their trait, and no way to repair them.
 
@@ -184,7 +184,8 @@ pub struct Report {
     pub findings: Vec<Finding>,
 }
 
-/// Checks every rule that needs no more than the [`Material`], the extension only where [`Settings::threshold`] is given.
+/// Checks every rule that needs no more than the [`Material`], the extension only where [`Settings::threshold`] is
+/// given.
 ///
 /// # Errors
 /// The first violation.

@@ -134,8 +134,8 @@ impl Material for RotatedLinear {
     }
 }
 
-/// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across ε, and with a pole
-/// where two stretches are opposite.
+/// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across ε,
+/// and with a pole where two stretches are opposite.
 pub(crate) struct ExtendedNeoHookean {
     pub(crate) epsilon: f64,
 }

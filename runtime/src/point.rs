@@ -1,13 +1,14 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
-//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames carry them
-//! back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames ([`tangent`], which derives it),
-//! made semidefinite on request ([`mod@project`]). Everything is generic over the real type, and what cannot be computed is said
-//! in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames
+//! carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames
+//! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Everything is generic over the
+//! real type, and what cannot be computed is said in a [`Status`] instead of an error, because a point may be one
+//! of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
-//! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a column for
-//! each entry of F.
+//! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a
+//! column for each entry of F.
 //!
 //! This module knows no particular material and no mesh.
 
@@ -63,6 +64,7 @@ pub struct Point<R: Real> {
 
 /// The energy density ψ(F), Pa, and its status. Computes no derivative.
 #[inline(always)]
+#[must_use]
 pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R, Status<R::Mask>) {
     let svd = decompose(material, F);
     let energy = material.energy(svd.stretches);
@@ -73,6 +75,7 @@ pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R,
 
 /// The first Piola stress P(F), Pa, and its status. Computes no second derivative.
 #[inline(always)]
+#[must_use]
 pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
     let svd = decompose(material, F);
     let gradient = material.gradient(svd.stretches);
@@ -85,6 +88,7 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
 ///
 /// Outside the domain of the energy the status says `refused` and the numbers mean nothing.
 #[inline(always)]
+#[must_use]
 pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
     let svd = decompose(material, F);
     let blocks = material.blocks(svd.stretches);

@@ -4,9 +4,9 @@ use super::{Finding, Judge, Rule, Settings, Violation, gradient_name, slopes};
 use crate::material::Material;
 use crate::random::Random;
 
-/// For a material built with `Inversion::Extend { epsilon }`: it admits every point; at and around λ3 = ε difference quotients
-/// approach P and dP/dF (as h, since third derivatives jump there), deep inside inversion as h²; and
-/// ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
+/// For a material built with `Inversion::Extend { epsilon }`: it admits every point; at and around λ3 = ε
+/// difference quotients approach P and dP/dF (as h, since third derivatives jump there), deep inside inversion as
+/// h²; and ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
 ///
 /// # Errors
 /// The first violation.

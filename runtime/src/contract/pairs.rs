@@ -1,14 +1,16 @@
 //! The rule on quotients: flips and twists against means of second derivatives, which cancel nowhere.
 //!
-//! On the line x = m + t, y = m − t the difference ψx − ψy vanishes at t = 0 and has the slope ψxx − 2ψxy + ψyy, so that
+//! On the line x = m + t, y = m − t the difference ψx − ψy vanishes at t = 0 and has the slope ψxx − 2ψxy + ψyy, so
+//! that
 //!
 //! ```text
 //! D⁻(m + T, m − T) = (ψx − ψy)/2T = mean over 0 ≤ t ≤ T of (ψxx − 2ψxy + ψyy)/2
 //! ```
 //!
 //! for every gap 2T, zero included. On x = t + m, y = t − m the sum ψx + ψy of an even energy does likewise with
-//! ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to full accuracy over
-//! gaps of a tenth of the stretches. Elsewhere nothing cancels and the quotients are what their definition says.
+//! ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to full
+//! accuracy over gaps of a tenth of the stretches. Elsewhere nothing cancels and the quotients are what their
+//! definition says.
 
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, samples, stiffness};
 use crate::material::{Blocks, Material, PAIRS};
@@ -110,7 +112,8 @@ fn opposite(
     judge.compare(|| pair_name("twist", 2), stored, blocks.twist[2], expected, tolerance(&blocks))
 }
 
-/// Second derivatives are known to some u times the largest of them, and to as much again from the stretches' rounding.
+/// Second derivatives are known to some u times the largest of them, and to as much again from the stretches'
+/// rounding.
 fn tolerance(blocks: &Blocks<f64>) -> f64 {
     200.0 * UNIT * stiffness(blocks)
 }

@@ -1,7 +1,8 @@
-//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding takes over.
+//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding takes
+//! over.
 //!
-//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative leaves an error
-//! that does not shrink with h.
+//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative leaves
+//! an error that does not shrink with h.
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
@@ -38,7 +39,8 @@ pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Fi
     judge.finding()
 }
 
-/// A random frame and direction at these stretches, the direction so short that no step of ½ changes the sign of det F or reaches a pole.
+/// A random frame and direction at these stretches, the direction so short that no step of ½ changes the sign of
+/// det F or reaches a pole.
 fn line(stretches: [f64; 3], random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
     let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
     let A = random.matrix();
@@ -92,8 +94,8 @@ pub(super) fn stress_at(
 
 /// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
 ///
-/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One step alone would
-/// not do: its error may happen to vanish between two orders of opposite sign.
+/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One step
+/// alone would not do: its error may happen to vanish between two orders of opposite sign.
 fn slope(
     judge: &mut Judge,
     name: impl Fn() -> String + Copy,

@@ -1,12 +1,13 @@
 //! Filters that make a tangent positive semidefinite, exactly and eigenvalue by eigenvalue.
 //!
 //! In the basis of the diagonal entries and (ij ± ji)/√2 the tangent is diagonal but for one 3×3 block (see
-//! [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian ψij. Filtering them is
-//! filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered dP/dF is pulled back: that is
-//! not the same as filtering the 12×12 stiffness, which some codes do, unless the element is regular.
+//! [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian ψij.
+//! Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered dP/dF
+//! is pulled back: that is not the same as filtering the 12×12 stiffness, which some codes do, unless the element
+//! is regular.
 //!
-//! What floating point does here. A filtered eigenvalue is zero up to u ‖dP/dF‖ of either sign; where nothing is negative
-//! beyond doubt, the block comes back bit for bit.
+//! What floating point does here. A filtered eigenvalue is zero up to u ‖dP/dF‖ of either sign; where nothing is
+//! negative beyond doubt, the block comes back bit for bit.
 //!
 //! \[CLLZJ24\] Chen, Liu, Levin, Zheng, Jacobson, *Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for
 //! Projected Newton*, 2024.
@@ -76,16 +77,16 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     (projected, filtered)
 }
 
-/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it is positive
-/// beyond doubt, zero.
+/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it is
+/// positive beyond doubt, zero.
 #[inline(always)]
 fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
     let largest = A.into_iter().fold(R::splat(0.0), |m, x| m.max(x.abs()));
     let (scale, back) = largest.power_of_two_scale();
     let scaled = A.map(|x| x * scale);
 
-    // Both answers are defined for each number of a batch by itself; only the work for the second one is skipped, and only if none
-    // needs it. So a number's result never depends on its neighbours.
+    // Both answers are defined for each number of a batch by itself; only the work for the second one is skipped,
+    // and only if none needs it. So a number's result never depends on its neighbours.
     let definite = surely_definite(scaled);
     if !(!definite).any() {
         return (A, R::splat(0.0));
@@ -128,19 +129,22 @@ fn surely_definite<R: Real>(A: [R; 6]) -> R::Mask {
     zero.less(d1) & zero.less(d2) & zero.less(d3)
 }
 
-/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic Jacobi rotations.
+/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic Jacobi
+/// rotations.
 #[inline(always)]
 fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let [a11, a22, a33, a12, a13, a23] = A;
     let mut A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
     let mut Q = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small to matter elsewhere.
+    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small to
+    // matter elsewhere.
     let floor = R::splat(R::MIN_POSITIVE.sqrt());
     for _ in 0..sweeps(R::UNIT_ROUNDOFF) {
         for (p, q) in PAIRS {
             let r = 3 - p - q;
-            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation [Golub, Van Loan, 8.5].
+            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation [Golub, Van
+            // Loan, 8.5].
             let d = A[q][q] - A[p][p];
             let g = A[p][q] + A[p][q];
             let magnitude = g / (d.abs() + d.mul_add(d, g * g).sqrt() + floor);

@@ -1,7 +1,7 @@
 //! The first Piola stress of a point: P = U diag(ψi) Vᵀ.
 //!
-//! This is \[SZLSB11\] eq. 2 with its misprint mended: the stress of an isotropic energy is diagonal in the same two frames as F,
-//! and the second one enters transposed.
+//! This is \[SZLSB11\] eq. 2: the stress of an isotropic energy is diagonal in the same
+//! two frames as F, and the second one enters transposed.
 //!
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 

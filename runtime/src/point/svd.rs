@@ -1,13 +1,13 @@
 //! The signed singular value decomposition of a deformation gradient.
 //!
-//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\]. The method is
-//! one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one first, for a fixed number of
-//! sweeps. There is no branch on a value and no count that depends on one, so that a matrix among others in lanes
-//! gets the bits it would get alone.
+//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\]. The
+//! method is one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one first, for a
+//! fixed number of sweeps. There is no branch on a value and no count that depends on one, so that a matrix among
+//! others in lanes gets the bits it would get alone.
 //!
 //! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares neither
-//! overflow nor, where they matter, underflow. V is accumulated as a quaternion and U is built around its first column:
-//! both are rotations by construction, whatever the rank of F, instead of matrices that may turn out to be
+//! overflow nor, where they matter, underflow. V is accumulated as a quaternion and U is built around its first
+//! column: both are rotations by construction, whatever the rank of F, instead of matrices that may turn out to be
 //! reflections. Each stretch is known to a few u λ1 and no better, as from any backward-stable method; when λ3 is
 //! smaller than that, so is its sign, unless [`svd_signed_by_determinant`] takes it from the determinant.
 //!
@@ -40,9 +40,9 @@ pub struct Svd<R> {
 
 /// Decomposes F; see [`Svd`].
 ///
-/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 20 u λ1 and ‖UᵀU − I‖, ‖VᵀV − I‖ ≤ 20 u for every finite F. F = 0 gives
-/// U = V = I. Where F holds an infinity or NaN, so does every stretch; where λ1 exceeds the largest finite number, it is
-/// infinite.
+/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 20 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I exceeds
+/// 20 u. F = 0 gives U = V = I. Where F holds an infinity or NaN, so does every stretch; where λ1 exceeds the largest
+/// finite number, it is infinite.
 ///
 /// ```
 /// let svd = piola::point::svd::svd(&[[0.0, -2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -0.5]]);
@@ -58,9 +58,10 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
 ///
-/// For energies whose domain ends at det F = 0: there the sign of a tiny λ3 decides whether a deformation is admissible,
-/// and its logarithm wants all the relative accuracy that F can give. The sign is right wherever
-/// |det F| > 2⁵u²·λ1³ (in `f64` 4·10⁻³¹ λ1³) and no product of three entries underflows. Error bounds are those of [`svd`].
+/// For energies whose domain ends at det F = 0: there the sign of a tiny λ3 decides whether a deformation is
+/// admissible, and its logarithm wants all the relative accuracy that F can give. The sign is right wherever the
+/// determinant exceeds 2⁵u²·λ1³ (in `f64` 4·10⁻³¹ λ1³) and no product of three entries of F/λ1 comes within 1/u of
+/// underflow. Error bounds are those of [`svd()`].
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
@@ -86,7 +87,8 @@ impl<R: Real> Scaled<R> {
         let largest = F.iter().flatten().fold(R::splat(0.0), |largest, x| largest.max(x.abs()));
         let (scale, back) = largest.power_of_two_scale();
         let F = F.map(|row| row.map(|x| x * scale));
-        // Finite entries are below 4 here, so their sum cannot overflow; `max` above has dropped NaNs, a sum keeps them.
+        // Finite entries are below 4 here, so their sum cannot overflow; `max` above has dropped NaNs, a sum keeps
+        // them.
         let finite = F.iter().flatten().fold(R::splat(0.0), |sum, x| sum + x.abs()).is_finite();
         Self { F, back, finite }
     }
@@ -99,7 +101,8 @@ impl<R: Real> Scaled<R> {
 
 /// Sweeps after which the columns are orthogonal to working precision: 4 for u = 2⁻²⁴, 5 for 2⁻⁵³, 6 for 2⁻¹⁰⁶.
 ///
-/// Convergence is quadratic: four sweeps bring every 3×3 matrix that a search found below 2⁻²⁷, each further one squares that.
+/// Convergence is quadratic: four sweeps bring every 3×3 matrix that a search found below 2⁻²⁷, each further one
+/// squares that.
 pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
     let mut reached = 1.0 / (1u64 << 27) as f64;
     let mut sweeps = 4;
@@ -121,8 +124,8 @@ fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
         }
     }
     let V = rotation_matrix(quaternion);
-    // The columns have collected the rounding of all rotations; F V anew has that of one product, which brings the worst
-    // backward error of the tests from 19 u to 13 u.
+    // The columns have collected the rounding of all rotations; F V anew has that of one product, which brings the
+    // worst backward error of the tests from 19 u to 13 u.
     let columns = [0, 1, 2].map(|k| F.map(|row| dot(row, column(&V, k))));
     let (U, stretches) = left(&columns);
     (U, descending(stretches), V)
@@ -143,12 +146,12 @@ fn orthogonalize<R: Real>(columns: &mut [[R; 3]; 3], quaternion: &mut [R; 4], pa
 
 /// Cosine and sine of θ with tan 2θ = g/d, where d = |bp|² − |bq|² and g = 2 bp·bq, and cos θ ≥ 0.
 ///
-/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both cases the root
-/// that leaves |bp| ≥ |bq|.
+/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both cases
+/// the root that leaves |bp| ≥ |bq|.
 #[inline(always)]
 fn rotation<R: Real>(d: R, g: R) -> (R, R) {
-    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0. A power of two
-    // whose square is normal, so that c² + s² = 1 holds to rounding down here too.
+    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0. A power of
+    // two whose square is normal, so that c² + s² = 1 holds to rounding down here too.
     let floor = R::splat(R::MIN_POSITIVE.sqrt());
     let x = d.abs() + d.mul_add(d, g * g).sqrt() + floor;
     let swap = d.less(R::splat(0.0));
@@ -178,8 +181,8 @@ fn turn<R: Real>(quaternion: &mut [R; 4], pair: usize, c: R, s: R) {
 
 /// The rotation of a quaternion of any positive norm.
 ///
-/// All entries are divided by |q|², the diagonal too: an error of that divisor then disturbs VᵀV half as much as in the
-/// usual form 1 − 2 (y² + z²)/|q|².
+/// All entries are divided by |q|², the diagonal too: an error of that divisor then disturbs VᵀV half as much as in
+/// the usual form 1 − 2 (y² + z²)/|q|².
 #[inline(always)]
 fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
     let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
@@ -196,8 +199,8 @@ fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
 
 /// U and λ from columns bk = λk uk that are orthogonal up to rounding, the longest first.
 ///
-/// Only the direction of the first column and the one of the second within the plane normal to it are used, and the third is
-/// their completion: det U = +1 for any rank, and λ3 = u3·b3 carries the sign of det F.
+/// Only the direction of the first column and the one of the second within the plane normal to it are used, and the
+/// third is their completion: det U = +1 for any rank, and λ3 = u3·b3 carries the sign of det F.
 #[inline(always)]
 fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -237,8 +240,8 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
 
 /// λ1 ≥ λ2 ≥ |λ3|.
 ///
-/// The columns are sorted already, their lengths out of order by a few u λ1 at most. Exchanging the lengths alone changes
-/// U diag(λ) Vᵀ by no more than that, and the vectors of stretches so close are arbitrary anyway.
+/// The columns are sorted already, their lengths out of order by a few u λ1 at most. Exchanging the lengths alone
+/// changes U diag(λ) Vᵀ by no more than that, and the vectors of stretches so close are arbitrary anyway.
 #[inline(always)]
 fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
     let magnitude = s3.abs();

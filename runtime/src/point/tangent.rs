@@ -2,25 +2,27 @@
 //!
 //! # From the singular value decomposition to fifteen numbers
 //!
-//! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. Nine 2×2 systems per pair of stretches give those, and
-//! where two stretches meet the systems are singular. This derivation follows the same equations up to that point and
-//! then leaves out the systems: what they would be solved for cancels.
+//! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. A 2×2 system for each pair of stretches and
+//! each of the nine entries of F gives those, and where two stretches meet these systems are singular. This
+//! derivation follows the same equations up to that point and then leaves out the systems: what they would be solved
+//! for cancels. The numbers of the paper's equations stand beside ours; where these differ, the paper has a misprint.
 //!
 //! With F̂ = Λ = diag(λ) and P̂ = diag(ψ1, ψ2, ψ3), where ψi = ∂ψ/∂λi,
 //!
 //! ```text
-//! F = U Λ Vᵀ,   P = U P̂ Vᵀ                                              (eq. 2, which prints V for Vᵀ)
+//! F = U Λ Vᵀ,   P = U P̂ Vᵀ                                    (eq. 2)
 //! ```
 //!
 //! **Differentiate both** along any dF:
 //!
 //! ```text
-//! dF = dU Λ Vᵀ + U dΛ Vᵀ + U Λ dVᵀ                                      (eq. 4, which lacks the last U)
-//! dP = dU P̂ Vᵀ + U dP̂ Vᵀ + U P̂ dVᵀ                                      (eq. 3, whose last term is misprinted)
+//! dF = dU Λ Vᵀ + U dΛ Vᵀ + U Λ dVᵀ                            (eq. 4, which lacks the last U)
+//! dP = dU P̂ Vᵀ + U dP̂ Vᵀ + U P̂ dVᵀ                            (eq. 3, in whose last term Vᵀ varies)
 //! ```
 //!
-//! **Look at them in the principal frames.** Write dF̂ = Uᵀ dF V for the increment seen from there (not the increment of
-//! F̂), likewise Uᵀ dP V, and Ω = Uᵀ dU, Θ = dVᵀ V. As U and V remain rotations, Ω and Θ are antisymmetric.
+//! **Look at them in the principal frames.** Write dF̂ = Uᵀ dF V for the increment seen from there (not the
+//! increment of F̂), likewise Uᵀ dP V, and Ω = Uᵀ dU, Θ = dVᵀ V. As U and V remain rotations, Ω and Θ are
+//! antisymmetric.
 //!
 //! ```text
 //! Uᵀ dF V = Ω Λ + dΛ + Λ Θ
@@ -30,15 +32,18 @@
 //! **The diagonal.** Ω and Θ vanish there, so dλi = dF̂ii, and by the chain rule
 //!
 //! ```text
-//! (Uᵀ dP V)ii = Σj ψij dF̂jj                                             (eq. 5 prints ψii alone; the whole row is needed)
+//! (Uᵀ dP V)ii = Σj ψij dF̂jj                  (eq. 5, which needs the whole row, not ψii alone)
 //! ```
 //!
-//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two entries of the answer:
+//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two entries
+//! of the answer:
 //!
 //! ```text
 //! dF̂ij =  Ωij λj + λi Θij         (Uᵀ dP V)ij =  Ωij ψj + ψi Θij
-//! dF̂ji = −Ωij λi − λj Θij         (Uᵀ dP V)ji = −Ωij ψi − ψj Θij          (eq. 6, whose second right side is −u_il v_jk)
+//! dF̂ji = −Ωij λi − λj Θij         (Uᵀ dP V)ji = −Ωij ψi − ψj Θij          (eq. 6)
 //! ```
+//!
+//! (For a dF with a single 1 at (i, j), dF̂kl = u_ik v_jl: the right sides of eq. 6 are that and −u_il v_jk.)
 //!
 //! The system on the left has the determinant λi² − λj²; solving it is where the paper regularises. Take sums and
 //! differences instead, and each line knows one unknown only:
@@ -48,10 +53,10 @@
 //! dF̂ij − dF̂ji = (λi + λj)(Ωij + Θij)       (Uᵀ dP V)ij − (Uᵀ dP V)ji = (ψi + ψj)(Ωij + Θij)
 //! ```
 //!
-//! so that the sum is multiplied by the *flip* D⁻ij = (ψi − ψj)/(λi − λj) and the difference by the *twist*
-//! D⁺ij = (ψi + ψj)/(λi + λj). Ω and Θ are gone, and with them every division: that both quotients are
-//! smooth functions of the stretches (the twist only for energies even in two stretches at once) is a matter of the energy,
-//! and its [`Material::blocks`](crate::Material::blocks) computes them without ever forming the gap. A pair of equal
+//! so that the sum is multiplied by the *flip* D⁻ij = (ψi − ψj)/(λi − λj) and the difference by the *twist* D⁺ij =
+//! (ψi + ψj)/(λi + λj). Ω and Θ are gone, and with them every division: that both quotients are smooth functions of
+//! the stretches (the twist only for energies even in two stretches at once) is a matter of the energy, and its
+//! [`Material::blocks`](crate::Material::blocks) computes them without ever forming the gap. A pair of equal
 //! stretches, where U and V are arbitrary, is nothing special.
 //!
 //! **Together**, with a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2:
@@ -62,24 +67,25 @@
 //! ⎣33⎦   ⎣ψ13 ψ23 ψ33⎦ ⎣33⎦
 //! ```
 //!
-//! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs to (ij + ji)/√2, a
-//! change of shape, and equals 2μ at rest; D⁺ belongs to (ij − ji)/√2, an infinitesimal rotation, and is 0 at rest. The map
-//! has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of [`Blocks`]. Its eigenvalues are those of dP/dF, since
-//! dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so [`project`](mod@super::project) works on it instead.
+//! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs to the
+//! plus sign, a change of shape, and equals 2μ at rest; D⁺ belongs to the minus sign, an infinitesimal rotation, and
+//! is 0 at rest. The map has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of [`Blocks`]. Its
+//! eigenvalues are those of dP/dF, since dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so
+//! [`project`](mod@super::project) works on it instead.
 //!
 //! # From fifteen numbers to matrices
 //!
-//! With αii = ψii, αij = a, βij = b, the entry of dP/dF between (row, column) of P and of F is a sum of products of two
-//! entries of U and two of V:
+//! With αii = ψii, αij = a, βij = b, the entry of dP/dF between (row, column) of P and of F is a sum of products of
+//! two entries of U and two of V:
 //!
 //! ```text
 //! ∂Pax/∂Fcy = Σ_lm αlm (Ual Ucl)(Vxm Vym) + Σ_i<j  Uai Ucj (ψij Vxi Vyj + bij Vxj Vyi)
 //!                                                + Uaj Uci (ψij Vxj Vyi + bij Vxi Vyj)
 //! ```
 //!
-//! [`contract`] evaluates it with the products of V shared among all (a, c) and those of U among all (x, y). Nothing in it
-//! asks V to be orthogonal, nor to be about columns of F: with √volume·Dm⁻ᵀ-transformed rows in place of V it gives an
-//! element's stiffness, whose product of 9×12, 9×9 and 12×9 matrices is thereby never formed.
+//! [`contract`] evaluates it with the products of V shared among all (a, c) and those of U among all (x, y).
+//! Nothing in it asks V to be orthogonal, nor to be about columns of F: with √volume·Dm⁻ᵀ-transformed rows in place
+//! of V it gives an element's stiffness, whose product of 9×12, 9×9 and 12×9 matrices is thereby never formed.
 //!
 //! This module knows no material and no mesh.
 //!
@@ -162,13 +168,13 @@ impl<R: Real> Blocks<R> {
 
 /// The symmetric matrix K = (U ⊗ W) A (U ⊗ W)ᵀ of the [`Blocks`] A, handed out as 3×3 blocks.
 ///
-/// `emit(a, c, block)` is called for the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c are
-/// coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K between (c, y) and
-/// (a, x) is the same number as between (a, x) and (c, y).
+/// `emit(a, c, block)` is called for the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c
+/// are coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K
+/// between (c, y) and (a, x) is the same number as between (a, x) and (c, y).
 ///
-/// With W = V, K is dP/dF. With `W[n]` = √volume · Vᵀ∇Nn for the gradients of three shape functions over the rest shape, K is
-/// the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum. About 490
-/// multiplications and additions.
+/// With W = V, K is dP/dF. With `W[n]` = √volume · Vᵀ∇Nn for the gradients of three shape functions over the rest
+/// shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum.
+/// About 490 multiplications and additions.
 #[inline(always)]
 pub fn contract<R: Real>(
     U: &Matrix3<R>,
@@ -228,7 +234,8 @@ pub fn contract<R: Real>(
                         lower = direct[pair].mul_add(there, swapped[pair].mul_add(here, lower));
                     }
                     block[x][y] = upper;
-                    // The same number where a = c; copying it makes the symmetry exact with or without fused operations.
+                    // The same number where a = c; copying it makes the symmetry exact with or without fused
+                    // operations.
                     block[y][x] = if a == c { upper } else { lower };
                 }
             }
