@@ -25,6 +25,14 @@ pub fn max_distance(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// The mean distance between points of the same index, m; 0 where one side has none.
+#[must_use]
+pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
+    let distances =
+        before.iter().zip(after).map(|(&one, &other)| (Point::from(one) - Point::from(other)).norm());
+    distances.sum::<f64>() / before.len().max(1) as f64
+}
+
 /// The positions after the rotation and translation that bring them closest to rest, in the least-squares sense.
 ///
 /// With centred rest points qᵢ and centred positions pᵢ, the rotation that maximises Σ qᵢ·R pᵢ is the unit quaternion

@@ -18,6 +18,8 @@ use crate::settings::Settings;
 
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
+/// How many frames are kept in memory to choose the tiles from.
+const CANDIDATES: usize = 400;
 /// The springs of a pull are together this much stiffer than a cube of the body's material and height.
 const GRIP: f64 = 10.0;
 
@@ -39,7 +41,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
     let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
     let mut simulation =
         Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
-    let start = start(settings.scene.start, mesh, &pins);
+    let start = start(settings.scene.start, &geometry, &pins);
     simulation.set_positions(&start).map_err(|error| setup(&error))?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
     let threads = threads.map_err(|error| Error::Threads { reason: error.to_string() })?;
@@ -116,20 +118,20 @@ fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
 }
 
 /// Where the nodes are in frame 0.
-fn start(start: Start, mesh: &TetMesh, pins: &Pins) -> Vec<[f64; 3]> {
-    let mut positions = mesh.positions.clone();
+fn start(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
+    let rest = &geometry.mesh.positions;
     match start {
-        Start::Rest => {}
+        Start::Rest => rest.clone(),
         Start::Flattened => {
-            let ground = mesh.bounds().min[1];
-            for (node, position) in positions.iter_mut().enumerate() {
-                if pins.nodes().binary_search(&node).is_err() {
-                    position[1] = ground;
-                }
-            }
+            // The cage of tetrahedra reaches below the surface, and the ground lies under the surface.
+            let heights = geometry.surface_at(rest).into_iter().map(|vertex| f64::from(vertex[1]));
+            let ground = heights.fold(f64::INFINITY, f64::min);
+            let flat = |(node, &[x, y, z]): (usize, &[f64; 3])| {
+                if pins.nodes().binary_search(&node).is_ok() { [x, y, z] } else { [x, ground, z] }
+            };
+            rest.iter().enumerate().map(flat).collect()
         }
     }
-    positions
 }
 
 /// The pulls of a scene on the nodes of a body.
@@ -186,43 +188,92 @@ struct Recording<'a> {
     geometry: &'a Geometry,
     folder: Folder,
     dt: f64,
-    /// Frames that go on the contact sheet, ascending.
-    chosen: Vec<usize>,
-    tiles: Vec<render::Frame>,
+    last: usize,
     min_det_f: f64,
+    /// Node positions of the frame before, m.
+    before: Vec<[f64; 3]>,
+    /// Sum over all steps of the mean distance that nodes have moved, m.
+    path: f64,
+    /// What may become tiles, and the path up to there. Only the frames that `stride` divides are kept, and the last.
+    candidates: Vec<(render::Frame, f64)>,
+    stride: usize,
 }
 
 impl<'a> Recording<'a> {
     fn new(geometry: &'a Geometry, settings: &Settings, folder: Folder) -> Self {
-        let chosen = evenly_chosen(settings.frames, TILES);
-        Self { geometry, folder, dt: settings.dt, chosen, tiles: Vec::new(), min_det_f: f64::INFINITY }
+        Self {
+            geometry,
+            folder,
+            dt: settings.dt,
+            last: settings.frames,
+            min_det_f: f64::INFINITY,
+            before: Vec::new(),
+            path: 0.0,
+            candidates: Vec::new(),
+            stride: 1,
+        }
     }
 
     fn frame(&mut self, number: usize, positions: &[[f64; 3]]) -> Result<(), Error> {
         let mesh = &self.geometry.mesh;
         self.min_det_f = self.min_det_f.min(measure::min_det_f(&mesh.positions, positions, &mesh.tets));
+        self.path += measure::mean_distance(&self.before, positions);
+        self.before.clear();
+        self.before.extend_from_slice(positions);
+
         let vertices = self.geometry.surface_at(positions);
         self.folder
             .write(&frame_file(number), |file| write_ply(file, &vertices, &self.geometry.triangles))?;
-        if self.chosen.contains(&number) {
-            self.tiles.push(render::Frame { number, time: number as f64 * self.dt, vertices });
+        if number.is_multiple_of(self.stride) || number == self.last {
+            let frame = render::Frame { number, time: number as f64 * self.dt, vertices };
+            self.candidates.push((frame, self.path));
+        }
+        if self.candidates.len() > CANDIDATES {
+            self.stride *= 2;
+            self.candidates.retain(|(frame, _)| frame.number.is_multiple_of(self.stride));
         }
         Ok(())
     }
 
     fn finish(mut self, settings: &Settings, summary: &Summary) -> Result<(), Error> {
-        let picture = contact_sheet(&self.tiles, &self.geometry.triangles, &settings.scene.style);
+        // Half of the spacing follows time and half the motion, of which most may happen in few frames.
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let progress: Vec<_> = self
+            .candidates
+            .iter()
+            .map(|(frame, path)| share(frame.number as f64, self.last as f64) + share(*path, self.path))
+            .collect();
+        let chosen = evenly_spread(&progress, TILES);
+        let tiles: Vec<_> = chosen.into_iter().map(|index| self.candidates[index].0.clone()).collect();
+        let picture = contact_sheet(&tiles, &self.geometry.triangles, &settings.scene.style);
         self.folder.write(PICTURE_FILE, |file| picture.write_png(file).map_err(Into::into))?;
         self.folder.write(SUMMARY_FILE, |file| summary.write_json(file))?;
         self.folder.publish()
     }
 }
 
-/// At most `count` of the frames 0 … last, evenly spaced, both ends among them.
-fn evenly_chosen(last: usize, count: usize) -> Vec<usize> {
-    let gaps = count - 1;
-    let mut chosen: Vec<_> = (0..count).map(|k| (k * last + gaps / 2) / gaps).collect();
-    chosen.dedup();
+/// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both ends among
+/// them.
+fn evenly_spread(progress: &[f64], count: usize) -> Vec<usize> {
+    let (Some(first), Some(last)) = (progress.first(), progress.last()) else { return Vec::new() };
+    let count = count.min(progress.len());
+    let mut chosen = Vec::with_capacity(count);
+    let mut next = 0;
+    for k in 0..count {
+        let wanted = first + (last - first) * k as f64 / (count - 1).max(1) as f64;
+        let after = progress.partition_point(|&other| other < wanted);
+        let nearest = match after {
+            0 => 0,
+            after if after == progress.len() => after - 1,
+            after if wanted - progress[after - 1] < progress[after] - wanted => after - 1,
+            after => after,
+        };
+        // Enough must be left for those still to come, and of equal numbers at the end the last is wanted.
+        let latest = progress.len() - (count - k);
+        let index = if k + 1 == count { latest } else { nearest.clamp(next, latest) };
+        chosen.push(index);
+        next = index + 1;
+    }
     chosen
 }
 
@@ -244,9 +295,12 @@ mod tests {
 
     #[test]
     fn chosen_frames_are_spread_from_first_to_last() {
-        assert_eq!(evenly_chosen(150, 12), [0, 14, 27, 41, 55, 68, 82, 95, 109, 123, 136, 150]);
-        assert_eq!(evenly_chosen(3, 12), [0, 1, 2, 3]);
-        assert_eq!(evenly_chosen(1, 12), [0, 1]);
+        let steady: Vec<_> = (0..=150).map(f64::from).collect();
+        assert_eq!(evenly_spread(&steady, 12), [0, 14, 27, 41, 55, 68, 82, 95, 109, 123, 136, 150]);
+        assert_eq!(evenly_spread(&steady[..4], 12), [0, 1, 2, 3]);
+        assert_eq!(evenly_spread(&[0.0, 8.0, 9.0, 9.5, 10.0], 3), [0, 1, 4]);
+        assert_eq!(evenly_spread(&[0.0, 10.0, 10.0, 10.0], 3), [0, 1, 3]);
+        assert_eq!(evenly_spread(&[], 3), [0; 0]);
     }
 
     #[test]

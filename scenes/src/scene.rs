@@ -8,7 +8,7 @@
 mod dinosaur;
 mod horse;
 
-pub use dinosaur::{DINOSAUR, DINOSAUR_WRENCHED};
+pub use dinosaur::{DINOSAUR, DINOSAUR_OVERSTRETCHED};
 pub use horse::HORSE;
 
 use piola::mesh::Bounds;
@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::render::Style;
 
 /// Every scene, in the order in which they are listed.
-pub const SCENES: &[&Scene] = &[&HORSE, &DINOSAUR, &DINOSAUR_WRENCHED];
+pub const SCENES: &[&Scene] = &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED];
 
 /// A body, what it is made of and what is done to it.
 #[derive(Clone, Debug)]
@@ -65,7 +65,8 @@ pub struct Asset {
 pub enum Start {
     /// Where the mesh has them.
     Rest,
-    /// All that are not pinned are moved straight down or up to the height of the lowest node.
+    /// All that are not pinned are moved straight down, or up, into the horizontal plane under the surface's lowest
+    /// vertex.
     Flattened,
 }
 

@@ -47,7 +47,7 @@ pub struct Frame {
 
 /// Draws frames of a deforming surface as tiles of one picture, seen by one camera that fits them all.
 ///
-/// The floor lies under the lowest point that any frame reaches. Vertices that are not finite are left out.
+/// The floor lies under the lowest point of the body in half of the frames. Vertices that are not finite are left out.
 #[must_use]
 pub fn contact_sheet(frames: &[Frame], triangles: &[[u32; 3]], style: &Style) -> Image {
     let columns = frames.len().clamp(1, COLUMNS);
@@ -93,8 +93,15 @@ impl Stage {
         // High over the left shoulder of whoever looks, so that shadows fall to the right and stay short.
         let left = Vector::y().cross(&from).normalize() * -1.0;
         let key = Vector::y() * 1.5 + left * 0.6 + from * 0.75;
+        // A frame or two may swing through the floor without lowering it for the others.
+        let mut lowest: Vec<f32> = frames
+            .iter()
+            .map(|frame| frame.vertices.iter().map(|vertex| vertex[1]).fold(f32::INFINITY, f32::min))
+            .filter(|height| height.is_finite())
+            .collect();
+        lowest.sort_unstable_by(f32::total_cmp);
         // A flattened body lies on the floor, not in it.
-        let floor = low.y - 0.004 * radius;
+        let floor = lowest.get(lowest.len() / 2).unwrap_or(&low.y) - 0.004 * radius;
         Some(Self { camera, key, centre: 0.5 * (low + high), radius, floor })
     }
 
