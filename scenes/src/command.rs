@@ -14,7 +14,7 @@ use piola_scenes::settings::{Files, Settings};
 
 /// Elastic bodies that collapse, invert and recover.
 ///
-/// Without arguments, runs the scene `horse`.
+/// Without arguments, runs the scene `horse` and writes to the folder out/horse.
 #[derive(Debug, Parser)]
 #[command(version)]
 pub(crate) struct Cli {
@@ -46,7 +46,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     dt: Option<f64>,
 
-    /// Material, as listed by `piola materials`; every parameter of it is then asked for [default: the scene's].
+    /// Material, as listed by `piola materials`, with --param for each of its parameters [default: the scene's].
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
 
@@ -54,9 +54,8 @@ pub(crate) struct Run {
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<(String, Vec<f64>)>,
 
-    /// What a material that is not defined for inverted elements does with them: `refuse` makes the line search take a
-    /// shorter step; a stretch between 0 and 1 is where the energy is continued from by polynomials [default: 0.1
-    /// where the material allows it].
+    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the energy is
+    /// extended by polynomials [default: 0.1 where it can be].
     #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
     inversion: Option<Inversion>,
 
@@ -68,12 +67,12 @@ pub(crate) struct Run {
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     gravity: Option<f64>,
 
-    /// Nodes to hold, in place of the scene's: a physical group of the mesh by its name, or a box as three ranges
-    /// LOW:HIGH in m, either side open if left out, such as `:,:0.05,:`. May be repeated.
+    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box LOW:HIGH,LOW:HIGH,LOW:HIGH in m,
+    /// open where a side is left out, such as `:,:0.05,:`; may be repeated.
     #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
     pins: Vec<String>,
 
-    /// Another body: tetrahedra in Gmsh MSH 4.1, ASCII. The scene's places are taken as shares of its bounding box.
+    /// Another body: tetrahedra in Gmsh MSH 4.1, ASCII; the scene's places become shares of its bounding box.
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
 
@@ -147,7 +146,7 @@ impl Run {
 fn scenes() -> String {
     let mut text = String::from("Scenes:\n");
     for scene in scene::SCENES {
-        text += &format!("  {:18} {}\n", scene.name, scene.about);
+        text += &format!("  {:24} {}\n", scene.name, scene.about);
     }
     text
 }

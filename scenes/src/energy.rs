@@ -57,7 +57,7 @@ impl Energy {
             name: self.material.clone(),
             known: CATALOGUE.iter().map(|entry| entry.name).collect(),
         })?;
-        let values = self.values(&entry.description)?;
+        let values = self.values(entry.name, &entry.description)?;
         let inversion = self.inversion(&entry.description);
         let refused = |reason| Error::Inadmissible { material: entry.name, reason };
         Ok(Substance {
@@ -68,8 +68,7 @@ impl Energy {
     }
 
     /// The values in the order of the declaration.
-    fn values(&self, description: &Description) -> Result<Vec<&[f64]>, Error> {
-        let material = description.name;
+    fn values(&self, material: &'static str, description: &Description) -> Result<Vec<&[f64]>, Error> {
         let known: Vec<_> = description.parameters.iter().map(|parameter| parameter.name).collect();
         if let Some((parameter, _)) = self.parameters.iter().find(|(name, _)| !known.contains(&name.as_str()))
         {
@@ -124,8 +123,8 @@ impl fmt::Display for Page<'_> {
         writeln!(f, "{name}\n  {summary}")?;
         writeln!(f, "  ψ = {formula}")?;
         for parameter in *parameters {
-            let list = if parameter.is_list { "…" } else { "" };
-            writeln!(f, "  {:12} {}", format!("{}{list}", parameter.name), parameter.doc)?;
+            let list = if parameter.is_list { " One for each term." } else { "" };
+            writeln!(f, "  {:12} {}{list}", parameter.name, parameter.doc)?;
         }
         if !admissible.is_empty() {
             writeln!(f, "  admissible   {}", admissible.join(", "))?;
@@ -167,19 +166,19 @@ mod tests {
     #[test]
     fn values_come_in_the_order_of_the_declaration() {
         let energy = Energy::of("gent").with("jm", [3.0]).with("mu", [1.0]).with("mu", [2.0]);
-        assert_eq!(energy.values(&GENT), Ok(vec![&[2.0][..], &[3.0][..]]));
+        assert_eq!(energy.values("gent", &GENT), Ok(vec![&[2.0][..], &[3.0][..]]));
     }
 
     #[test]
     fn unknown_and_missing_parameters_are_named() {
-        let message = |energy: Energy| energy.values(&GENT).err().map(|error| error.to_string());
+        let message = |energy: Energy| energy.values("gent", &GENT).err().map(|error| error.to_string());
         assert_eq!(
             message(Energy::of("gent").with("mue", [1.0])).as_deref(),
-            Some("Gent has no parameter `mue`; it has `mu`, `jm`")
+            Some("gent has no parameter `mue`; it has `mu`, `jm`")
         );
         assert_eq!(
             message(Energy::of("gent").with("mu", [1.0])).as_deref(),
-            Some("Gent needs a value for `jm`; add --param jm=…")
+            Some("gent needs a value for `jm`; add --param jm=…")
         );
     }
 

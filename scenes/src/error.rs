@@ -148,7 +148,15 @@ impl fmt::Display for Error {
                 list(missing),
                 missing.iter().map(|name| format!("--param {name}=…")).collect::<Vec<_>>().join(" ")
             ),
-            Self::Inadmissible { material, reason } => write!(f, "{material}: {reason}"),
+            Self::Inadmissible { material, reason } => {
+                write!(f, "{material}: {reason}")?;
+                match reason {
+                    Inadmissible::NoExtension { .. } | Inadmissible::DoesNotRestore { .. } => {
+                        f.write_str(" (`--inversion refuse`)")
+                    }
+                    _ => Ok(()),
+                }
+            }
             Self::OutOfRange { quantity, value, requirement } => {
                 write!(f, "{quantity} is {value}; it must be {requirement}")
             }

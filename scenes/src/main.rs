@@ -38,7 +38,7 @@ fn play(arguments: Run) -> Result<(), Error> {
     let (settings, folder) = arguments.settings()?;
     // The bar goes to standard error, and nowhere where that is no terminal.
     let bar = ProgressBar::new(settings.frames as u64).with_message(settings.scene.name);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps, {per_sec}") {
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps") {
         bar.set_style(style);
     }
     let result = run(&settings, &folder, &mut || bar.inc(1));
