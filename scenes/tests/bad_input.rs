@@ -108,6 +108,6 @@ fn numbers_out_of_range() {
 #[test]
 fn folder_that_cannot_be_written_to() {
     let occupied = ("out", String::from("a file, not a folder"));
-    check(&[occupied.clone()], &["run", "horse", "--frames", "1"], &["out", "--out"]);
+    check(std::slice::from_ref(&occupied), &["run", "horse", "--frames", "1"], &["out", "--out"]);
     check(&[occupied], &["run", "horse", "--frames", "1", "--out", "out/deeper"], &["out/deeper"]);
 }
