@@ -16,7 +16,7 @@ pub fn Rubber(
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 
-pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rubber = Rubber::new(1e6, 5e6)?;
     assert_eq!(rubber.moduli().mu, 1e6);
 
