@@ -1,4 +1,9 @@
 //! Bodies that collapse, invert and recover: the scenes behind the command `piola`.
+//!
+//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) say what a run does
+//! differently; [`run()`](run::run) plays it and leaves surfaces, a picture and a summary in a folder.
+//!
+//! The crate holds no mechanics, models no contact with the floor that its pictures show, and shows nothing on a screen.
 
 pub mod energy;
 pub mod error;

@@ -1,6 +1,6 @@
 //! How far a body is from rest.
 //!
-//! [Horn87] Horn, *Closed-form solution of absolute orientation using unit quaternions*, 1987.
+//! \[Horn87\] Horn, *Closed-form solution of absolute orientation using unit quaternions*, 1987.
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
 

@@ -7,6 +7,9 @@ use crate::error::Error;
 use crate::output::Newton;
 use crate::scene::Scene;
 
+/// More would take longer to start than any scene to run.
+const MAX_THREADS: usize = 1024;
+
 /// What a run is asked for: a scene, and what is to be different from it.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -77,6 +80,10 @@ impl Settings {
         if self.frames == 0 {
             let (quantity, value) = ("the number of --frames", 0.0);
             return Err(Error::OutOfRange { quantity, value, requirement: "at least 1" });
+        }
+        if self.threads > MAX_THREADS {
+            let (quantity, value) = ("the number of --threads", self.threads as f64);
+            return Err(Error::OutOfRange { quantity, value, requirement: "at most 1024" });
         }
         Ok(())
     }

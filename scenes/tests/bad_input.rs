@@ -103,6 +103,7 @@ fn numbers_out_of_range() {
     check(&[], &["run", "horse", "--gravity", "NaN"], &["--gravity", "finite"]);
     check(&[], &["run", "horse", "--frames", "0"], &["--frames", "at least 1"]);
     check(&[], &["run", "horse", "--frames", "-3"], &["-3"]);
+    check(&[], &["run", "horse", "--threads", "100000"], &["--threads", "100000", "at most"]);
 }
 
 #[test]

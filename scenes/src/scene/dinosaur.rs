@@ -1,6 +1,6 @@
 //! A dinosaur pulled by its head.
 //!
-//! [Ogden72] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
 //! incompressible rubberlike solids*, 1972.
 
 use piola::material::Moduli;
@@ -42,7 +42,7 @@ pub const DINOSAUR_OVERSTRETCHED: Scene = Scene {
     ..DINOSAUR
 };
 
-/// Ogden's three terms [Ogden72] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
+/// Ogden's three terms \[Ogden72\] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
 ///
 /// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk response is that
 /// of the first Lamé parameter.
