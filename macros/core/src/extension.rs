@@ -14,8 +14,8 @@
 
 use std::collections::HashMap;
 
+use crate::divided::power_quotient;
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
-use crate::quotient::power_quotient;
 use crate::rational::Rational;
 
 /// The energy with its logarithms and real or negative powers of stretches extended.

@@ -10,6 +10,7 @@
 pub mod check;
 pub mod diagnostics;
 pub mod diff;
+pub mod divided;
 pub mod emit;
 pub mod expr;
 pub mod extension;

@@ -9,6 +9,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::rational::Rational;
+use passes::{fuse_multiply_add, renumber};
+use powers::Powers;
+
+mod passes;
+mod powers;
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -63,6 +68,7 @@ impl Op {
         self.operands_mut().into_iter().map(|value| *value).collect()
     }
 
+    /// The same, to be replaced.
     fn operands_mut(&mut self) -> Vec<&mut Value> {
         match self {
             Self::Literal(_)
@@ -131,83 +137,6 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
     scheduler.loops(&reachable);
     let outputs = roots.iter().map(|&root| scheduler.value(root)).collect();
     renumber(fuse_multiply_add(Program { statements: scheduler.statements, outputs }))
-}
-
-/// Which powers of each base are needed, to choose the one that is computed.
-struct Powers {
-    /// Common denominator of the fractional exponents of a base.
-    denominators: HashMap<Id, i128>,
-    /// The rational part of the exponent of the power that is computed.
-    representatives: HashMap<PowerClass, Rational>,
-}
-
-/// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
-/// fraction of its rational part.
-type PowerClass = (Id, Id, Rational);
-
-impl Powers {
-    fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
-        let mut denominators: HashMap<Id, i128> = HashMap::new();
-        let mut used: BTreeMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
-        for &id in reachable {
-            match graph.node(id) {
-                Node::Product(factors) => {
-                    for &(base, exponent) in factors {
-                        match exponent.real {
-                            Some(real) => {
-                                used.entry(class(base, real, exponent))
-                                    .or_default()
-                                    .0
-                                    .push(exponent.rational);
-                            }
-                            None => {
-                                let common = denominators.entry(base).or_insert(1);
-                                *common = least_common_multiple(*common, exponent.rational.denominator());
-                            }
-                        }
-                    }
-                }
-                // A quotient reads both powers: computing exactly those leaves no product for it.
-                Node::PowerQuotient(a, b, exponent) => {
-                    for base in [*a, *b] {
-                        if let Some(real) = exponent.real {
-                            used.entry(class(base, real, *exponent)).or_default().1.push(exponent.rational);
-                        }
-                    }
-                }
-                _ => {}
-            }
-        }
-        let largest = |all: &[Rational]| all.iter().copied().reduce(larger);
-        let representatives = used
-            .into_iter()
-            .filter_map(|(key, (plain, quotient))| {
-                Some((key, largest(&quotient).or_else(|| largest(&plain))?))
-            })
-            .collect();
-        Self { denominators, representatives }
-    }
-}
-
-fn class(base: Id, real: Id, exponent: Exponent) -> PowerClass {
-    let Exponent { rational, .. } = exponent;
-    let fraction =
-        Rational::new(rational.numerator().rem_euclid(rational.denominator()), rational.denominator());
-    (base, real, fraction.unwrap_or(Rational::ZERO))
-}
-
-fn larger(a: Rational, b: Rational) -> Rational {
-    if a.checked_add(b.negated()).is_some_and(Rational::is_negative) { b } else { a }
-}
-
-fn least_common_multiple(a: i128, b: i128) -> i128 {
-    let gcd = |mut a: i128, mut b: i128| {
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    a / gcd(a, b) * b
 }
 
 struct Scheduler<'g> {
@@ -431,12 +360,7 @@ impl Scheduler<'_> {
         let value = self.value(base);
         match exponent {
             Exponent { real: Some(real), rational } => {
-                let representative = self
-                    .powers
-                    .representatives
-                    .get(&class(base, real, exponent))
-                    .copied()
-                    .unwrap_or(rational);
+                let representative = self.powers.representative(base, real, exponent);
                 let computed = self.exponent(Exponent { real: Some(real), rational: representative });
                 let power = self.push(Op::Powf(value, computed));
                 let shift = rational.checked_add(representative.negated()).and_then(Rational::as_integer);
@@ -449,7 +373,7 @@ impl Scheduler<'_> {
                 }
             }
             Exponent { real: None, rational } => {
-                let common = self.powers.denominators.get(&base).copied().unwrap_or(rational.denominator());
+                let common = self.powers.root(base, rational);
                 let root = match common {
                     1 => value,
                     2 => self.push(Op::Sqrt(value)),
@@ -488,103 +412,4 @@ impl Scheduler<'_> {
         let id = self.graph.exponent_value(exponent);
         self.value(id)
     }
-}
-
-/// a b + c in one operation where the product is used nowhere else.
-fn fuse_multiply_add(mut program: Program) -> Program {
-    let mut uses: HashMap<Value, usize> = HashMap::new();
-    let mut products: HashMap<Value, (Value, Value)> = HashMap::new();
-    let mut count = |value: Value| *uses.entry(value).or_default() += 1;
-    program.outputs.iter().copied().for_each(&mut count);
-    for statement in &program.statements {
-        let lets: &[_] = match statement {
-            Statement::Let(value, op) => &[(*value, *op)],
-            Statement::Loop { body, totals, .. } => {
-                totals.iter().for_each(|&(_, term)| count(term));
-                body
-            }
-        };
-        for &(value, op) in lets {
-            op.operands().into_iter().for_each(&mut count);
-            if let Op::Mul(a, b) = op {
-                products.insert(value, (a, b));
-            }
-        }
-    }
-    let mut fused = HashSet::new();
-    let mut fuse = |op: &mut Op| {
-        if let Op::Add(a, b) = *op {
-            for (product, addend) in [(b, a), (a, b)] {
-                if uses[&product] == 1
-                    && let Some(&(x, y)) = products.get(&product)
-                {
-                    *op = Op::MulAdd(x, y, addend);
-                    fused.insert(product);
-                    return;
-                }
-            }
-        }
-    };
-    for statement in &mut program.statements {
-        match statement {
-            Statement::Let(_, op) => fuse(op),
-            Statement::Loop { body, .. } => body.iter_mut().for_each(|(_, op)| fuse(op)),
-        }
-    }
-    for statement in &mut program.statements {
-        if let Statement::Loop { body, .. } = statement {
-            body.retain(|(value, _)| !fused.contains(value));
-        }
-    }
-    program
-        .statements
-        .retain(|statement| !matches!(statement, Statement::Let(value, _) if fused.contains(value)));
-    program
-}
-
-/// Numbers values in the order in which they are computed; literals and inputs, which are written where they are used,
-/// come after all others.
-fn renumber(mut program: Program) -> Program {
-    let mut names: HashMap<Value, Value> = HashMap::new();
-    let mut inlined = Vec::new();
-    let mut name = |value: Value, op: Option<Op>| {
-        if matches!(op, Some(op) if op.operands().is_empty() && op != Op::PoleFloor) {
-            inlined.push(value);
-        } else {
-            names.insert(value, Value(names.len()));
-        }
-    };
-    for statement in &program.statements {
-        match statement {
-            Statement::Let(value, op) => name(*value, Some(*op)),
-            Statement::Loop { body, totals, .. } => {
-                totals.iter().for_each(|&(total, _)| name(total, None));
-                body.iter().for_each(|&(value, op)| name(value, Some(op)));
-            }
-        }
-    }
-    for value in inlined {
-        names.insert(value, Value(names.len()));
-    }
-    let new = |value: &mut Value| *value = names[value];
-    for statement in &mut program.statements {
-        match statement {
-            Statement::Let(value, op) => {
-                new(value);
-                op.operands_mut().into_iter().for_each(new);
-            }
-            Statement::Loop { body, totals, .. } => {
-                for (value, op) in body {
-                    new(value);
-                    op.operands_mut().into_iter().for_each(new);
-                }
-                for (total, term) in totals {
-                    new(total);
-                    new(term);
-                }
-            }
-        }
-    }
-    program.outputs.iter_mut().for_each(new);
-    program
 }

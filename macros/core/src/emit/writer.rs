@@ -1,0 +1,196 @@
+//! Programs as Rust statements.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+use syn::Ident;
+
+use crate::parse::Declaration;
+use crate::schedule::{Op, Program, Statement, Value};
+
+/// Writes programs with the names of one declaration.
+pub(super) struct Writer<'a> {
+    declaration: &'a Declaration,
+    /// Before the number of a value; such that no declared name looks like a value.
+    prefix: &'static str,
+    index: Ident,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(declaration: &'a Declaration) -> Self {
+        let is_taken = |name: &Ident| {
+            declaration.stretches.contains(name)
+                || declaration.parameters.iter().any(|other| other.name == *name)
+        };
+        let is_number = |name: &str, prefix: &str| {
+            name.strip_prefix(prefix)
+                .is_some_and(|rest| rest.is_empty() || rest.bytes().all(|b| b.is_ascii_digit()))
+        };
+        let declared: Vec<String> = declaration
+            .stretches
+            .iter()
+            .chain(declaration.parameters.iter().map(|parameter| &parameter.name))
+            .map(Ident::to_string)
+            .collect();
+        let prefix = ["t", "u", "w", "value_"]
+            .into_iter()
+            .find(|prefix| !declared.iter().any(|name| is_number(name, prefix)))
+            .unwrap_or("emitted_value_");
+        let index = ["p", "k", "entry"].map(|name| format_ident!("{name}"));
+        let index =
+            index.into_iter().find(|name| !is_taken(name)).unwrap_or_else(|| format_ident!("emitted_index"));
+        Self { declaration, prefix, index }
+    }
+
+    /// The statements of a program and its outputs as expressions.
+    pub(super) fn program(&self, program: &Program) -> (Vec<TokenStream>, Vec<TokenStream>) {
+        let mut names = Names::default();
+        let mut statements = Vec::new();
+        for statement in &program.statements {
+            match statement {
+                Statement::Let(value, op) => statements.extend(self.binding(*value, op, &mut names)),
+                Statement::Loop { length, body, totals } => {
+                    let length = &self.declaration.lengths[*length];
+                    let index = &self.index;
+                    let body: Vec<_> =
+                        body.iter().filter_map(|(value, op)| self.binding(*value, op, &mut names)).collect();
+                    let (mut starts, mut additions) = (Vec::new(), Vec::new());
+                    for &(total, term) in totals {
+                        let name = self.name(total);
+                        let term = names.get(term);
+                        starts.push(quote!(let mut #name = R::splat(0.0);));
+                        additions.push(quote!(#name = #name + #term;));
+                        names.set(total, quote!(#name));
+                    }
+                    statements.push(quote! {
+                        #(#starts)*
+                        for #index in 0..#length {
+                            #(#body)*
+                            #(#additions)*
+                        }
+                    });
+                }
+            }
+        }
+        let outputs = program.outputs.iter().map(|&output| names.get(output)).collect();
+        (statements, outputs)
+    }
+
+    fn name(&self, value: Value) -> Ident {
+        format_ident!("{}{}", self.prefix, value.0)
+    }
+
+    /// Names a value: literals and inputs are written where they are used, the rest is a `let`.
+    fn binding(&self, value: Value, op: &Op, names: &mut Names) -> Option<TokenStream> {
+        let parameter = |k: usize| &self.declaration.parameters[k].name;
+        let inline = match *op {
+            Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
+            Op::Stretch(i) => Some(self.declaration.stretches[i].to_token_stream()),
+            Op::Epsilon => Some(quote!(epsilon)),
+            _ => None,
+        };
+        if let Some(inline) = inline {
+            names.set(value, inline);
+            return None;
+        }
+        let (name, expression) = match *op {
+            Op::Parameter(k) => {
+                let parameter = parameter(k);
+                (parameter.clone(), quote!(R::splat(self.#parameter)))
+            }
+            Op::Entry(k) => {
+                let (parameter, index) = (parameter(k), &self.index);
+                (parameter.clone(), quote!(R::splat(self.#parameter[#index])))
+            }
+            _ => (self.name(value), self.expression(op, names)),
+        };
+        names.set(value, name.to_token_stream());
+        Some(quote!(let #name = #expression;))
+    }
+
+    fn expression(&self, op: &Op, names: &Names) -> TokenStream {
+        let n = |value: Value| names.get(value);
+        match *op {
+            Op::Neg(a) => {
+                let a = n(a);
+                quote!(-#a)
+            }
+            Op::Add(a, b) => infix(&n(a), quote!(+), &n(b)),
+            Op::Sub(a, b) => infix(&n(a), quote!(-), &n(b)),
+            Op::Mul(a, b) => infix(&n(a), quote!(*), &n(b)),
+            Op::Div(a, b) => infix(&n(a), quote!(/), &n(b)),
+            Op::MulAdd(a, b, c) => {
+                let (a, b, c) = (n(a), n(b), n(c));
+                quote!(#a.mul_add(#b, #c))
+            }
+            Op::Sqrt(a) => method(&n(a), "sqrt"),
+            Op::Cbrt(a) => method(&n(a), "cbrt"),
+            Op::Ln(a) => method(&n(a), "ln"),
+            Op::Exp(a) => method(&n(a), "exp"),
+            Op::Powf(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a.powf(#b))
+            }
+            Op::Max(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a.max(#b))
+            }
+            Op::Below(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!((#a - #b).min(R::splat(0.0)))
+            }
+            Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
+            Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
+            Op::LnQuotient(a, b) => self.call("ln_quotient", &[n(a), n(b)]),
+            Op::ExpQuotient(a, b) => self.call("exp_quotient", &[n(a), n(b)]),
+            Op::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => self.call(
+                "power_quotient",
+                &[[n(a), n(a_power)], [n(b), n(b_power)]]
+                    .map(|[base, power]| quote!([#base, #power]))
+                    .into_iter()
+                    .chain([n(exponent), n(ln_quotient)])
+                    .collect::<Vec<_>>(),
+            ),
+            Op::PoleFloor => {
+                let stretches = &self.declaration.stretches;
+                self.call("pole_floor", &[quote!([#(#stretches),*])])
+            }
+            Op::Literal(_) | Op::Stretch(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => quote!(),
+        }
+    }
+
+    fn call(&self, kernel: &str, arguments: &[TokenStream]) -> TokenStream {
+        let kernel = format_ident!("{kernel}");
+        quote!(::piola::quotient::#kernel(#(#arguments),*))
+    }
+}
+
+/// How each value is written where it is used.
+#[derive(Default)]
+struct Names(std::collections::HashMap<Value, TokenStream>);
+
+impl Names {
+    fn get(&self, value: Value) -> TokenStream {
+        self.0.get(&value).cloned().unwrap_or_default()
+    }
+
+    fn set(&mut self, value: Value, text: TokenStream) {
+        self.0.insert(value, text);
+    }
+}
+
+fn infix(a: &TokenStream, operator: TokenStream, b: &TokenStream) -> TokenStream {
+    quote!(#a #operator #b)
+}
+
+fn method(receiver: &TokenStream, name: &str) -> TokenStream {
+    let name = format_ident!("{name}");
+    quote!(#receiver.#name())
+}
+
+fn literal(value: f64) -> TokenStream {
+    if !value.is_finite() {
+        return quote!(R::splat(f64::NAN));
+    }
+    let magnitude = Literal::f64_unsuffixed(value.abs());
+    if value.is_sign_negative() { quote!(R::splat(-#magnitude)) } else { quote!(R::splat(#magnitude)) }
+}
