@@ -133,7 +133,7 @@ pub(crate) fn minimize(
             objective.elastic.evaluate_gradients(objective.body);
             objective.gradient(x, &mut workspace.gradient);
             let before = report.residual;
-            if report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings) {
+            if report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)? {
                 break;
             }
             if by_slope && report.residual > 0.5 * before {
@@ -148,7 +148,7 @@ pub(crate) fn minimize(
         match pins_move {
             Some(d) => objective.add_product(d, &mut workspace.gradient),
             None if report.iterations == 0
-                && report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings) =>
+                && report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)? =>
             {
                 break;
             }
@@ -167,7 +167,7 @@ pub(crate) fn minimize(
             inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
             objective.elastic.evaluate_gradients(objective.body);
             objective.gradient(x, &mut workspace.gradient);
-            report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings);
+            report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)?;
             if product(&workspace.gradient, &workspace.direction) >= 0.0 {
                 // The tangent before the move says nothing about the state behind it; the next iteration takes its own.
                 report.step_lengths.push(0.0);
@@ -206,7 +206,10 @@ pub(crate) fn minimize(
 
 impl NewtonReport {
     /// Keeps the norm of a gradient and says whether it is small enough.
-    fn note_residual(&mut self, residual: f64, settings: &NewtonSettings) -> bool {
+    fn note_residual(&mut self, residual: f64, settings: &NewtonSettings) -> Result<bool, NewtonError> {
+        if !residual.is_finite() {
+            return Err(NewtonError::NotFinite);
+        }
         if self.first_residual.is_nan() {
             self.first_residual = residual;
         }
@@ -215,7 +218,7 @@ impl NewtonReport {
         if converged {
             self.convergence = Convergence::Tolerance;
         }
-        converged
+        Ok(converged)
     }
 }
 
@@ -287,7 +290,7 @@ pub enum NewtonError {
         /// The multiple of inertia added last.
         shift: f64,
     },
-    /// A direction or a slope is infinite or NaN.
+    /// A gradient, a direction or a slope is infinite or NaN.
     NotFinite,
     /// No step along a direction of descent decreases the objective.
     LineSearch {
@@ -316,7 +319,10 @@ impl fmt::Display for NewtonError {
                 f,
                 "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added"
             ),
-            Self::NotFinite => write!(f, "the Newton direction is not finite"),
+            Self::NotFinite => write!(
+                f,
+                "a force or the Newton direction is not finite; the motion leaves the range of the numbers"
+            ),
             Self::LineSearch { step, refused, residual } => write!(
                 f,
                 "no step down to {step:e} of the Newton direction decreases the energy (residual {residual:e} N, \
