@@ -30,17 +30,22 @@ impl Differentiator {
                     terms.into_iter().map(|(term, c)| (self.derivative(graph, term, i), c)).collect();
                 graph.linear(Rational::ZERO, &terms)
             }
-            // (Π bᵢ^eᵢ)′ = Σ eᵢ Π bᵢ′/bᵢ; the division cancels against a factor of the product or of bᵢ′.
+            // (Π bᵢ^eᵢ)′ = Σ eᵢ bᵢ^(eᵢ−1) bᵢ′ Π bⱼ^eⱼ. For other than whole exponents bᵢ^eᵢ is kept and divided by bᵢ,
+            // which cancels against bᵢ′ where that is a product.
             Node::Product(factors) => {
                 let mut terms = Vec::new();
-                for (base, exponent) in factors {
+                for (k, &(base, exponent)) in factors.iter().enumerate() {
                     let inner = self.derivative(graph, base, i);
                     if graph.is_zero(inner) {
                         continue;
                     }
-                    let exponent = graph.exponent_value(exponent);
-                    let term = [(exponent, 1), (e, 1), (base, -1), (inner, 1)];
-                    terms.push(graph.product(&term.map(|(factor, n)| (factor, Exponent::integer(n)))));
+                    let mut term = factors.clone();
+                    match exponent.as_integer() {
+                        Some(n) => term[k].1 = Exponent::integer(n - 1),
+                        None => term.push((base, Exponent::integer(-1))),
+                    }
+                    term.extend([(graph.exponent_value(exponent), Exponent::ONE), (inner, Exponent::ONE)]);
+                    terms.push(graph.product(&term));
                 }
                 graph.sum_of(&terms)
             }

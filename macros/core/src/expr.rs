@@ -326,8 +326,13 @@ impl Graph {
                     return;
                 }
             }
+            // A compound such as J^(−2/3) I1 is of moderate size where its factors are not: its powers are kept whole.
             Node::Product(factors) => {
-                if let Some(n) = exponent.as_integer() {
+                let is_compound =
+                    factors.iter().any(|&(factor, _)| matches!(self.node(factor), Node::Linear { .. }));
+                if let Some(n) = exponent.as_integer()
+                    && (n <= 1 || !is_compound)
+                {
                     for (factor, inner) in factors {
                         let power = self.scale_exponent(inner, n);
                         self.gather_one(factor, power, into);
