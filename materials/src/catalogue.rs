@@ -4,7 +4,10 @@ use piola::Inversion;
 use piola::material::{Declared, Description, Inadmissible, Moduli};
 use piola::system::element::ElementEnergy;
 
-use crate::{FixedCorotated, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean};
+use crate::{
+    Arap, ArrudaBoyce, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled, NeoHookean,
+    Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, SymmetricDirichlet, Varga, Yeoh,
+};
 
 /// An energy of the catalogue.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,12 +75,22 @@ macro_rules! catalogue {
 }
 
 catalogue! {
+    "arap" => Arap,
+    "arruda_boyce" => ArrudaBoyce,
     "fixed_corotated" => FixedCorotated,
+    "fung" => Fung,
+    "gent" => Gent,
+    "hencky" => Hencky,
+    "mooney_rivlin" => MooneyRivlin,
+    "mooney_rivlin_coupled" => MooneyRivlinCoupled,
     "neo_hookean_lnj" => NeoHookean,
     "ogden" => Ogden<1 | 2 | 3 | 4 | 5 | 6>,
     "rotated_linear" => RotatedLinear,
     "stable_neo_hookean" => StableNeoHookean,
     "stvk" => StVenantKirchhoff,
+    "symmetric_dirichlet" => SymmetricDirichlet,
+    "varga" => Varga,
+    "yeoh" => Yeoh,
 }
 
 /// The energy of that name.

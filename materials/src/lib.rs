@@ -18,18 +18,38 @@
 //!
 //! The crate holds no derivative and no algorithm: those come from the macro and from `piola`.
 
+mod arap;
+mod arruda_boyce;
 mod catalogue;
 mod fixed_corotated;
+mod fung;
+mod gent;
+mod hencky;
+mod mooney_rivlin;
+mod mooney_rivlin_coupled;
 mod neo_hookean;
 mod ogden;
 mod rotated_linear;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
+mod symmetric_dirichlet;
+mod varga;
+mod yeoh;
 
+pub use arap::Arap;
+pub use arruda_boyce::ArrudaBoyce;
 pub use catalogue::{CATALOGUE, Entry, Visitor, find};
 pub use fixed_corotated::FixedCorotated;
+pub use fung::Fung;
+pub use gent::Gent;
+pub use hencky::Hencky;
+pub use mooney_rivlin::MooneyRivlin;
+pub use mooney_rivlin_coupled::MooneyRivlinCoupled;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
 pub use rotated_linear::RotatedLinear;
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 pub use stable_neo_hookean::StableNeoHookean;
+pub use symmetric_dirichlet::SymmetricDirichlet;
+pub use varga::Varga;
+pub use yeoh::Yeoh;

@@ -4,7 +4,8 @@ use piola::Inversion;
 use piola::contract::{Settings, check, moduli};
 use piola::material::Declared;
 use piola_materials::{
-    FixedCorotated, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean,
+    Arap, ArrudaBoyce, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled, NeoHookean,
+    Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, SymmetricDirichlet, Varga, Yeoh,
 };
 
 const MU: f64 = 3.5e5;
@@ -69,4 +70,66 @@ fn ogden() {
     keeps_it_plain(material.clone());
     keeps_it_extended(material.and_then(|material| material.with_inversion(extend())));
     keeps_it_plain(Ogden::new([1e5], [0.5], 1e6));
+}
+
+#[test]
+fn arap() {
+    keeps_it_plain(Arap::new(MU));
+}
+
+#[test]
+fn symmetric_dirichlet() {
+    keeps_it_plain(SymmetricDirichlet::new(MU));
+}
+
+#[test]
+fn fung() {
+    keeps_it(
+        Fung::new(MU, 0.5, 0.25).expect("admissible parameters"),
+        // Beyond, the exponential amplifies rounding errors by its exponent.
+        &Settings { range: (0.5, 1.6), ..Settings::default() },
+    );
+}
+
+#[test]
+fn gent() {
+    keeps_it_plain(Gent::new(MU, 40.0, LAMBDA));
+}
+
+#[test]
+fn hencky() {
+    let material = Hencky::new(MU, LAMBDA);
+    keeps_it_plain(material.clone());
+    keeps_it_extended(material.and_then(|material| material.with_inversion(extend())));
+}
+
+#[test]
+fn varga() {
+    let material = Varga::new(MU, LAMBDA);
+    keeps_it_plain(material.clone());
+    keeps_it_extended(material.and_then(|material| material.with_inversion(extend())));
+}
+
+#[test]
+fn mooney_rivlin() {
+    keeps_it_plain(MooneyRivlin::new(MU, MU / 4.0, LAMBDA));
+}
+
+#[test]
+fn mooney_rivlin_coupled() {
+    let material = MooneyRivlinCoupled::new(MU, MU / 4.0, LAMBDA);
+    keeps_it_plain(material.clone());
+    keeps_it_extended(material.and_then(|material| material.with_inversion(extend())));
+}
+
+#[test]
+fn yeoh() {
+    keeps_it_plain(Yeoh::new(MU, -0.02 * MU, 0.001 * MU, LAMBDA));
+}
+
+#[test]
+fn arruda_boyce() {
+    let material = ArrudaBoyce::new(MU, 3.0, LAMBDA);
+    keeps_it_plain(material.clone());
+    keeps_it_extended(material.and_then(|material| material.with_inversion(extend())));
 }
