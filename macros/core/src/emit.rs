@@ -239,6 +239,7 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let (bounds, arguments) = generics(declaration);
     let writer = Writer::new(declaration);
     let stretches = &declaration.stretches;
+    let threshold = &writer.threshold;
 
     let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
                       result: &dyn Fn(&[TokenStream]) -> TokenStream| {
@@ -256,8 +257,8 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
                 quote! {
                     match self.inversion {
                         ::piola::Inversion::Refuse => { #plain }
-                        ::piola::Inversion::Extend { epsilon } => {
-                            let epsilon = R::splat(epsilon);
+                        ::piola::Inversion::Extend { epsilon: #threshold } => {
+                            let #threshold = R::splat(#threshold);
                             #extended
                         }
                     }

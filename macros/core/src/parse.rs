@@ -71,6 +71,21 @@ pub struct Options {
 /// Words with a meaning in every energy.
 pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
 
+/// Methods and fields of every material, which a parameter's own method would hide.
+const METHODS: [&str; 11] = [
+    "new",
+    "inversion",
+    "with_inversion",
+    "energy",
+    "gradient",
+    "blocks",
+    "admits",
+    "has_pole",
+    "ends_at_zero_volume",
+    "from_values",
+    "moduli",
+];
+
 /// Reads the attribute's arguments and its item.
 ///
 /// # Errors
@@ -113,7 +128,10 @@ pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declarati
     for input in inputs {
         let Some(parameter) = parameter(input, &generics, &mut lengths, &mut diagnostics) else { continue };
         let is_stretch = stretches.as_ref().is_some_and(|names| names.contains(&parameter.name));
-        if is_stretch || parameters.iter().any(|other| other.name == parameter.name) {
+        if is_stretch
+            || generics.contains(&parameter.name)
+            || parameters.iter().any(|other| other.name == parameter.name)
+        {
             diagnostics
                 .error(parameter.name.span(), format!("the name `{}` is taken already", parameter.name));
         } else {
@@ -138,6 +156,10 @@ fn generics(signature: &syn::Signature, diagnostics: &mut Diagnostics) -> Vec<Id
     let mut names = Vec::new();
     for generic in &signature.generics.params {
         match generic {
+            // The real type of generated functions is called R.
+            GenericParam::Const(constant) if constant.ident == "R" => {
+                diagnostics.error(constant.ident.span(), "`R` has a meaning of its own: choose another name");
+            }
             GenericParam::Const(constant) if constant.ty.to_token_stream().to_string() == "usize" => {
                 names.push(constant.ident.clone());
             }
@@ -191,7 +213,7 @@ fn plain_name(pattern: &Pat) -> Option<Ident> {
 
 fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
     let text = name.to_string();
-    if WORDS.contains(&text.as_str()) || text == "sum" || text == "inversion" {
+    if WORDS.contains(&text.as_str()) || METHODS.contains(&text.as_str()) || text == "sum" {
         diagnostics.error(name.span(), format!("`{text}` has a meaning of its own: choose another name"));
     }
 }

@@ -13,6 +13,8 @@ pub(super) struct Writer<'a> {
     /// Before the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
     index: Ident,
+    /// The threshold of the extension.
+    pub(super) threshold: Ident,
 }
 
 impl<'a> Writer<'a> {
@@ -35,10 +37,15 @@ impl<'a> Writer<'a> {
             .into_iter()
             .find(|prefix| !declared.iter().any(|name| is_number(name, prefix)))
             .unwrap_or("emitted_value_");
-        let index = ["p", "k", "entry"].map(|name| format_ident!("{name}"));
-        let index =
-            index.into_iter().find(|name| !is_taken(name)).unwrap_or_else(|| format_ident!("emitted_index"));
-        Self { declaration, prefix, index }
+        let free = |candidates: &[&str]| {
+            let names = candidates.iter().map(|name| format_ident!("{name}"));
+            names
+                .into_iter()
+                .find(|name| !is_taken(name))
+                .unwrap_or_else(|| format_ident!("emitted_{}", candidates[0]))
+        };
+        let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
+        Self { declaration, prefix, index, threshold }
     }
 
     /// The statements of a program and its outputs as expressions.
@@ -85,7 +92,7 @@ impl<'a> Writer<'a> {
         let inline = match *op {
             Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
             Op::Stretch(i) => Some(self.declaration.stretches[i].to_token_stream()),
-            Op::Epsilon => Some(quote!(epsilon)),
+            Op::Epsilon => Some(self.threshold.to_token_stream()),
             _ => None,
         };
         if let Some(inline) = inline {
