@@ -224,9 +224,10 @@ impl<'a> Quotients<'a> {
             mirrored.stretches[j] = -point.stretches[j];
             let (here, there) = (evaluate(graph, e, point), evaluate(graph, e, &mirrored));
             let noise = NOISE * (here.magnitude + there.magnitude);
-            // Written so that NaN, as from a real power of a negative number, is neither.
-            odd &= (here.value + there.value).abs() <= noise;
-            even &= (here.value - there.value).abs() <= noise;
+            // Written so that NaN, as from a real power of a negative number, is neither; nor is what overflows, as
+            // the exponential of an extended function may at a negative stretch.
+            odd &= noise.is_finite() && (here.value + there.value).abs() <= noise;
+            even &= noise.is_finite() && (here.value - there.value).abs() <= noise;
         }
         match (odd, even) {
             (true, false) => Parity::Odd,

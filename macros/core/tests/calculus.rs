@@ -292,3 +292,16 @@ fn moduli_follow_from_the_energy() {
         assert!((lambda - point.parameters[2][0]).abs() <= 1e-12 * lambda.abs());
     }
 }
+
+/// Far outside its domain an exponential overflows, which says nothing of its parity: the pole must stay.
+#[test]
+fn overflow_is_no_parity() {
+    let arguments = quote!(domain(J > 0.0), extend, prestressed);
+    let item = quote! {
+        fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
+            mu * (l1.powi(-12) + l2.powi(-12) + l3.powi(-12)).exp()
+        }
+    };
+    let model = compile("exponential of powers", &arguments, &item);
+    assert!(model.extended.is_some_and(|extended| extended.has_pole));
+}
