@@ -42,6 +42,13 @@ pub(crate) fn Invariant([_x, _y, _z]: [f64; 3], mu: f64) -> f64 {
     mu * ((I1 - 3.0).powi(2) + (I1 * I1 / 3.0 - I2))
 }
 
+/// Literal exponents that are no simple fractions.
+#[material(domain(J > 0.0))]
+fn Literal([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
+    let power = l1.powf(1.305678) + l2.powf(1.305678) + l3.powf(1.305678) - 3.0;
+    mu * (power - 1.305678 * J.ln()) + mu * (J - 1.0).powi(2)
+}
+
 #[track_caller]
 fn keeps_the_contract(material: &impl Declared, settings: &Settings) {
     check(material, settings).unwrap_or_else(|violation| panic!("{violation}"));
@@ -62,6 +69,7 @@ fn names_of_generated_code_are_free() {
 fn few_or_fixed_parameters_are_enough() {
     keeps_the_contract(&Unit::new().expect("no parameters"), &Settings::default());
     keeps_the_contract(&Fixed::new([3.0], [1.0, 0.5]).expect("admissible parameters"), &Settings::default());
+    keeps_the_contract(&Literal::new(2.0).expect("admissible parameters"), &Settings::default());
     keeps_the_contract(&Invariant::new(2.0).expect("admissible parameters"), &Settings::default());
     assert_eq!(Unit::from_values(&[], Inversion::Refuse).map(|unit| unit.moduli().mu), Ok(1.0));
 }

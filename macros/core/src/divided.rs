@@ -1,16 +1,21 @@
 //! Divided differences φ[a, b] = (φ(a) − φ(b))/(a − b) of powers, without cancellation.
 //!
-//! Those of whole and fractional powers are sums and products of powers; that of a real power is a node of its own, as are
-//! those of ln and exp, for which the runtime has kernels.
+//! Those of whole powers and of simple fractions are sums and products of powers; that of a real power is a node of its
+//! own, as are those of ln and exp, for which the runtime has kernels.
 
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::rational::Rational;
 
+/// The largest q for which x^(p/q) is computed as the p-th power of a q-th root. The root's rounding error comes p-fold in
+/// the power, so that a real power is more accurate for larger ones.
+pub const LARGEST_ROOT: i128 = 6;
+
 /// (a^r − b^r)/(a − b).
 pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id {
-    let Exponent { real: None, rational } = exponent else {
+    let Exponent { real, rational } = exponent;
+    if real.is_some() || rational.denominator() > LARGEST_ROOT {
         return graph.leaf(Node::PowerQuotient(a, b, exponent));
-    };
+    }
     if rational.is_negative() {
         // a⁻ʳ − b⁻ʳ = −(aʳ − bʳ) a⁻ʳ b⁻ʳ
         let positive = power_quotient(graph, a, b, Exponent::rational(rational.negated()));

@@ -123,6 +123,8 @@ impl Exponent {
 pub struct Graph {
     nodes: Vec<Node>,
     ids: HashMap<Node, Id>,
+    /// What nodes become when their stretches are replaced: nodes never change, so neither does this.
+    substitutions: HashMap<(Id, [Id; 3]), Id>,
     overflowed: bool,
 }
 
@@ -486,22 +488,19 @@ impl Graph {
 
     /// The expression with every stretch replaced.
     pub fn substitute(&mut self, id: Id, stretches: [Id; 3]) -> Id {
-        self.substitute_memo(id, stretches, &mut HashMap::new())
-    }
-
-    fn substitute_memo(&mut self, id: Id, stretches: [Id; 3], memo: &mut HashMap<Id, Id>) -> Id {
-        if let Some(&done) = memo.get(&id) {
+        if let Some(&done) = self.substitutions.get(&(id, stretches)) {
             return done;
         }
         let result = match *self.node(id) {
             Node::Stretch(i) => stretches[i],
             Node::Extended(function, order, i) => match *self.node(stretches[i]) {
                 Node::Stretch(j) => self.leaf(Node::Extended(function, order, j)),
-                _ => id,
+                // Extended functions are functions of a stretch and of nothing else; NaN would not go unnoticed.
+                _ => self.leaf(Node::Float(f64::NAN.to_bits())),
             },
-            _ => self.map_children(id, &mut |graph, child| graph.substitute_memo(child, stretches, memo)),
+            _ => self.map_children(id, &mut |graph, child| graph.substitute(child, stretches)),
         };
-        memo.insert(id, result);
+        self.substitutions.insert((id, stretches), result);
         result
     }
 

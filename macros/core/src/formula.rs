@@ -1,5 +1,7 @@
 //! Expressions as one line of Unicode, for documentation and messages.
 
+use std::cell::Cell;
+
 use crate::expr::{Exponent, Extended, Graph, Id, Node};
 use crate::parse::Declaration;
 use crate::rational::Rational;
@@ -12,8 +14,11 @@ pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
     let volume = graph.product_of(&stretches);
     let invariants = [("I1", squares.to_vec()), ("I2", pairs.to_vec())];
-    Printer { graph, declaration, volume, invariants }.print(id, Context::Sum)
+    Printer { graph, declaration, volume, invariants, budget: Cell::new(LONGEST) }.print(id, Context::Sum)
 }
+
+/// Nodes after which a formula is cut off: a graph can be exponentially smaller than what it stands for.
+const LONGEST: usize = 400;
 
 /// What stands around, to decide on parentheses.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -28,6 +33,8 @@ struct Printer<'a> {
     declaration: &'a Declaration,
     volume: Id,
     invariants: [(&'static str, Vec<Id>); 2],
+    /// Nodes that may still be printed.
+    budget: Cell<usize>,
 }
 
 impl Printer<'_> {
@@ -35,6 +42,8 @@ impl Printer<'_> {
         if id == self.volume {
             return "J".to_owned();
         }
+        let Some(rest) = self.budget.get().checked_sub(1) else { return "…".to_owned() };
+        self.budget.set(rest);
         match self.graph.node(id) {
             Node::Stretch(i) => format!("λ{}", subscript(i + 1)),
             Node::Parameter(k) => symbol(&self.declaration.parameters[*k].name.to_string()),

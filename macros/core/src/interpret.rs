@@ -32,14 +32,19 @@ pub struct Value {
 /// Evaluates a node at a point.
 #[must_use]
 pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
-    Interpreter { graph, point, entry: 0, memo: HashMap::new() }.value(id)
+    evaluate_with(graph, id, point, &mut HashMap::new())
+}
+
+/// The same for many nodes at one point: `memo` keeps what has been evaluated there.
+pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut HashMap<Id, Value>) -> Value {
+    Interpreter { graph, point, entry: 0, memo }.value(id)
 }
 
 struct Interpreter<'a> {
     graph: &'a Graph,
     point: &'a Point,
     entry: usize,
-    memo: HashMap<Id, Value>,
+    memo: &'a mut HashMap<Id, Value>,
 }
 
 impl Interpreter<'_> {
@@ -90,8 +95,8 @@ impl Interpreter<'_> {
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
-                    let mut inner = Interpreter { entry, memo: HashMap::new(), ..*self };
-                    let Value { value, magnitude } = inner.value(*body);
+                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::new());
+                    let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;
                     sum.magnitude += magnitude;
                 }

@@ -26,7 +26,7 @@ use std::collections::HashMap;
 use crate::divided::power_quotient;
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::extension;
-use crate::interpret::{Point, evaluate};
+use crate::interpret::{Point, Value, evaluate_with};
 use crate::rational::Rational;
 
 /// A reflection of two stretches.
@@ -53,16 +53,21 @@ pub struct Quotients<'a> {
     /// Points of the domain at which parities are decided.
     samples: &'a [Point],
     memo: HashMap<(Id, Reflection), Id>,
+    /// Values at each sample, by its index, as it is and with two stretches negated.
+    values: HashMap<(usize, Negated), HashMap<Id, Value>>,
 }
 
-/// The largest power of a sum that is multiplied out to separate odd from even terms.
+/// The pair of stretches whose signs are changed, if any.
+type Negated = Option<(Stretch, Stretch)>;
+
+/// The largest degree of a product of sums that is multiplied out to separate odd from even terms.
 const LARGEST_EXPANDED_POWER: i64 = 4;
 
 impl<'a> Quotients<'a> {
     /// Decides parities at the given points, which must lie in the domain of the energy.
     #[must_use]
     pub fn new(samples: &'a [Point]) -> Self {
-        Self { samples, memo: HashMap::new() }
+        Self { samples, memo: HashMap::new(), values: HashMap::new() }
     }
 
     /// D⁻ij from ψi.
@@ -169,7 +174,7 @@ impl<'a> Quotients<'a> {
     }
 
     /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not.
-    fn split(&self, graph: &mut Graph, e: Id, i: Stretch, j: Stretch) -> (Id, Id) {
+    fn split(&mut self, graph: &mut Graph, e: Id, i: Stretch, j: Stretch) -> (Id, Id) {
         let zero = graph.integer(0);
         match self.parity(graph, e, i, j) {
             Parity::Odd => return (e, zero),
@@ -191,12 +196,16 @@ impl<'a> Quotients<'a> {
                 (graph.sum(length, odd), graph.sum(length, rest))
             }
             Node::Product(factors) => {
-                let is_mixed_sum = |&&(base, exponent): &&(Id, Exponent)| {
+                let mut mixed_sums = factors;
+                mixed_sums.retain(|&(base, _)| {
                     matches!(graph.node(base), Node::Linear { .. })
-                        && exponent.as_integer().is_some_and(|n| (1..=LARGEST_EXPANDED_POWER).contains(&n))
                         && self.parity(graph, base, i, j) == Parity::None
+                });
+                let powers = mixed_sums.iter().map(|(_, exponent)| exponent.as_integer().filter(|&n| n > 0));
+                let total: Option<i64> = powers.sum();
+                let (Some(1..=LARGEST_EXPANDED_POWER), Some(&(sum, _))) = (total, mixed_sums.first()) else {
+                    return (zero, e);
                 };
-                let Some(&(sum, _)) = factors.iter().find(is_mixed_sum) else { return (zero, e) };
                 let others = graph.div(e, sum);
                 let (odd, rest) = self.split(graph, sum, i, j);
                 if graph.is_zero(odd) || graph.is_zero(rest) {
@@ -214,15 +223,16 @@ impl<'a> Quotients<'a> {
 
     /// Decided numerically, relative to what rounding could hide: a normal form would miss identities. The body of a
     /// sum is judged for its first entry, which stands for all.
-    fn parity(&self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
+    fn parity(&mut self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
         // Three orders of magnitude above rounding errors, eleven below a term that is really there.
         const NOISE: f64 = 1e-12;
         let (mut odd, mut even) = (true, true);
-        for point in self.samples {
+        for (k, point) in self.samples.iter().enumerate() {
             let mut mirrored = point.clone();
             mirrored.stretches[i] = -point.stretches[i];
             mirrored.stretches[j] = -point.stretches[j];
-            let (here, there) = (evaluate(graph, e, point), evaluate(graph, e, &mirrored));
+            let here = evaluate_with(graph, e, point, self.values.entry((k, None)).or_default());
+            let there = evaluate_with(graph, e, &mirrored, self.values.entry((k, Some((i, j)))).or_default());
             let noise = NOISE * (here.magnitude + there.magnitude);
             // Written so that NaN, as from a real power of a negative number, is neither; nor is what overflows, as
             // the exponential of an extended function may at a negative stretch.

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::rational::Rational;
 use passes::{fuse_multiply_add, renumber};
-use powers::Powers;
+use powers::{Powers, Way};
 
 mod passes;
 mod powers;
@@ -358,10 +358,10 @@ impl Scheduler<'_> {
 
     fn power(&mut self, base: Id, exponent: Exponent) -> Value {
         let value = self.value(base);
-        match exponent {
-            Exponent { real: Some(real), rational } => {
-                let representative = self.powers.representative(base, real, exponent);
-                let computed = self.exponent(Exponent { real: Some(real), rational: representative });
+        let Exponent { real, rational } = exponent;
+        match self.powers.way(base, exponent) {
+            Way::Real(representative) => {
+                let computed = self.exponent(Exponent { real, rational: representative });
                 let power = self.push(Op::Powf(value, computed));
                 let shift = rational.checked_add(representative.negated()).and_then(Rational::as_integer);
                 match shift {
@@ -372,19 +372,18 @@ impl Scheduler<'_> {
                     }
                 }
             }
-            Exponent { real: None, rational } => {
-                let common = self.powers.root(base, rational);
-                let root = match common {
+            Way::Root(degree) => {
+                let root = match degree {
                     1 => value,
                     2 => self.push(Op::Sqrt(value)),
                     3 => self.push(Op::Cbrt(value)),
                     _ => {
-                        let exponent = self.push(Op::Literal((1.0 / common as f64).to_bits()));
+                        let exponent = self.push(Op::Literal((1.0 / degree as f64).to_bits()));
                         self.push(Op::Powf(value, exponent))
                     }
                 };
-                let whole = rational.numerator() * (common / rational.denominator());
-                self.whole_power(root, i64::try_from(whole).unwrap_or(i64::MAX))
+                let whole = rational.numerator().checked_mul(degree / rational.denominator());
+                self.whole_power(root, whole.and_then(|n| i64::try_from(n).ok()).unwrap_or(i64::MAX))
             }
         }
     }

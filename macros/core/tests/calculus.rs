@@ -305,3 +305,73 @@ fn overflow_is_no_parity() {
     let model = compile("exponential of powers", &arguments, &item);
     assert!(model.extended.is_some_and(|extended| extended.has_pole));
 }
+
+/// A root of high degree would multiply its rounding error: 1.305678 is 652839/500000.
+#[test]
+fn literal_exponents_are_real_powers_unless_they_are_simple_fractions() {
+    let item = quote! {
+        fn E([x, y, z]: [f64; 3], a: f64) -> f64 {
+            a * (x.powf(1.305678) + y.powf(1.305678) + z.powf(1.305678)) + a * (x.powf(1.5) + y.powf(1.5) + z.powf(1.5))
+        }
+    };
+    let mut model = compile("literal exponents", &quote!(domain(J > 0.0), prestressed), &item);
+    let variant = model.plain.clone();
+    let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
+    let program = schedule(&mut model.graph, &roots);
+    let count = |matches: fn(&Op) -> bool| {
+        let is_match = |statement: &&Statement| matches!(statement, Statement::Let(_, op) if matches(op));
+        program.statements.iter().filter(is_match).count()
+    };
+    assert_eq!(count(|op| matches!(op, Op::Powf(..))), 3);
+    assert_eq!(count(|op| matches!(op, Op::PowerQuotient { .. })), 3);
+    assert_eq!(count(|op| matches!(op, Op::Sqrt(_))), 3);
+    let judge = Judge { name: "literal exponents", graph: &model.graph, variant: &variant };
+    model.samples.iter().for_each(|point| judge.separated(point));
+}
+
+/// Multiplying out all of it would take 4⁴ · 4⁴ terms.
+#[test]
+fn products_of_sums_compile_in_no_time() {
+    let item = quote! {
+        fn E([x, y, z]: [f64; 3], a: f64) -> f64 {
+            let s = x + y + z;
+            a * (s + J).powi(4) * (s + I1).powi(4) * (s + I2).powi(4) * (s + 1.0).powi(4)
+        }
+    };
+    let start = std::time::Instant::now();
+    let model = compile("product of sums", &quote!(prestressed), &item);
+    assert!(start.elapsed().as_secs() < 5);
+    let judge = Judge { name: "product of sums", graph: &model.graph, variant: &model.plain };
+    model.samples.iter().filter(|point| point.stretches[2] > 0.0).for_each(|point| judge.separated(point));
+}
+
+#[test]
+fn parameters_may_be_large_or_in_order() {
+    let large = quote!(
+        fn E([x, y, z]: [f64; 3], mu: f64) -> f64 {
+            mu * (I1 - 3.0).powi(2)
+        }
+    );
+    compile("large", &quote!(admissible(mu > 1e9)), &large);
+    let ordered = quote! {
+        fn E([x, y, z]: [f64; 3], a: f64, b: f64, c: f64, d: f64) -> f64 {
+            ((b - a) * (c - b)).sqrt() * (d - c).ln().powi(2) * (1.0 - d).sqrt() * (I1 - 3.0).powi(2)
+        }
+    };
+    compile("ordered", &quote!(admissible(a > 0.0, a < b, b < c, c < d, d < 1.0)), &ordered);
+}
+
+/// 2²⁴ terms when written out; a hundred nodes in the graph.
+#[test]
+fn formulas_are_cut_off() {
+    let mut body = String::from("let v0 = I1 / 3.0 - 1.0;");
+    for k in 0..24 {
+        body += &format!("let v{0} = 0.5 * (v{1} + v{1} * (1.0 - v{1}));", k + 1, k);
+    }
+    let body: TokenStream = format!("{{ {body} mu * v24.powi(2) }}").parse().expect("tokens");
+    let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
+    let mut model = compile("shared", &quote!(), &item);
+    let declaration = parse(quote!(), item).expect("a declaration");
+    let text = piola_codegen::formula::formula(&mut model.graph, &declaration, model.energy);
+    assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
+}

@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::divided::LARGEST_ROOT;
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::rational::Rational;
 
 /// Which powers of each base are needed, to choose the one that is computed.
 pub(super) struct Powers {
-    /// Common denominator of the fractional exponents of a base.
+    /// Common denominator of the simple fractional exponents of a base.
     denominators: HashMap<Id, i128>,
     /// The rational part of the exponent of the power that is computed.
     representatives: HashMap<PowerClass, Rational>,
@@ -15,7 +16,15 @@ pub(super) struct Powers {
 
 /// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
 /// fraction of its rational part.
-type PowerClass = (Id, Id, Rational);
+type PowerClass = (Id, Option<Id>, Rational);
+
+/// How a power is computed.
+pub(super) enum Way {
+    /// As a power of the root of this degree.
+    Root(i128),
+    /// From the real power whose exponent has this rational part.
+    Real(Rational),
+}
 
 impl Powers {
     /// Those that the nodes read.
@@ -26,26 +35,18 @@ impl Powers {
             match graph.node(id) {
                 Node::Product(factors) => {
                     for &(base, exponent) in factors {
-                        match exponent.real {
-                            Some(real) => {
-                                used.entry(class(base, real, exponent))
-                                    .or_default()
-                                    .0
-                                    .push(exponent.rational);
-                            }
-                            None => {
-                                let common = denominators.entry(base).or_insert(1);
-                                *common = least_common_multiple(*common, exponent.rational.denominator());
-                            }
+                        if is_simple(exponent) {
+                            let common = denominators.entry(base).or_insert(1);
+                            *common = least_common_multiple(*common, exponent.rational.denominator());
+                        } else {
+                            used.entry(class(base, exponent)).or_default().0.push(exponent.rational);
                         }
                     }
                 }
                 // A quotient reads both powers: computing exactly those leaves no product for it.
                 Node::PowerQuotient(a, b, exponent) => {
                     for base in [*a, *b] {
-                        if let Some(real) = exponent.real {
-                            used.entry(class(base, real, *exponent)).or_default().1.push(exponent.rational);
-                        }
+                        used.entry(class(base, *exponent)).or_default().1.push(exponent.rational);
                     }
                 }
                 _ => {}
@@ -61,19 +62,26 @@ impl Powers {
         Self { denominators, representatives }
     }
 
-    /// The rational part of the exponent of the real power from which `base^exponent` follows by multiplication.
-    pub(super) fn representative(&self, base: Id, real: Id, exponent: Exponent) -> Rational {
-        self.representatives.get(&class(base, real, exponent)).copied().unwrap_or(exponent.rational)
-    }
-
-    /// q such that the fractional powers of the base are whole powers of its q-th root.
-    pub(super) fn root(&self, base: Id, exponent: Rational) -> i128 {
-        self.denominators.get(&base).copied().unwrap_or(exponent.denominator())
+    /// How `base^exponent` is computed.
+    pub(super) fn way(&self, base: Id, exponent: Exponent) -> Way {
+        let Exponent { rational, .. } = exponent;
+        if is_simple(exponent) {
+            // Roots of one base share a common one unless that is of too high a degree.
+            let common = self.denominators.get(&base).copied().filter(|&common| common <= LARGEST_ROOT);
+            Way::Root(common.unwrap_or(rational.denominator()))
+        } else {
+            Way::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
+        }
     }
 }
 
-fn class(base: Id, real: Id, exponent: Exponent) -> PowerClass {
-    let Exponent { rational, .. } = exponent;
+/// A fraction that is computed by a root.
+fn is_simple(exponent: Exponent) -> bool {
+    exponent.real.is_none() && exponent.rational.denominator() <= LARGEST_ROOT
+}
+
+fn class(base: Id, exponent: Exponent) -> PowerClass {
+    let Exponent { real, rational } = exponent;
     let fraction =
         Rational::new(rational.numerator().rem_euclid(rational.denominator()), rational.denominator());
     (base, real, fraction.unwrap_or(Rational::ZERO))
