@@ -6,7 +6,7 @@ use piola::mesh::TetMesh;
 use piola::point::svd;
 use piola::step::{NewtonSettings, Settings, Simulation};
 use piola::system::{Body, Pins};
-use piola_materials::{NeoHookean, Ogden};
+use piola_materials::{ArrudaBoyce, Hencky, MooneyRivlinCoupled, NeoHookean, Ogden, Varga};
 
 /// How many random deformation gradients each element starts from.
 const STARTS: u64 = 60;
@@ -74,5 +74,27 @@ fn neo_hookean() {
 #[test]
 fn ogden() {
     let material = Ogden::new([0.6, 0.1, -0.2], [1.3, 5.0, -2.0], 5.0);
+    restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
+}
+
+#[test]
+fn hencky() {
+    restores(Hencky::new(1.0, 5.0).and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
+}
+
+#[test]
+fn varga() {
+    restores(Varga::new(1.0, 5.0).and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
+}
+
+#[test]
+fn mooney_rivlin_coupled() {
+    let material = MooneyRivlinCoupled::new(0.4, 0.1, 5.0);
+    restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
+}
+
+#[test]
+fn arruda_boyce() {
+    let material = ArrudaBoyce::new(1.0, 3.0, 5.0);
     restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
 }
