@@ -207,11 +207,12 @@ impl<M: Material> ElementEnergy for M {
             let blocks = self.blocks(point.stretches);
             *gradient = nodal_gradient(element, point, blocks.gradient);
             let (blocks, filtered) = project(&blocks, filter);
-            let blocks = blunt(blocks);
+            let (blocks, blunted) = blunt(blocks);
             *stiffness = element_stiffness(element, point, &blocks);
             let [_, second, third] = point.stretches;
+            let at_pole = self.has_pole() && second + third < pole_floor(point.stretches);
             survey.filtered += usize::from(filtered);
-            survey.bounded += usize::from(self.has_pole() && second + third < pole_floor(point.stretches));
+            survey.bounded += usize::from(at_pole || blunted);
         }
         survey
     }
@@ -221,16 +222,19 @@ impl<M: Material> ElementEnergy for M {
     }
 }
 
-/// Cuts off what a factorisation cannot resolve.
+/// Cuts off what a factorisation cannot resolve, and says whether there was anything.
 ///
 /// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) > 2μ, the energy
 /// has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the factors of a matrix that
 /// holds it beside ordinary entries lose all digits of those. A stiffness [`STIFFEST`] times the others is rigid enough.
 #[inline]
-fn blunt(mut blocks: Blocks<f64>) -> Blocks<f64> {
+fn blunt(mut blocks: Blocks<f64>) -> (Blocks<f64>, bool) {
     let scale = blocks.hessian.iter().chain(&blocks.flip).fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    blocks.twist = blocks.twist.map(|twist| twist.min(STIFFEST * scale));
-    blocks
+    let limit = STIFFEST * scale;
+    let blunted = blocks.twist.iter().any(|&twist| twist > limit);
+    // Not `min`, which would turn NaN into a plausible number.
+    blocks.twist = blocks.twist.map(|twist| if twist > limit { limit } else { twist });
+    (blocks, blunted)
 }
 
 /// v P Dm⁻ᵀ with P = U diag(ψ1, ψ2, ψ3) Vᵀ; its column n is the gradient in the position of node n + 1.

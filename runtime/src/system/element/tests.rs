@@ -131,6 +131,28 @@ fn a_filtered_stiffness_is_semidefinite_and_counted() {
     assert!(filtered > 0, "some of these elements are compressed so much that the filter has work");
 }
 
+/// Stretched tenfold along one axis and collapsed to a line: λ(λ1 − 3) > 2μ, and the twist is N/(λ2 + λ3) with N > 0.
+#[test]
+fn a_convex_kink_is_cut_to_what_a_factorisation_resolves() {
+    let (element, positions) = sample(0, 0.0);
+    let collapsed =
+        |width: f64| positions.iter().map(|x| [10.0 * x[0], width * x[1], width * x[2]]).collect();
+    let largest = |positions: Vec<[f64; 3]>| {
+        let (_, stiffness, survey) = derivatives(&ROTATED, &element, &positions, Filter::Clamp);
+        let largest = stiffness.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        assert!(largest.is_finite());
+        (largest, survey.bounded)
+    };
+    let (ordinary, none) = largest(collapsed(0.1));
+    assert_eq!(none, 0);
+    for width in [0.0, 1e-12] {
+        let (kink, bounded) = largest(collapsed(width));
+        assert_eq!(bounded, 1, "width {width:e}");
+        // The rest of the tangent is of the size of the ordinary one; ten allows for what differs.
+        assert!(kink <= 10.0 * STIFFEST * ordinary, "{kink:e} beside {ordinary:e}");
+    }
+}
+
 #[test]
 fn an_affine_map_gives_every_element_the_same_stress() {
     let mesh = beam(3);
