@@ -7,7 +7,11 @@ use piola::material;
 /// ψ = Σₖ Cₖ (I1b − 3)ᵏ + κ/2 (J − 1)², k = 1, 2, 3.
 ///
 /// Yeoh, *Some Forms of the Strain Energy Function for Rubber*, 1993, eq. 5, in isochoric form. Defined for J > 0.
-#[material(domain(J > 0.0), admissible(c1 > 0.0, kappa > 0.0))]
+#[material(
+    domain(J > 0.0),
+    admissible(c1 > 0.0, kappa > 0.0),
+    refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open")
+)]
 pub fn Yeoh(
     [l1, l2, l3]: [f64; 3],
     /// Modulus C1, Pa.

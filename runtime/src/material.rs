@@ -141,6 +141,8 @@ pub struct Description {
     pub domain: &'static str,
     /// Whether the material can be built with [`Inversion::Extend`].
     pub extends: bool,
+    /// Why not, if it cannot and the declaration says so.
+    pub refusal: Option<&'static str>,
     /// What the parameters must satisfy beside being finite.
     pub admissible: &'static [&'static str],
     /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
@@ -205,6 +207,8 @@ pub enum Inadmissible {
     NoExtension {
         /// Name of the material.
         material: &'static str,
+        /// Why, as its declaration says.
+        reason: Option<&'static str>,
     },
     /// The extension would not restore an inverted point.
     DoesNotRestore {
@@ -237,8 +241,10 @@ impl fmt::Display for Inadmissible {
             Self::Threshold { epsilon } => {
                 write!(f, "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1")
             }
-            Self::NoExtension { material } => {
-                write!(f, "{material} has no extension beyond its domain; use `Inversion::Refuse`")
+            Self::NoExtension { material, reason } => {
+                write!(f, "{material} has no extension beyond its domain")?;
+                reason.map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
+                write!(f, "; use `Inversion::Refuse`")
             }
             Self::DoesNotRestore { condition, given } => write!(
                 f,

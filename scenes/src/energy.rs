@@ -159,6 +159,7 @@ mod tests {
         ],
         domain: "J > 0",
         extends: true,
+        refusal: None,
         admissible: &[],
         moduli: ["mu", "kappa"],
     };

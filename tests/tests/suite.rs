@@ -7,7 +7,7 @@ use piola::material::{Blocks, Declared, Inadmissible};
 use piola::{Inversion, Material, Real};
 use piola_codegen::expr::Id;
 use piola_codegen::interpret::{Point, Value, evaluate};
-use piola_codegen::model::{Model, Variant, model};
+use piola_codegen::model::{Model, Variant, Volume, model};
 use piola_codegen::parse::{Declaration, parse};
 use piola_materials::{CATALOGUE, Entry, Visitor};
 
@@ -86,7 +86,7 @@ impl Visitor for Judge<'_> {
     type Output = ();
 
     fn visit<M: Declared + 'static>(self, material: M) {
-        let is_extended = self.variant.has_pole && self.model.positive;
+        let is_extended = self.variant.has_pole && self.model.volume != Volume::Any;
         let mut points = vec![ordered(self.sample.stretches)];
         if is_extended {
             points.extend([
@@ -170,7 +170,14 @@ fn constructors_refuse_what_is_inadmissible() {
     check(message("stvk", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
     check(message("stvk", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");
     check(message("stvk", &[&[1.0], &[1.0, 2.0]], plain), "`lambda` must be one number");
-    check(message("stvk", &[&[1.0], &[1.0]], EXTEND), "StVenantKirchhoff has no extension");
+    check(
+        message("stvk", &[&[1.0], &[1.0]], EXTEND),
+        "StVenantKirchhoff has no extension beyond its domain: it is defined for every deformation gradient already",
+    );
+    check(
+        message("mooney_rivlin", &[&[1.0], &[1.0], &[1.0]], EXTEND),
+        "do not push a collapsed point open; use `Inversion::Refuse`",
+    );
     check(
         message("ogden", &[&[1.0, 1.0], &[2.0, 0.0], &[1.0]], plain),
         "`alpha[p] != 0` must hold, but alpha[1] = 0",

@@ -6,7 +6,7 @@ use syn::{Expr, Ident};
 
 use crate::expr::{Graph, Id};
 use crate::formula::formula;
-use crate::model::{Model, Variant, indexed_lists};
+use crate::model::{Model, Variant, Volume, indexed_lists};
 use crate::parse::{Declaration, documentation};
 use crate::schedule::schedule;
 use writer::Writer;
@@ -285,12 +285,10 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     );
 
     let admits = admits(model, &writer, stretches);
+    let is_positive = model.volume == Volume::Positive;
     let plain_pole = model.plain.has_pole;
     let (has_pole, ends) = match &model.extended {
-        None => {
-            let positive = model.positive;
-            (quote!(#plain_pole), quote!(#positive))
-        }
+        None => (quote!(#plain_pole), quote!(#is_positive)),
         Some(extended) => {
             let extended_pole = extended.has_pole;
             let pole = if plain_pole == extended_pole {
@@ -303,7 +301,8 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
                     }
                 }
             };
-            (pole, quote!(::core::matches!(self.inversion, ::piola::Inversion::Refuse)))
+            let refuses = quote!(::core::matches!(self.inversion, ::piola::Inversion::Refuse));
+            (pole, if is_positive { refuses } else { quote!(false) })
         }
     };
     let [l1, l2, l3] = stretches;
@@ -343,24 +342,28 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     }
 }
 
-/// J > 0 is λ3 > 0, the last stretch carrying the sign; the other bounds are positive expressions.
+/// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the other bounds are
+/// positive expressions.
 fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
     let program = schedule(&mut model.graph, &model.bounds);
     let (statements, outputs) = writer.program(&program);
     let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
     let mut conditions: Vec<TokenStream> = bounds.collect();
-    if model.positive {
-        let smallest = &stretches[2];
-        conditions.push(match &model.extended {
-            None => quote!(R::splat(0.0).less(#smallest)),
-            Some(_) => quote! {
-                match self.inversion {
-                    ::piola::Inversion::Refuse => R::splat(0.0).less(#smallest),
-                    ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
-                }
-            },
-        });
-    }
+    let smallest = &stretches[2];
+    let inside = match model.volume {
+        Volume::Any => None,
+        Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
+        Volume::Nonzero => Some(quote!(R::splat(0.0).less(#smallest.abs()))),
+    };
+    conditions.extend(inside.map(|inside| match &model.extended {
+        None => inside,
+        Some(_) => quote! {
+            match self.inversion {
+                ::piola::Inversion::Refuse => #inside,
+                ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
+            }
+        },
+    }));
     let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
     let all = all.unwrap_or_else(|| quote!(<R::Mask as ::piola::lanes::Mask>::splat(true)));
     quote!(#(#statements)* #all)
@@ -376,6 +379,13 @@ fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Toke
         quote!(::piola::material::Parameter { name: #name, doc: #doc, is_list: #is_list })
     });
     let extends = declaration.options.extend.is_some();
+    let refusal = match &declaration.options.refuse {
+        Some(reason) => quote!(::core::option::Option::Some(#reason)),
+        None if declaration.options.domain.is_empty() => {
+            quote!(::core::option::Option::Some("it is defined for every deformation gradient already"))
+        }
+        None => quote!(::core::option::Option::None),
+    };
     let admissible = declaration.options.admissible.iter().map(condition_text);
 
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
@@ -415,7 +425,10 @@ fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Toke
             match inversion {
                 ::piola::Inversion::Refuse => Ok(material),
                 ::piola::Inversion::Extend { .. } => {
-                    Err(::piola::material::Inadmissible::NoExtension { material: #type_name })
+                    Err(::piola::material::Inadmissible::NoExtension {
+                        material: #type_name,
+                        reason: <Self as ::piola::material::Declared>::DESCRIPTION.refusal,
+                    })
                 }
             }
         }
@@ -433,6 +446,7 @@ fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Toke
                 parameters: &[#(#parameters),*],
                 domain: #domain,
                 extends: #extends,
+                refusal: #refusal,
                 admissible: &[#(#admissible),*],
                 moduli: [#(#moduli),*],
             };

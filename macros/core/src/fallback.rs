@@ -110,6 +110,7 @@ fn inert_type(
                 parameters: &[],
                 domain: "",
                 extends: false,
+                refusal: ::core::option::Option::None,
                 admissible: &[],
                 moduli: ["", ""],
             };

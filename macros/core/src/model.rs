@@ -27,16 +27,28 @@ pub struct Model {
     pub energy: Id,
     /// Inside the domain.
     pub plain: Variant,
-    /// Continued beyond J > 0.
+    /// Continued beyond its volumes.
     pub extended: Option<Variant>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
-    /// The domain ends at J = 0.
-    pub positive: bool,
+    /// The volumes J for which the energy is defined.
+    pub volume: Volume,
     /// Small-strain μ and λ.
     pub moduli: [Id; 2],
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
+}
+
+/// The volumes J for which an energy is defined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Volume {
+    /// All of them.
+    #[default]
+    Any,
+    /// J > 0.
+    Positive,
+    /// J ≠ 0.
+    Nonzero,
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -63,28 +75,25 @@ pub struct Variant {
 pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     let mut diagnostics = Diagnostics::default();
     let mut graph = Graph::default();
-    let (energy, bounds, admissible, positive) = {
+    let (energy, bounds, admissible, volume) = {
         let mut resolver = Resolver::new(declaration, &mut graph, &mut diagnostics);
         let energy = resolver.energy();
         let options = &declaration.options;
-        let positive = options.domain.iter().any(is_positive_volume);
-        let bounds: Vec<_> = options
-            .domain
-            .iter()
-            .filter(|c| !is_positive_volume(c))
-            .filter_map(|c| resolver.condition(c))
-            .collect();
+        let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
+        let others = options.domain.iter().filter(|condition| volume_condition(condition).is_none());
+        let bounds: Vec<_> = others.filter_map(|condition| resolver.condition(condition)).collect();
         let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
         let admissible: Vec<_> = conditions.filter_map(|c| resolver.condition(&without_index(c))).collect();
-        (energy, bounds, admissible, positive)
+        (energy, bounds, admissible, volume)
     };
     if !diagnostics.is_clean() {
         return diagnostics.finish(None);
     }
-    if declaration.options.extend.is_some() && !positive {
+    if declaration.options.extend.is_some() && volume == Volume::Any {
         diagnostics.error(
             declaration.name.span(),
-            "`extend` continues an energy beyond `domain(J > 0.0)`: declare that domain or remove `extend`",
+            "`extend` continues an energy beyond `domain(J > 0.0)` or `domain(J != 0.0)`: declare one of these or remove \
+             `extend`",
         );
     }
     if graph.overflowed() {
@@ -93,6 +102,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
             "the numbers of this energy leave 128-bit fractions: use smaller ones",
         );
     }
+    let positive = volume == Volume::Positive;
     let samples =
         check::samples(&mut graph, declaration, energy, &bounds, &admissible, positive, &mut diagnostics);
     if !samples.is_empty() {
@@ -117,7 +127,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
             "the numbers of this energy leave 128-bit fractions: use smaller ones",
         );
     }
-    diagnostics.finish(Some(Model { graph, energy, plain, extended, bounds, positive, moduli, samples }))
+    diagnostics.finish(Some(Model { graph, energy, plain, extended, bounds, volume, moduli, samples }))
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
@@ -155,8 +165,8 @@ fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     [shear, mixed].map(|modulus| simplify(graph, modulus))
 }
 
-/// `J > 0.0`, the condition that is spelled out for the sign of the last stretch.
-fn is_positive_volume(condition: &Expr) -> bool {
+/// `J > 0.0` or `J != 0.0`, the conditions that are spelled out for the sign of the last stretch.
+fn volume_condition(condition: &Expr) -> Option<Volume> {
     let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
     let is_zero = |e: &Expr| {
         matches!(e, Expr::Lit(lit) if match &lit.lit {
@@ -165,13 +175,14 @@ fn is_positive_volume(condition: &Expr) -> bool {
             _ => false,
         })
     };
-    match condition {
-        Expr::Binary(binary) => match binary.op {
-            BinOp::Gt(_) => is_j(&binary.left) && is_zero(&binary.right),
-            BinOp::Lt(_) => is_zero(&binary.left) && is_j(&binary.right),
-            _ => false,
-        },
-        _ => false,
+    let Expr::Binary(binary) = condition else { return None };
+    let (forward, backward) =
+        (is_j(&binary.left) && is_zero(&binary.right), is_zero(&binary.left) && is_j(&binary.right));
+    match binary.op {
+        BinOp::Gt(_) if forward => Some(Volume::Positive),
+        BinOp::Lt(_) if backward => Some(Volume::Positive),
+        BinOp::Ne(_) if forward || backward => Some(Volume::Nonzero),
+        _ => None,
     }
 }
 

@@ -64,6 +64,8 @@ pub struct Options {
     pub admissible: Vec<Expr>,
     /// Comparisons in parameters under which the extension restores; `None` without an extension.
     pub extend: Option<Vec<Expr>>,
+    /// Why there is no extension.
+    pub refuse: Option<syn::LitStr>,
     /// The rest state is meant to carry stress.
     pub prestressed: bool,
 }
@@ -304,16 +306,30 @@ impl Parse for Options {
                 "admissible" => options.admissible = comparisons(input)?,
                 "extend" if input.peek(syn::token::Paren) => options.extend = Some(comparisons(input)?),
                 "extend" => options.extend = Some(Vec::new()),
+                "refuse" => {
+                    let content;
+                    syn::parenthesized!(content in input);
+                    options.refuse = Some(content.parse().map_err(|error: syn::Error| {
+                        let message = "say in a string why the energy has no extension: `refuse(\"…\")`";
+                        syn::Error::new(error.span(), message)
+                    })?);
+                }
                 "prestressed" => options.prestressed = true,
                 other => {
                     return Err(syn::Error::new(
                         name.span(),
                         format!(
-                            "unknown argument `{other}`: there are `domain(J > 0.0)`, `admissible(mu > 0.0)`, `extend` and \
-                             `prestressed`"
+                            "unknown argument `{other}`: there are `domain(J > 0.0)`, `admissible(mu > 0.0)`, `extend`, \
+                             `refuse(\"why not extend\")` and `prestressed`"
                         ),
                     ));
                 }
+            }
+            if options.extend.is_some() && options.refuse.is_some() {
+                return Err(syn::Error::new(
+                    name.span(),
+                    "an energy has either `extend` or `refuse`: remove one",
+                ));
             }
             seen.push(name);
             if !input.is_empty() {

@@ -81,7 +81,9 @@ fn physics() {
     check_added("mu * (l1 + l2 + l3)", "the rest state carries the stress ψ1(1, 1, 1) = μ:");
     let free = |options| mistakes(options, GOOD);
     assert!(free(quote!(domain(J > 2.0)))[0].contains("excludes the rest state"));
-    assert!(free(quote!(extend))[0].contains("declare that domain"));
+    assert!(free(quote!(extend))[0].contains("declare one of these"));
+    assert!(free(quote!(domain(J != 0.0), extend, refuse("no")))[0].contains("either `extend` or `refuse`"));
+    assert!(free(quote!(refuse(no)))[0].contains("say in a string why"));
     assert!(free(quote!(domain(J > 0.0), domein(mu > 0.0)))[0].contains("unknown argument `domein`"));
     assert!(free(quote!(admissible(mu)))[0].contains("a condition is a comparison"));
 }
