@@ -5,8 +5,8 @@ use piola::material::{Declared, Description, Inadmissible, Moduli};
 use piola::system::element::ElementEnergy;
 
 use crate::{
-    Arap, ArrudaBoyce, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled, NeoHookean,
-    Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, SymmetricDirichlet, Varga, Yeoh,
+    Arap, ArrudaBoyce, BlatzKo, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled,
+    NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, SymmetricDirichlet, Varga, Yeoh,
 };
 
 /// An energy of the catalogue.
@@ -77,6 +77,7 @@ macro_rules! catalogue {
 catalogue! {
     "arap" => Arap,
     "arruda_boyce" => ArrudaBoyce,
+    "blatz_ko" => BlatzKo,
     "fixed_corotated" => FixedCorotated,
     "fung" => Fung,
     "gent" => Gent,

@@ -20,6 +20,7 @@
 
 mod arap;
 mod arruda_boyce;
+mod blatz_ko;
 mod catalogue;
 mod fixed_corotated;
 mod fung;
@@ -38,6 +39,7 @@ mod yeoh;
 
 pub use arap::Arap;
 pub use arruda_boyce::ArrudaBoyce;
+pub use blatz_ko::BlatzKo;
 pub use catalogue::{CATALOGUE, Entry, Visitor, find};
 pub use fixed_corotated::FixedCorotated;
 pub use fung::Fung;

@@ -1,10 +1,11 @@
-//! Divided differences φ[a, b] = (φ(a) − φ(b)) / (a − b) that never subtract close values.
+//! Divided differences φ[a, b] = (φ(a) − φ(b)) / (a − b) that never subtract close values, and what else generated
+//! materials need beyond the operations of a real number.
 //!
 //! Generated materials call these. Each is accurate to a few u for every gap a − b, zero included: where a kernel
 //! switches between two formulas, both are accurate on both sides of the switch, and neither is a limit. What a
 //! switch discards may be NaN; it is never looked at.
 
-use crate::lanes::Real;
+use crate::lanes::{Mask, Real};
 
 /// (ln a − ln b)/(a − b) for a, b > 0.
 ///
@@ -70,6 +71,24 @@ fn sinhc<R: Real>(v: R) -> R {
     ];
     let v2 = v * v;
     INVERSE_FACTORIALS.into_iter().rev().fold(R::splat(0.0), |sum, c| sum.mul_add(v2, R::splat(c)))
+}
+
+/// ln(λ1 λ2 λ3) for λ1 ≥ λ2 ≥ λ3 > 0, also where the product is out of range.
+///
+/// The logarithm of the product, in which stretches near one cancel exactly as far as they do; where the product or a part
+/// of it overflows or loses digits to underflow, the sum of logarithms.
+#[inline]
+pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
+    let extremes = l1 * l3;
+    let product = extremes * l2;
+    let smallest = R::splat(R::MIN_POSITIVE);
+    let in_range = smallest.less(extremes) & smallest.less(product) & product.is_finite();
+    let ln = product.ln();
+    // The sum is only computed if one of the numbers in R needs it, and only that one takes it.
+    if !(!in_range).any() {
+        return ln;
+    }
+    R::select(in_range, ln, (l1.ln() + l3.ln()) + l2.ln())
 }
 
 /// The fraction of the interval from a to b that lies above ε; a point counts as above from ε on.
@@ -153,6 +172,23 @@ mod tests {
             (value - exact).abs() / exact / f64::UNIT_ROUNDOFF / (1.0 + b * t)
         });
         assert!(worst <= 8.0, "{worst} u");
+    }
+
+    #[test]
+    fn the_logarithm_of_a_product_out_of_range_is_that_of_its_factors() {
+        for ([a, b, c], expected) in [
+            ([1e200, 1e180, 1e-300], 80.0 * std::f64::consts::LN_10),
+            ([1e300, 1e10, 1e10], 320.0 * std::f64::consts::LN_10),
+            ([1e-120, 1e-130, 1e-140], -390.0 * std::f64::consts::LN_10),
+            ([1e160, 1e155, 1e-310], 5.0 * std::f64::consts::LN_10),
+            ([2.0, 1.0, 0.5], 0.0),
+        ] {
+            let found: f64 = ln_product([a, b, c]);
+            // Each logarithm is below 800 and rounded once.
+            assert!((found - expected).abs() <= 800.0 * 4.0 * f64::UNIT_ROUNDOFF, "{found} for {expected}");
+        }
+        assert!(ln_product([1.0f64, 1.0, -1.0]).is_nan());
+        assert_eq!(ln_product([1.0, 1.0, 0.0]), f64::NEG_INFINITY);
     }
 
     #[test]

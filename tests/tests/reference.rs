@@ -122,7 +122,7 @@ impl Judge<'_> {
     ) -> Vec<(&'static str, Quantity, f64)> {
         let f = self.0.deformation;
         let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));
-        let (energy, _) = point::evaluate_energy(material, &deformation);
+        let (energy, energy_status) = point::evaluate_energy(material, &deformation);
         let plain = point::evaluate(material, &deformation, Filter::None);
         let clamped = point::evaluate(material, &deformation, Filter::Clamp);
         let flat = |rows: &[[R; 9]; 9]| rows.iter().flatten().map(|&x| widen(x)).collect::<Vec<_>>();
@@ -135,17 +135,22 @@ impl Judge<'_> {
         // What has no representation in this precision cannot be returned, but the status must say so, and only then.
         let leaves_range =
             |quantity| !self.0.reference(quantity).into_iter().all(|value| R::splat(value).is_finite());
-        let some_leave = Quantity::ALL.into_iter().any(leaves_range);
-        let is_wrongly_flagged = plain.status.refused || plain.status.nonfinite && !some_leave;
+        // ψ has a status of its own; P and dP/dF share theirs.
+        let shared = [Quantity::Stress, Quantity::Tangent, Quantity::Projected];
+        let status_of = |quantity| match quantity {
+            Quantity::Energy => (energy_status, leaves_range(quantity)),
+            _ => (plain.status, shared.into_iter().any(leaves_range)),
+        };
         let moduli = material.moduli();
         let error = |(quantity, values): (Quantity, Vec<f64>)| {
             // At rest the terms of an energy are of the size of its moduli and cancel.
             let noise =
                 if quantity == Quantity::Energy { 2.0 * moduli.mu + moduli.lambda.abs() } else { 0.0 };
-            let error = if is_wrongly_flagged {
+            let (status, may_be_nonfinite) = status_of(quantity);
+            let error = if status.refused || status.nonfinite && !may_be_nonfinite {
                 f64::INFINITY
             } else if leaves_range(quantity) {
-                if plain.status.nonfinite { 0.0 } else { f64::INFINITY }
+                if status.nonfinite { 0.0 } else { f64::INFINITY }
             } else {
                 self.0.error(quantity, &values, noise, R::UNIT_ROUNDOFF)
             };

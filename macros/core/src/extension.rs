@@ -17,10 +17,12 @@ use std::collections::HashMap;
 use crate::divided::power_quotient;
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::rational::Rational;
+use crate::volume::{Logarithms, rewrite, separate};
 
 /// The energy with its logarithms and real or negative powers of stretches extended.
 pub fn extend(graph: &mut Graph, energy: Id) -> Id {
-    rewrite(graph, energy, &mut HashMap::new(), &extend_node)
+    let separated = separate(graph, energy, Logarithms::OfStretches);
+    rewrite(graph, separated, &mut HashMap::new(), &extend_node)
 }
 
 /// The expression with its extended functions written out.
@@ -31,82 +33,26 @@ pub fn lower(graph: &mut Graph, e: Id) -> Id {
     })
 }
 
-fn rewrite(
-    graph: &mut Graph,
-    id: Id,
-    memo: &mut HashMap<Id, Id>,
-    rule: &impl Fn(&mut Graph, Id) -> Option<Id>,
-) -> Id {
-    if let Some(&done) = memo.get(&id) {
-        return done;
-    }
-    let result = match rule(graph, id) {
-        Some(replaced) => replaced,
-        None => graph.map_children(id, &mut |graph, child| rewrite(graph, child, memo, rule)),
-    };
-    memo.insert(id, result);
-    result
-}
-
 fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
     match graph.node(id).clone() {
-        Node::Ln(a) => {
-            let mut terms = Vec::new();
-            for (stretch, exponent) in monomial(graph, a)? {
-                let ln = graph.leaf(Node::Extended(Extended::Ln, 0, stretch));
-                let exponent = graph.exponent_value(exponent);
-                terms.push(graph.mul(exponent, ln));
-            }
-            Some(graph.sum_of(&terms))
-        }
+        Node::Ln(a) => match *graph.node(a) {
+            Node::Stretch(i) => Some(graph.leaf(Node::Extended(Extended::Ln, 0, i))),
+            _ => None,
+        },
         Node::Product(factors) => {
             let mut product = Vec::new();
             for (base, exponent) in factors {
-                match power_of_monomial(graph, base, exponent) {
-                    Some(extended) => product.extend(extended.into_iter().map(|e| (e, Exponent::ONE))),
-                    None => {
-                        let base = extend(graph, base);
-                        product.push((base, exponent));
+                product.push(match *graph.node(base) {
+                    Node::Stretch(i) if exponent.as_integer().is_none_or(|n| n < 0) => {
+                        (graph.leaf(Node::Extended(Extended::Power(exponent), 0, i)), Exponent::ONE)
                     }
-                }
+                    _ => (rewrite(graph, base, &mut HashMap::new(), &extend_node), exponent),
+                });
             }
             Some(graph.product(&product))
         }
         _ => None,
     }
-}
-
-/// The factors of a product of powers of stretches, without coefficient; `None` for anything else.
-fn monomial(graph: &Graph, id: Id) -> Option<Vec<(Stretch, Exponent)>> {
-    let (coefficient, factors) = graph.factors(id);
-    if coefficient != Rational::ONE {
-        return None;
-    }
-    factors
-        .into_iter()
-        .map(|(base, exponent)| match graph.node(base) {
-            Node::Stretch(i) => Some((*i, exponent)),
-            _ => None,
-        })
-        .collect()
-}
-
-/// (Π λi^e)^exponent with each negative or real power extended; `None` for other bases.
-fn power_of_monomial(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Id>> {
-    let mut powers = Vec::new();
-    for (stretch, inner) in monomial(graph, base)? {
-        let outer = graph.exponent_value(exponent);
-        let inner = graph.exponent_value(inner);
-        let product = graph.mul(outer, inner);
-        let total = graph.exponent(product);
-        powers.push(if total.as_integer().is_some_and(|n| n >= 0) {
-            let stretch = graph.stretch(stretch);
-            graph.power(stretch, total)
-        } else {
-            graph.leaf(Node::Extended(Extended::Power(total), 0, stretch))
-        });
-    }
-    Some(powers)
 }
 
 fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> Id {

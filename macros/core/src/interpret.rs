@@ -155,7 +155,14 @@ impl Interpreter<'_> {
             return Value { value: value.powi(n as i32), magnitude: magnitude.powi(n as i32) };
         }
         let r = self.exponent(exponent);
-        let power = if r.fract() == 0.0 { value.powi(r as i32) } else { value.powf(r) };
+        let power = match exponent {
+            // By its real cube root a negative number has such powers: J^(−2/3) is even in each stretch.
+            Exponent { real: None, rational } if rational.denominator() == 3 => {
+                value.cbrt().powi(rational.numerator() as i32)
+            }
+            _ if r.fract() == 0.0 => value.powi(r as i32),
+            _ => value.powf(r),
+        };
         Value { value: power, magnitude: power.abs() * (1.0 + (r * (magnitude / value.abs() - 1.0)).abs()) }
     }
 

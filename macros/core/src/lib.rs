@@ -24,6 +24,7 @@ pub mod rational;
 pub mod resolve;
 pub mod schedule;
 pub mod simplify;
+pub mod volume;
 
 use proc_macro2::TokenStream;
 

@@ -14,6 +14,7 @@ use crate::quotient::Quotients;
 use crate::rational::Rational;
 use crate::resolve::Resolver;
 use crate::simplify::simplify;
+use crate::volume::{Logarithms, separate};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -112,7 +113,8 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
         return diagnostics.finish(None);
     }
 
-    let plain = derive(&mut graph, energy, &samples, positive);
+    let separated = if positive { separate(&mut graph, energy, Logarithms::OfVolume) } else { energy };
+    let plain = derive(&mut graph, separated, &samples, positive);
     if !declaration.options.prestressed {
         check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
     }

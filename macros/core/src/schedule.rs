@@ -43,6 +43,8 @@ pub enum Op {
     Cbrt(Value),
     Ln(Value),
     Exp(Value),
+    /// ln of a product of three.
+    LnProduct([Value; 3]),
     Powf(Value, Value),
     Max(Value, Value),
     /// min(first − second, 0).
@@ -87,7 +89,10 @@ impl Op {
             | Self::Below(a, b)
             | Self::LnQuotient(a, b)
             | Self::ExpQuotient(a, b) => vec![a, b],
-            Self::MulAdd(a, b, c) | Self::ShareAbove(a, b, c) | Self::ShareBelow(a, b, c) => vec![a, b, c],
+            Self::LnProduct([a, b, c])
+            | Self::MulAdd(a, b, c)
+            | Self::ShareAbove(a, b, c)
+            | Self::ShareBelow(a, b, c) => vec![a, b, c],
             Self::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => {
                 vec![a, b, a_power, b_power, exponent, ln_quotient]
             }
@@ -260,6 +265,14 @@ impl Scheduler<'_> {
                     .unwrap_or_else(|| self.literal(Rational::ONE))
             }
             Node::Ln(a) => {
+                // ln J, which is defined where J itself is out of range.
+                if let Node::Product(factors) = self.graph.node(a)
+                    && let &[(a, Exponent::ONE), (b, Exponent::ONE), (c, Exponent::ONE)] = &factors[..]
+                    && [a, b, c].iter().all(|&id| matches!(self.graph.node(id), Node::Stretch(_)))
+                {
+                    let factors = [a, b, c].map(|id| self.value(id));
+                    return self.push(Op::LnProduct(factors));
+                }
                 let a = self.value(a);
                 self.push(Op::Ln(a))
             }

@@ -133,6 +133,10 @@ impl<'a> Writer<'a> {
             Op::Cbrt(a) => method(&n(a), "cbrt"),
             Op::Ln(a) => method(&n(a), "ln"),
             Op::Exp(a) => method(&n(a), "exp"),
+            Op::LnProduct(factors) => {
+                let factors = factors.map(n);
+                self.call("ln_product", &[quote!([#(#factors),*])])
+            }
             Op::Powf(a, b) => {
                 let (a, b) = (n(a), n(b));
                 quote!(#a.powf(#b))

@@ -1,0 +1,27 @@
+//! Blatz–Ko solid.
+
+use piola::material;
+
+/// Blatz–Ko solid: foamed rubber and other compressible elastomers.
+///
+/// ψ = f μ/2 (I1 − 3 + (J^(−2β) − 1)/β) + (1 − f) μ/2 (Σ λi⁻² − 3 + (J^(2β) − 1)/β).
+///
+/// Blatz, Ko, *Application of Finite Elastic Theory to the Deformation of Rubbery Materials*, Trans. Soc. Rheol. 6, 1962, eq. 25;
+/// β = ν/(1 − 2ν), and Σ λi⁻² is the source's I2/I3. Nothing is added: the source is compressible. Defined for J > 0, continued
+/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
+///
+/// Typical: the source's foamed polyurethane f = 0, μ = 0.22 MPa, β = 1/2 (ν = 1/4).
+#[material(domain(J > 0.0), admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0), extend)]
+pub fn BlatzKo(
+    [l1, l2, l3]: [f64; 3],
+    /// Shear modulus μ, Pa.
+    mu: f64,
+    /// Fraction f of the part in I1, 0 … 1: 1 for a solid rubber, 0 for a foam.
+    f: f64,
+    /// β = ν/(1 − 2ν) with Poisson's ratio ν.
+    beta: f64,
+) -> f64 {
+    let solid = I1 - 3.0 + (J.powf(-2.0 * beta) - 1.0) / beta;
+    let foam = l1.powi(-2) + l2.powi(-2) + l3.powi(-2) - 3.0 + (J.powf(2.0 * beta) - 1.0) / beta;
+    mu / 2.0 * (f * solid + (1.0 - f) * foam)
+}
