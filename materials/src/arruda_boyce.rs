@@ -8,6 +8,8 @@ use piola::material;
 ///
 /// Arruda, Boyce, *A three-dimensional constitutive model for the large stretch behavior of rubber elastic materials*,
 /// 1993, eq. 16; the volumetric part is that of Abaqus. Defined for J > 0.
+///
+/// Typical: `mu = 3.3e5, lambda_m = 5.2, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 #[material(domain(J > 0.0), admissible(mu > 0.0, lambda_m > 0.0, kappa > 0.0), extend)]
 pub fn ArrudaBoyce(
     [l1, l2, l3]: [f64; 3],

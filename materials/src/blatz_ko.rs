@@ -10,7 +10,7 @@ use piola::material;
 /// β = ν/(1 − 2ν), and Σ λi⁻² is the source's I2/I3. Nothing is added: the source is compressible. Defined for J > 0, continued
 /// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 ///
-/// Typical: the source's foamed polyurethane f = 0, μ = 0.22 MPa, β = 1/2 (ν = 1/4).
+/// Typical: `mu = 2.2e5, f = 0.0, beta = 0.5`, the foamed polyurethane of the source.
 #[material(domain(J > 0.0), admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0), extend)]
 pub fn BlatzKo(
     [l1, l2, l3]: [f64; 3],

@@ -16,6 +16,10 @@ pub struct Entry {
     pub name: &'static str,
     /// Formula, parameters, domain.
     pub description: Description,
+    /// Parameters of some real material, one slice for each parameter of the description in its order, in SI units.
+    ///
+    /// Their sources stand with each energy. The constructor accepts them, and the extension where there is one.
+    pub typical: &'static [&'static [f64]],
 }
 
 /// What can be done with a material whose type is only known inside.
@@ -27,12 +31,16 @@ pub trait Visitor {
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output;
 }
 
-/// Energies without lists, and energies whose lists have one of these lengths.
+/// Energies without lists, and energies whose lists have one of these lengths; each with its typical parameters.
 macro_rules! catalogue {
-    ($($name:literal => $Material:ident $(<$($length:literal)|+>)?),+ $(,)?) => {
+    ($($name:literal => $Material:ident $(<$($length:literal)|+>)? [$([$($typical:expr),+]),+]),+ $(,)?) => {
         /// All energies.
         pub static CATALOGUE: &[Entry] = &[
-            $(Entry { name: $name, description: catalogue!(@description $Material $($($length)+)?) }),+
+            $(Entry {
+                name: $name,
+                description: catalogue!(@description $Material $($($length)+)?),
+                typical: &[$(&[$($typical),+]),+],
+            }),+
         ];
 
         impl Entry {
@@ -75,23 +83,23 @@ macro_rules! catalogue {
 }
 
 catalogue! {
-    "arap" => Arap,
-    "arruda_boyce" => ArrudaBoyce,
-    "blatz_ko" => BlatzKo,
-    "fixed_corotated" => FixedCorotated,
-    "fung" => Fung,
-    "gent" => Gent,
-    "hencky" => Hencky,
-    "mooney_rivlin" => MooneyRivlin,
-    "mooney_rivlin_coupled" => MooneyRivlinCoupled,
-    "neo_hookean_lnj" => NeoHookean,
-    "ogden" => Ogden<1 | 2 | 3 | 4 | 5 | 6>,
-    "rotated_linear" => RotatedLinear,
-    "stable_neo_hookean" => StableNeoHookean,
-    "stvk" => StVenantKirchhoff,
-    "symmetric_dirichlet" => SymmetricDirichlet,
-    "varga" => Varga,
-    "yeoh" => Yeoh,
+    "arap" => Arap [[1.0]],
+    "arruda_boyce" => ArrudaBoyce [[3.3e5], [5.2], [2e7]],
+    "blatz_ko" => BlatzKo [[2.2e5], [0.0], [0.5]],
+    "fixed_corotated" => FixedCorotated [[5.8e4], [3.9e4]],
+    "fung" => Fung [[2.7e4], [0.5], [0.5]],
+    "gent" => Gent [[3.3e5], [108.0], [2e7]],
+    "hencky" => Hencky [[1.36e5], [2.04e5]],
+    "mooney_rivlin" => MooneyRivlin [[1.8e5], [3.4e3], [2e7]],
+    "mooney_rivlin_coupled" => MooneyRivlinCoupled [[1.8e5], [3.4e3], [2e7]],
+    "neo_hookean_lnj" => NeoHookean [[3.8e5], [2e7]],
+    "ogden" => Ogden<1 | 2 | 3 | 4 | 5 | 6> [[6.3e5, 1.2e3, -1e4], [1.3, 5.0, -2.0], [2e7]],
+    "rotated_linear" => RotatedLinear [[3.4e5], [3.1e6]],
+    "stable_neo_hookean" => StableNeoHookean [[4.5e3], [1.4e5]],
+    "stvk" => StVenantKirchhoff [[8.1e10], [1.2e11]],
+    "symmetric_dirichlet" => SymmetricDirichlet [[1.0]],
+    "varga" => Varga [[4.8e5], [2e7]],
+    "yeoh" => Yeoh [[1.85e5], [-1.46e3], [40.4], [2e7]],
 }
 
 /// The energy of that name.

@@ -16,6 +16,14 @@
 //! # }
 //! ```
 //!
+//! # Typical parameters
+//!
+//! Each energy names parameters of some real material and their source; [`Entry::typical`] has them for programs. Those
+//! *fitted to \[Treloar 1944\]* are least squares of the relative difference between the nominal stresses of the
+//! incompressible solid and those that Treloar, *Stress-strain data for vulcanised rubber under various types of
+//! deformation*, Trans. Faraday Soc. 40, 1944, measured in uniaxial tension, equibiaxial tension and pure shear. With
+//! them goes a bulk modulus of 20 MPa, Poisson's ratio 0.49, as is common in simulation; rubber itself has about 2 GPa.
+//!
 //! The crate holds no derivative and no algorithm: those come from the macro and from `piola`.
 
 mod arap;

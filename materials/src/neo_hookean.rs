@@ -8,6 +8,8 @@ use piola::material;
 ///
 /// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
 /// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
+///
+/// Typical: `mu = 3.8e5, lambda = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 #[material(domain(J > 0.0), admissible(mu > 0.0), extend)]
 pub fn NeoHookean(
     [l1, l2, l3]: [f64; 3],

@@ -38,7 +38,7 @@ fn the_catalogue_is_complete_and_sorted() {
     }
     assert_eq!(declared.len(), CATALOGUE.len());
     assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
-    for Entry { name, description } in CATALOGUE {
+    for Entry { name, description, .. } in CATALOGUE {
         assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
         for parameter in description.parameters {
             assert!(!parameter.doc.is_empty(), "{name}: {} is documented", parameter.name);
