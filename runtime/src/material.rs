@@ -46,6 +46,15 @@ pub trait Material: Send + Sync {
     /// ψ1, ψ2, ψ3, Pa.
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
 
+    /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
+    ///
+    /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate relative to the
+    /// strains, however small. As given here it is as accurate as 1 + si.
+    #[inline]
+    fn gradient_at_strains<R: Real>(&self, strains: [R; 3]) -> [R; 3] {
+        self.gradient(strains.map(|strain| R::splat(1.0) + strain))
+    }
+
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
 

@@ -69,7 +69,8 @@ impl Differentiator {
             | Node::Entry(_)
             | Node::Float(_)
             | Node::Epsilon
-            // What follows only arises after differentiation, in quotients and lowered extensions.
+            // What follows only arises after differentiation, in quotients, increments and lowered extensions.
+            | Node::Strain(_)
             | Node::Above(_)
             | Node::Below(_)
             | Node::ShareAbove(..)

@@ -284,6 +284,7 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
         },
     );
 
+    let at_strains = at_strains(model, &writer, stretches);
     let admits = admits(model, &writer, stretches);
     let is_positive = model.volume == Volume::Positive;
     let plain_pole = model.plain.has_pole;
@@ -306,6 +307,7 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
         }
     };
     let [l1, l2, l3] = stretches;
+    let strains = &writer.strains;
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl #bounds ::piola::Material for #name #arguments {
@@ -325,6 +327,11 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
             }
 
             #[inline]
+            fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
+                #at_strains
+            }
+
+            #[inline]
             fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
                 #admits
             }
@@ -339,6 +346,33 @@ fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
                 #ends
             }
         }
+    }
+}
+
+/// Below the threshold of an extension strains are not small, and the gradient by stretches is as good.
+fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3]) -> TokenStream {
+    let program = schedule(&mut model.graph, &model.at_strains);
+    let (statements, outputs) = writer.program(&program);
+    let (strains, threshold) = (&writer.strains, &writer.threshold);
+    let stretches = quote!(#strains.map(|strain| R::splat(1.0) + strain));
+    let inside = quote! {
+        let [#l1, #l2, #l3] = #stretches;
+        #(#statements)*
+    };
+    if model.extended.is_none() {
+        return quote!(#inside [#(#outputs),*]);
+    }
+    quote! {
+        #inside
+        let inside = [#(#outputs),*];
+        if let ::piola::Inversion::Extend { epsilon: #threshold } = self.inversion {
+            let below = #strains[2].less(R::splat(#threshold - 1.0));
+            if ::piola::lanes::Mask::any(below) {
+                let extended = self.gradient(#stretches);
+                return ::core::array::from_fn(|k| R::select(below, extended[k], inside[k]));
+            }
+        }
+        inside
     }
 }
 

@@ -26,6 +26,8 @@ pub type Stretch = usize;
 pub enum Node {
     /// A principal stretch.
     Stretch(Stretch),
+    /// A principal strain λk − 1, known more accurately than the stretch.
+    Strain(Stretch),
     /// A scalar parameter.
     Parameter(Parameter),
     /// The current entry of a list, inside a [`Node::Sum`].

@@ -46,6 +46,7 @@ impl Printer<'_> {
         self.budget.set(rest);
         match self.graph.node(id) {
             Node::Stretch(i) => format!("λ{}", subscript(i + 1)),
+            Node::Strain(i) => format!("(λ{} − 1)", subscript(i + 1)),
             Node::Parameter(k) => symbol(&self.declaration.parameters[*k].name.to_string()),
             Node::Entry(k) => format!("{}ₚ", symbol(&self.declaration.parameters[*k].name.to_string())),
             Node::Float(bits) => f64::from_bits(*bits).to_string(),

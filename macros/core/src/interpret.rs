@@ -62,6 +62,7 @@ impl Interpreter<'_> {
         let epsilon = self.point.epsilon;
         match self.graph.node(id) {
             Node::Stretch(i) => exact(self.point.stretches[*i]),
+            Node::Strain(i) => exact(self.point.stretches[*i] - 1.0),
             Node::Parameter(k) => exact(self.point.parameters[*k][0]),
             Node::Entry(k) => exact(self.point.parameters[*k][self.entry]),
             Node::Float(bits) => exact(f64::from_bits(*bits)),

@@ -16,6 +16,7 @@ pub mod expr;
 pub mod extension;
 pub mod fallback;
 pub mod formula;
+pub mod increment;
 pub mod interpret;
 pub mod model;
 pub mod parse;

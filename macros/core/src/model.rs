@@ -8,6 +8,7 @@ use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
 use crate::extension;
+use crate::increment::{Increments, at_rest};
 use crate::interpret::Point;
 use crate::parse::Declaration;
 use crate::quotient::Quotients;
@@ -28,6 +29,8 @@ pub struct Model {
     pub energy: Id,
     /// Inside the domain.
     pub plain: Variant,
+    /// ψ1, ψ2, ψ3 inside the domain by principal strains instead of stretches.
+    pub at_strains: [Id; 3],
     /// Continued beyond its volumes.
     pub extended: Option<Variant>,
     /// Expressions that are positive inside the domain, J apart.
@@ -118,6 +121,16 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     if !declaration.options.prestressed {
         check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
     }
+    let mut increments = Increments::default();
+    let at_strains = plain.gradient.map(|derivative| {
+        let increment = increments.increment(&mut graph, derivative);
+        if declaration.options.prestressed {
+            let stress = at_rest(&mut graph, derivative);
+            graph.add(stress, increment)
+        } else {
+            increment
+        }
+    });
     let extended = declaration.options.extend.is_some().then(|| {
         let extended = extension::extend(&mut graph, energy);
         derive(&mut graph, extended, &samples, false)
@@ -129,7 +142,17 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
             "the numbers of this energy leave 128-bit fractions: use smaller ones",
         );
     }
-    diagnostics.finish(Some(Model { graph, energy, plain, extended, bounds, volume, moduli, samples }))
+    diagnostics.finish(Some(Model {
+        graph,
+        energy,
+        plain,
+        at_strains,
+        extended,
+        bounds,
+        volume,
+        moduli,
+        samples,
+    }))
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {

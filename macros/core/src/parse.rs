@@ -74,12 +74,13 @@ pub struct Options {
 pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
 
 /// Methods and fields of every material, which a parameter's own method would hide.
-const METHODS: [&str; 11] = [
+const METHODS: [&str; 12] = [
     "new",
     "inversion",
     "with_inversion",
     "energy",
     "gradient",
+    "gradient_at_strains",
     "blocks",
     "admits",
     "has_pole",

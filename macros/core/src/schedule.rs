@@ -26,6 +26,7 @@ pub enum Op {
     /// The bits of an `f64`.
     Literal(u64),
     Stretch(Stretch),
+    Strain(Stretch),
     Parameter(Parameter),
     /// The current entry of a list.
     Entry(Parameter),
@@ -75,6 +76,7 @@ impl Op {
         match self {
             Self::Literal(_)
             | Self::Stretch(_)
+            | Self::Strain(_)
             | Self::Parameter(_)
             | Self::Entry(_)
             | Self::Epsilon
@@ -252,6 +254,7 @@ impl Scheduler<'_> {
     fn compute(&mut self, id: Id) -> Value {
         match self.graph.node(id).clone() {
             Node::Stretch(i) => self.push(Op::Stretch(i)),
+            Node::Strain(i) => self.push(Op::Strain(i)),
             Node::Parameter(k) => self.push(Op::Parameter(k)),
             Node::Entry(k) => self.push(Op::Entry(k)),
             Node::Float(bits) => self.push(Op::Literal(bits)),
@@ -370,6 +373,9 @@ impl Scheduler<'_> {
     }
 
     fn power(&mut self, base: Id, exponent: Exponent) -> Value {
+        if self.graph.as_constant(base) == Some(Rational::ONE) {
+            return self.literal(Rational::ONE);
+        }
         let value = self.value(base);
         let Exponent { real, rational } = exponent;
         match self.powers.way(base, exponent) {

@@ -15,6 +15,8 @@ pub(super) struct Writer<'a> {
     index: Ident,
     /// The threshold of the extension.
     pub(super) threshold: Ident,
+    /// The principal strains.
+    pub(super) strains: Ident,
 }
 
 impl<'a> Writer<'a> {
@@ -45,7 +47,7 @@ impl<'a> Writer<'a> {
                 .unwrap_or_else(|| format_ident!("emitted_{}", candidates[0]))
         };
         let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
-        Self { declaration, prefix, index, threshold }
+        Self { declaration, prefix, index, threshold, strains: free(&["strains", "principal_strains"]) }
     }
 
     /// The statements of a program and its outputs as expressions.
@@ -92,6 +94,10 @@ impl<'a> Writer<'a> {
         let inline = match *op {
             Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
             Op::Stretch(i) => Some(self.declaration.stretches[i].to_token_stream()),
+            Op::Strain(i) => {
+                let (strains, i) = (&self.strains, Literal::usize_unsuffixed(i));
+                Some(quote!(#strains[#i]))
+            }
             Op::Epsilon => Some(self.threshold.to_token_stream()),
             _ => None,
         };
@@ -165,7 +171,12 @@ impl<'a> Writer<'a> {
                 let stretches = &self.declaration.stretches;
                 self.call("pole_floor", &[quote!([#(#stretches),*])])
             }
-            Op::Literal(_) | Op::Stretch(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => quote!(),
+            Op::Literal(_)
+            | Op::Stretch(_)
+            | Op::Strain(_)
+            | Op::Parameter(_)
+            | Op::Entry(_)
+            | Op::Epsilon => quote!(),
         }
     }
 
