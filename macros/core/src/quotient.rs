@@ -158,15 +158,27 @@ impl<'a> Quotients<'a> {
         let quotient = match rest[..] {
             [] => graph.integer(0),
             [(base, exponent)] => self.power_rule(graph, base, exponent, reflection),
-            [(base, exponent), ref others @ ..] => {
-                let (f, g) = (graph.power(base, exponent), graph.product(others));
-                let (df, dg) = (self.quotient(graph, f, reflection), self.quotient(graph, g, reflection));
-                let mirrored = reflect(graph, f, reflection);
-                let (left, right) = (graph.mul(df, g), graph.mul(mirrored, dg));
-                graph.add(left, right)
-            }
+            [(base, exponent), ref others @ ..] => match take_out_crossed(graph, &rest, reflection) {
+                Some((f, df, others)) => {
+                    let g = graph.product(&others);
+                    self.leibniz(graph, (f, df), g, reflection)
+                }
+                None => {
+                    let (f, g) = (graph.power(base, exponent), graph.product(others));
+                    let df = self.quotient(graph, f, reflection);
+                    self.leibniz(graph, (f, df), g, reflection)
+                }
+            },
         };
         graph.mul(symmetric, quotient)
+    }
+
+    /// D(fg) = Df g + Rf Dg.
+    fn leibniz(&mut self, graph: &mut Graph, (f, df): (Id, Id), g: Id, reflection: Reflection) -> Id {
+        let dg = self.quotient(graph, g, reflection);
+        let mirrored = reflect(graph, f, reflection);
+        let (left, right) = (graph.mul(df, g), graph.mul(mirrored, dg));
+        graph.add(left, right)
     }
 
     fn power_rule(&mut self, graph: &mut Graph, base: Id, exponent: Exponent, reflection: Reflection) -> Id {
@@ -340,6 +352,84 @@ fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretc
         [Node::ShareAbove(i, j), Node::ShareBelow(i, j)].map(|share| graph.leaf(share));
     let (above, below) = (graph.mul(above_share, above), graph.mul(below_share, below));
     graph.add(above, below)
+}
+
+/// A crossed pair φ′(x) φ(y) of an extended power among the factors, with its quotient and the other factors.
+///
+/// The derivative of φ(λ1) φ(λ2) φ(λ3), which is what extends J^r, is made of them. By the product rule its quotient would
+/// subtract what is larger by a power of x/y.
+fn take_out_crossed(
+    graph: &mut Graph,
+    factors: &[(Id, Exponent)],
+    reflection: Reflection,
+) -> Option<(Id, Id, Vec<(Id, Exponent)>)> {
+    let Reflection::Flip(i, j) = reflection else { return None };
+    for &(slope, exponent) in factors.iter().filter(|factor| factor.1 == Exponent::ONE) {
+        let Node::Extended(Extended::Power(r), 1, k) = *graph.node(slope) else { continue };
+        if k != i && k != j {
+            continue;
+        }
+        let other = if k == i { j } else { i };
+        let value = graph.leaf(Node::Extended(Extended::Power(r), 0, other));
+        if !factors.contains(&(value, exponent)) {
+            continue;
+        }
+        let others =
+            factors.iter().copied().filter(|factor| factor.0 != slope && factor.0 != value).collect();
+        let quotient = crossed_quotient(graph, r, i, j);
+        let quotient = graph.scale(quotient, Rational::integer(sign(reflection, k)));
+        return Some((graph.mul(slope, value), quotient, others));
+    }
+    None
+}
+
+/// (φ′(x) φ(y) − φ′(y) φ(x))/(x − y) for x = λi, y = λj and an extended power φ.
+///
+/// It is φ(x) φ(y) times the divided difference of φ′/φ, whose pieces are r/λ above ε and a quotient of polynomials in
+/// t = (λ − ε)/ε below. With w = max(λ, ε), t = 0 above ε, and the fractions s of the interval above and below ε,
+///
+/// ```text
+/// −r (s_above (wx wy)^(r−1) τ(tx) τ(ty) + s_below (wx wy)^r ε⁻² (1 + ½ r (r − 1) (tx + ty) + ½ r (r − 1)² tx ty))
+/// τ(t) = 1 + r t + ½ r (r − 1) t²
+/// ```
+fn crossed_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
+    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    let (one, epsilon) = (graph.integer(1), graph.leaf(Node::Epsilon));
+    let r = graph.exponent_value(exponent);
+    let r_minus_one = graph.sub(r, one);
+    let bend = graph.mul(r, r_minus_one);
+    let [(wx, tx), (wy, ty)] = [i, j].map(|k| {
+        let below = graph.leaf(Node::Below(k));
+        (graph.leaf(Node::Above(k)), graph.div(below, epsilon))
+    });
+    let [polynomial_x, polynomial_y] = [tx, ty].map(|t| {
+        let (linear, square) = (graph.mul(r, t), graph.powi(t, 2));
+        let quadratic = graph.mul(bend, square);
+        graph.linear(Rational::ONE, &[(linear, Rational::ONE), (quadratic, half)])
+    });
+    let lowered = graph.add_exponents(exponent, Exponent::integer(-1));
+    let [share_above, share_below] =
+        [Node::ShareAbove(i, j), Node::ShareBelow(i, j)].map(|share| graph.leaf(share));
+    let above = graph.product(&[
+        (share_above, Exponent::ONE),
+        (wx, lowered),
+        (wy, lowered),
+        (polynomial_x, Exponent::ONE),
+        (polynomial_y, Exponent::ONE),
+    ]);
+    let (sum, product) = (graph.add(tx, ty), graph.mul(tx, ty));
+    let (linear, bilinear) = (graph.mul(bend, sum), graph.product_of(&[bend, r_minus_one, product]));
+    let curved = graph.linear(Rational::ONE, &[(linear, half), (bilinear, half)]);
+    let below = graph.product(&[
+        (share_below, Exponent::ONE),
+        (wx, exponent),
+        (wy, exponent),
+        (epsilon, Exponent::integer(-2)),
+        (curved, Exponent::ONE),
+    ]);
+    let sum = graph.add(above, below);
+    let negative = graph.neg(r);
+    graph.mul(negative, sum)
 }
 
 /// Stands where the calculus has no answer; never reached from an energy, and loud if it were.
