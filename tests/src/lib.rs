@@ -2,9 +2,11 @@
 //!
 //! * [`cases`]: reference values to 25 digits and how a result is judged against them;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
+//! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
 //! * `tests/reference.rs`: all of them, with a table of the worst errors;
 //! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and the contract of every material;
 //! * `tests/tidy.rs`: the rules of the house.
 
 pub mod cases;
 pub mod multiprecision;
+pub mod quotients;
