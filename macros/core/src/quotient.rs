@@ -159,9 +159,9 @@ impl<'a> Quotients<'a> {
             [] => graph.integer(0),
             [(base, exponent)] => self.power_rule(graph, base, exponent, reflection),
             [(base, exponent), ref others @ ..] => match take_out_crossed(graph, &rest, reflection) {
-                Some((f, df, others)) => {
+                Some(Crossed { pair, quotient, others }) => {
                     let g = graph.product(&others);
-                    self.leibniz(graph, (f, df), g, reflection)
+                    self.leibniz(graph, (pair, quotient), g, reflection)
                 }
                 None => {
                     let (f, g) = (graph.power(base, exponent), graph.product(others));
@@ -354,7 +354,14 @@ fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretc
     graph.add(above, below)
 }
 
-/// A crossed pair φ′(x) φ(y) of an extended power among the factors, with its quotient and the other factors.
+/// A crossed pair φ′(x) φ(y) of an extended power, taken out of a product.
+struct Crossed {
+    pair: Id,
+    quotient: Id,
+    others: Vec<(Id, Exponent)>,
+}
+
+/// Finds a crossed pair among the factors.
 ///
 /// The derivative of φ(λ1) φ(λ2) φ(λ3), which is what extends J^r, is made of them. By the product rule its quotient would
 /// subtract what is larger by a power of x/y.
@@ -362,7 +369,7 @@ fn take_out_crossed(
     graph: &mut Graph,
     factors: &[(Id, Exponent)],
     reflection: Reflection,
-) -> Option<(Id, Id, Vec<(Id, Exponent)>)> {
+) -> Option<Crossed> {
     let Reflection::Flip(i, j) = reflection else { return None };
     for &(slope, exponent) in factors.iter().filter(|factor| factor.1 == Exponent::ONE) {
         let Node::Extended(Extended::Power(r), 1, k) = *graph.node(slope) else { continue };
@@ -378,7 +385,7 @@ fn take_out_crossed(
             factors.iter().copied().filter(|factor| factor.0 != slope && factor.0 != value).collect();
         let quotient = crossed_quotient(graph, r, i, j);
         let quotient = graph.scale(quotient, Rational::integer(sign(reflection, k)));
-        return Some((graph.mul(slope, value), quotient, others));
+        return Some(Crossed { pair: graph.mul(slope, value), quotient, others });
     }
     None
 }
