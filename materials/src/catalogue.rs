@@ -6,7 +6,8 @@ use piola::system::element::ElementEnergy;
 
 use crate::{
     Arap, ArrudaBoyce, BlatzKo, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled,
-    NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, SymmetricDirichlet, Varga, Yeoh,
+    NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, StretchSpline, SymmetricDirichlet,
+    Varga, Yeoh,
 };
 
 /// An energy of the catalogue.
@@ -96,6 +97,11 @@ catalogue! {
     "ogden" => Ogden<1 | 2 | 3 | 4 | 5 | 6> [[6.3e5, 1.2e3, -1e4], [1.3, 5.0, -2.0], [2e7]],
     "rotated_linear" => RotatedLinear [[3.4e5], [3.1e6]],
     "stable_neo_hookean" => StableNeoHookean [[4.5e3], [1.4e5]],
+    "stretch_spline" => StretchSpline [
+        [0.25, -3.6e5, 0.5, -1.8e5, 1.0, 0.0, 2.0, 1.2e5, 3.0, 2.0e5, 5.0, 8.0e5],
+        [0.1, -2.0e4, 1.0, 0.0, 4.0, 3.0e4],
+        [0.1, -4.0e6, 0.5, -1.5e6, 1.0, 0.0, 2.0, 2.5e6]
+    ],
     "stvk" => StVenantKirchhoff [[8.1e10], [1.2e11]],
     "symmetric_dirichlet" => SymmetricDirichlet [[1.0]],
     "varga" => Varga [[4.8e5], [2e7]],

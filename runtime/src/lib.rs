@@ -35,6 +35,7 @@
 //!
 //! * [`lanes`]: the real numbers everything is generic over;
 //! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
+//! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
 //! * [`mesh`]: tetrahedra, their files, embedded surfaces;
@@ -57,7 +58,9 @@ pub mod quotient;
 mod random;
 pub mod step;
 pub mod system;
+pub mod univariate;
 
 pub use lanes::Real;
 pub use material::{Inversion, Material};
 pub use piola_macros::material;
+pub use univariate::{Spline, Univariate};

@@ -165,7 +165,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Its documentation, units included.
     pub doc: &'static str,
-    /// A list, with one entry for each term of a sum.
+    /// A list: with one entry for each term of a sum, or what a function is built from.
     pub is_list: bool,
 }
 
@@ -207,6 +207,11 @@ pub enum Inadmissible {
         /// The moduli that follow from the parameters.
         moduli: Moduli,
     },
+    /// The rest state carries stress, which functions given as parameters do not cancel.
+    StressedRest {
+        /// ψ1(1, 1, 1), Pa.
+        stress: f64,
+    },
     /// The threshold of the extension is outside 0 < ε < 1.
     Threshold {
         /// The threshold as given.
@@ -246,6 +251,10 @@ impl fmt::Display for Inadmissible {
                  the bulk modulus is {} Pa and must not be negative",
                 moduli.mu,
                 moduli.bulk()
+            ),
+            Self::StressedRest { stress } => write!(
+                f,
+                "the rest state would carry a stress of {stress} Pa; let the derivatives of the functions cancel at 1"
             ),
             Self::Threshold { epsilon } => {
                 write!(f, "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1")

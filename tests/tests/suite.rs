@@ -48,7 +48,8 @@ fn the_catalogue_is_complete_and_sorted() {
 
 #[test]
 fn compiled_materials_compute_what_they_declare() {
-    for (declaration, model) in declarations() {
+    // What a function that is a parameter computes is unknown to the interpreter; contract and oracles judge those.
+    for (declaration, model) in declarations().into_iter().filter(|(declared, _)| !declared.has_functions()) {
         let entry = CATALOGUE
             .iter()
             .find(|entry| declaration.name == entry.description.name)

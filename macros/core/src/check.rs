@@ -95,7 +95,9 @@ fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, pos
     let parameters = declaration
         .parameters
         .iter()
-        .map(|parameter| (0..parameter.length.map_or(1, |length| lengths[length])).map(|_| value()).collect())
+        .map(|parameter| {
+            (0..parameter.length().map_or(1, |length| lengths[length])).map(|_| value()).collect()
+        })
         .collect();
     let mut stretches = [0, 1, 2].map(|_| 0.6 + 0.9 * random.unit());
     if !positive && attempt % 2 == 1 {

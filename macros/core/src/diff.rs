@@ -57,6 +57,11 @@ impl Differentiator {
                 let inner = self.derivative(graph, a, i);
                 graph.mul(e, inner)
             }
+            Node::Function(f, order, a) => {
+                let inner = self.derivative(graph, a, i);
+                let outer = graph.leaf(Node::Function(f, order + 1, a));
+                graph.mul(outer, inner)
+            }
             Node::Sum(length, body) => {
                 let inner = self.derivative(graph, body, i);
                 graph.sum(length, inner)
@@ -77,6 +82,7 @@ impl Differentiator {
             | Node::ShareBelow(..)
             | Node::LnQuotient(..)
             | Node::ExpQuotient(..)
+            | Node::FunctionQuotient(..)
             | Node::PowerQuotient(..)
             | Node::PoleQuotient(..) => graph.integer(0),
         }

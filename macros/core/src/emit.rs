@@ -7,7 +7,7 @@ use syn::{Expr, Ident};
 use crate::expr::{Graph, Id};
 use crate::formula::formula;
 use crate::model::{Model, Variant, Volume, indexed_lists};
-use crate::parse::{Declaration, documentation};
+use crate::parse::{Declaration, Kind, documentation};
 use crate::schedule::schedule;
 use writer::Writer;
 
@@ -67,14 +67,8 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-fn parameter_types(declaration: &Declaration) -> Vec<TokenStream> {
-    let lengths = declaration.parameters.iter().map(|parameter| parameter.length);
-    lengths
-        .map(|length| match length.map(|length| &declaration.lengths[length]) {
-            Some(length) => quote!([f64; #length]),
-            None => quote!(f64),
-        })
-        .collect()
+fn parameter_types(declaration: &Declaration) -> Vec<syn::Type> {
+    declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter)).collect()
 }
 
 fn structure(declaration: &Declaration, texts: &Texts) -> TokenStream {
@@ -83,6 +77,7 @@ fn structure(declaration: &Declaration, texts: &Texts) -> TokenStream {
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = parameter_types(declaration);
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
+    let copy = (!declaration.has_functions()).then(|| quote!(#[derive(Copy)]));
     let doc = format!(
         "\n```text\nψ = {}\n```\n\nDomain: {}. Small strain: μ = {}, λ = {}.",
         texts.formula, texts.domain, texts.moduli[0], texts.moduli[1]
@@ -90,7 +85,8 @@ fn structure(declaration: &Declaration, texts: &Texts) -> TokenStream {
     quote! {
         #(#attributes)*
         #[doc = #doc]
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
+        #copy
         #visibility struct #name #bounds {
             #(#names: #types,)*
             #inversion
@@ -109,9 +105,10 @@ fn constructor(declaration: &Declaration) -> TokenStream {
         "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible.",
         documented.collect::<Vec<_>>().join("\n")
     );
-    let finite = declaration.parameters.iter().map(|parameter| {
+    let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
+    let finite = numbers.map(|parameter| {
         let (name, text) = (&parameter.name, parameter.name.to_string());
-        let values = if parameter.length.is_some() { quote!(#name) } else { quote!([#name]) };
+        let values = if parameter.length().is_some() { quote!(#name) } else { quote!([#name]) };
         quote! {
             for value in #values {
                 if !value.is_finite() {
@@ -131,16 +128,29 @@ fn constructor(declaration: &Declaration) -> TokenStream {
             }
         }
     });
+    let stress_free_rest = (declaration.has_functions() && !options.prestressed).then(|| {
+        quote! {
+            let [stress, ..] = ::piola::Material::gradient(&material, [1.0f64; 3]);
+            if !(stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs())) {
+                return Err(::piola::material::Inadmissible::StressedRest { stress });
+            }
+        }
+    });
     let getters = declaration.parameters.iter().zip(&types).map(|(parameter, ty)| {
         let (name, attributes) = (&parameter.name, &parameter.attributes);
         let is_documented = !parameter.doc.is_empty();
         let doc = (!is_documented).then(|| quote!(#[doc = "A parameter."]));
+        let (ty, value) = if parameter.is_function() {
+            (quote!(&#ty), quote!(&self.#name))
+        } else {
+            (quote!(#ty), quote!(self.#name))
+        };
         quote! {
             #(#attributes)*
             #doc
             #[must_use]
             #visibility fn #name(&self) -> #ty {
-                self.#name
+                #value
             }
         }
     });
@@ -178,6 +188,7 @@ fn constructor(declaration: &Declaration) -> TokenStream {
                 #(#admissible)*
                 let material = Self { #(#names,)* #inversion };
                 #stable_rest
+                #stress_free_rest
                 Ok(material)
             }
 
@@ -197,7 +208,7 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
         |parameter| {
             let name = &parameter.name;
             match &index {
-                Some(index) if parameter.length.is_some() => {
+                Some(index) if parameter.length().is_some() => {
                     let format = format!("{name}[{{}}] = {{}}");
                     quote!(::std::format!(#format, #index, #name[#index]))
                 }
@@ -409,7 +420,8 @@ fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Toke
     let Texts { formula, domain, moduli, summary } = texts;
     let type_name = name.to_string();
     let parameters = declaration.parameters.iter().map(|parameter| {
-        let (name, doc, is_list) = (parameter.name.to_string(), &parameter.doc, parameter.length.is_some());
+        let (name, doc) = (parameter.name.to_string(), &parameter.doc);
+        let is_list = !matches!(parameter.kind, Kind::Number);
         quote!(::piola::material::Parameter { name: #name, doc: #doc, is_list: #is_list })
     });
     let extends = declaration.options.extend.is_some();
@@ -430,20 +442,19 @@ fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Toke
     );
     let conversions = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
-        let shape = match parameter.length {
-            Some(length) => {
-                let length = &declaration.lengths[length];
-                let format = format!("`{name}` must have {{}} entries");
-                quote!(::std::format!(#format, #length))
-            }
-            None => {
+        let (pattern, length, shape) = match &parameter.kind {
+            Kind::Number => {
                 let message = format!("`{name}` must be one number");
-                quote!(#message.to_owned())
+                (quote!([#name]), quote!(1), quote!(#message.to_owned()))
             }
-        };
-        let (pattern, length) = match parameter.length.map(|length| &declaration.lengths[length]) {
-            Some(length) => (quote!(#name), quote!(#length)),
-            None => (quote!([#name]), quote!(1)),
+            Kind::List(length) => {
+                let length = &declaration.lengths[*length];
+                let format = format!("`{name}` must have {{}} entries");
+                (quote!(#name), quote!(#length), quote!(::std::format!(#format, #length)))
+            }
+            Kind::Function(ty) => {
+                return quote!(let #name = <#ty as ::piola::Univariate>::from_values(#name)?;);
+            }
         };
         quote! {
             let Ok(#pattern) = <[f64; #length]>::try_from(#name) else {

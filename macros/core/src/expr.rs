@@ -47,6 +47,8 @@ pub enum Node {
     Ln(Id),
     /// Exponential function.
     Exp(Id),
+    /// Derivative of the given order, 0 … 2, of a function that is a parameter.
+    Function(Parameter, u8, Id),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),
     /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
@@ -66,6 +68,8 @@ pub enum Node {
     LnQuotient(Id, Id),
     /// (eᵃ − eᵇ) / (a − b).
     ExpQuotient(Id, Id),
+    /// Divided difference of the derivative of the given order of a function that is a parameter.
+    FunctionQuotient(Parameter, u8, Id, Id),
     /// (a^r − b^r) / (a − b) for a real exponent.
     PowerQuotient(Id, Id, Exponent),
     /// a / max(b, floor), where b may vanish and the quotient then has a pole.
@@ -425,8 +429,11 @@ impl Graph {
         match self.node(id) {
             Node::Linear { terms, .. } => terms.iter().map(|&(term, _)| term).collect(),
             Node::Product(factors) => factors.iter().flat_map(|(base, e)| with_exponent(*base, e)).collect(),
-            Node::Ln(a) | Node::Exp(a) | Node::Sum(_, a) => vec![*a],
-            Node::LnQuotient(a, b) | Node::ExpQuotient(a, b) | Node::PoleQuotient(a, b) => vec![*a, *b],
+            Node::Ln(a) | Node::Exp(a) | Node::Function(.., a) | Node::Sum(_, a) => vec![*a],
+            Node::LnQuotient(a, b)
+            | Node::ExpQuotient(a, b)
+            | Node::FunctionQuotient(.., a, b)
+            | Node::PoleQuotient(a, b) => vec![*a, *b],
             Node::PowerQuotient(a, b, exponent) => [*a, *b].into_iter().chain(exponent.real).collect(),
             Node::Extended(Extended::Power(exponent), ..) => exponent.real.into_iter().collect(),
             _ => Vec::new(),
@@ -463,6 +470,14 @@ impl Graph {
             Node::Exp(a) => {
                 let a = map(self, a);
                 self.exp(a)
+            }
+            Node::Function(f, order, a) => {
+                let a = map(self, a);
+                self.leaf(Node::Function(f, order, a))
+            }
+            Node::FunctionQuotient(f, order, a, b) => {
+                let node = Node::FunctionQuotient(f, order, map(self, a), map(self, b));
+                self.leaf(node)
             }
             Node::Sum(length, body) => {
                 let body = map(self, body);

@@ -41,13 +41,7 @@ pub fn inert(mistakes: &syn::Error, declaration: &Declaration) -> TokenStream {
     let arguments = declaration
         .parameters
         .iter()
-        .map(|parameter| {
-            let ty: Type = match parameter.length.map(|length| &declaration.lengths[length]) {
-                Some(length) => syn::parse_quote!([f64; #length]),
-                None => syn::parse_quote!(f64),
-            };
-            (parameter.name.clone(), ty)
-        })
+        .map(|parameter| (parameter.name.clone(), declaration.parameter_type(parameter)))
         .collect();
     let inert = inert_type(&declaration.visibility, &declaration.name, &declaration.generics, arguments);
     quote!(#errors #inert)

@@ -54,6 +54,14 @@ impl Printer<'_> {
             Node::Product(factors) => self.product(factors, context),
             Node::Ln(a) => self.function("ln", *a, context),
             Node::Exp(a) => self.function("exp", *a, context),
+            Node::Function(k, order, a) => {
+                let name = symbol(&self.declaration.parameters[*k].name.to_string());
+                format!("{name}{}({})", "′".repeat(usize::from(*order)), self.print(*a, Context::Sum))
+            }
+            Node::FunctionQuotient(k, order, a, b) => {
+                let name = symbol(&self.declaration.parameters[*k].name.to_string());
+                self.quotient(&format!("{name}{}", "′".repeat(usize::from(*order))), *a, *b)
+            }
             Node::Sum(_, body) => {
                 parenthesise(format!("Σₚ {}", self.print(*body, Context::Product)), context >= Context::Power)
             }

@@ -54,6 +54,9 @@ impl Increments {
             Node::Product(factors) => self.product_rule(graph, &factors),
             Node::Ln(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::LnQuotient(a, b))),
             Node::Exp(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b))),
+            Node::Function(f, order, a) => {
+                self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
+            }
             Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
             // Nothing else arises from differentiation inside the domain; NaN would not go unnoticed.
             _ => graph.leaf(Node::Float(f64::NAN.to_bits())),

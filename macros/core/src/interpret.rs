@@ -1,5 +1,7 @@
 //! Evaluates expressions as they are defined, without schedule or emission.
 //!
+//! What a parameter that is a function computes is not known here: another function stands for it.
+//!
 //! Three users: the parity decisions of [`crate::quotient`], the checks of [`crate::check`], and tests, as an oracle
 //! for the emitted code.
 
@@ -93,6 +95,15 @@ impl Interpreter<'_> {
                 let Value { value, magnitude } = self.value(*a);
                 Value { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
             }
+            Node::Function(k, order, a) => {
+                let Value { value, magnitude } = self.value(*a);
+                Value { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
+            }
+            Node::FunctionQuotient(k, order, a, b) => {
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                let (k, order) = (*k, *order);
+                exact(quotient(a, b, |x| stand_in(k, order, x), |x| stand_in(k, order + 1, x)))
+            }
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
@@ -180,6 +191,13 @@ impl Interpreter<'_> {
             }
         }
     }
+}
+
+/// Derivative of what stands for a function that is a parameter: neither even nor odd, and another one for each.
+fn stand_in(parameter: usize, order: u8, x: f64) -> f64 {
+    const FREQUENCY: f64 = 1.3;
+    let phase = 0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2;
+    FREQUENCY.powi(i32::from(order)) * (FREQUENCY * x + phase).sin()
 }
 
 /// Plain difference quotient where it does not cancel, else the derivative at the midpoint: good to (gap/scale)².

@@ -118,7 +118,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
 
     let separated = if positive { separate(&mut graph, energy, Logarithms::OfVolume) } else { energy };
     let plain = derive(&mut graph, separated, &samples, positive);
-    if !declaration.options.prestressed {
+    if !declaration.options.prestressed && !declaration.has_functions() {
         check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
     }
     let mut increments = Increments::default();

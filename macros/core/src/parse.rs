@@ -51,8 +51,57 @@ pub struct Parameter {
     pub doc: String,
     /// The documentation as written.
     pub attributes: Vec<Attribute>,
-    /// The length of a list, `None` for a scalar.
-    pub length: Option<Length>,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a parameter is.
+#[derive(Debug)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A list of numbers.
+    List(Length),
+    /// A function of one variable, of a type that implements `piola::Univariate`.
+    Function(Box<Type>),
+}
+
+impl Parameter {
+    /// The length of a list.
+    #[must_use]
+    pub fn length(&self) -> Option<Length> {
+        match self.kind {
+            Kind::List(length) => Some(length),
+            Kind::Number | Kind::Function(_) => None,
+        }
+    }
+
+    /// Whether it is a function.
+    #[must_use]
+    pub fn is_function(&self) -> bool {
+        matches!(self.kind, Kind::Function(_))
+    }
+}
+
+impl Declaration {
+    /// The Rust type of a parameter.
+    #[must_use]
+    pub fn parameter_type(&self, parameter: &Parameter) -> Type {
+        match &parameter.kind {
+            Kind::Number => syn::parse_quote!(f64),
+            Kind::List(length) => {
+                let length = &self.lengths[*length];
+                syn::parse_quote!([f64; #length])
+            }
+            Kind::Function(ty) => (**ty).clone(),
+        }
+    }
+
+    /// Whether some parameter is a function, of which nothing is known before it is given.
+    #[must_use]
+    pub fn has_functions(&self) -> bool {
+        self.parameters.iter().any(Parameter::is_function)
+    }
 }
 
 /// The arguments of the attribute.
@@ -227,7 +276,8 @@ fn parameter(
     lengths: &mut Vec<Expr>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Parameter> {
-    const MESSAGE: &str = "a parameter is a number `mu: f64` or a list `mu: [f64; N]`";
+    const MESSAGE: &str =
+        "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: piola::Spline`";
     let FnArg::Typed(argument) = input else {
         diagnostics.error(input.span(), MESSAGE);
         return None;
@@ -237,8 +287,8 @@ fn parameter(
         return None;
     };
     reserved(&name, diagnostics);
-    let length = match &*argument.ty {
-        ty if is_f64(ty) => None,
+    let kind = match &*argument.ty {
+        ty if is_f64(ty) => Kind::Number,
         Type::Array(array) if is_f64(&array.elem) => {
             let known = match &array.len {
                 Expr::Lit(_) => true,
@@ -253,17 +303,27 @@ fn parameter(
             }
             let text = array.len.to_token_stream().to_string();
             let position = lengths.iter().position(|length| length.to_token_stream().to_string() == text);
-            Some(position.unwrap_or_else(|| {
+            Kind::List(position.unwrap_or_else(|| {
                 lengths.push(array.len.clone());
                 lengths.len() - 1
             }))
         }
+        ty if may_be_function(ty) => Kind::Function(Box::new(ty.clone())),
         ty => {
             diagnostics.error(ty.span(), MESSAGE);
             return None;
         }
     };
-    Some(Parameter { name, doc: documentation(&argument.attrs), attributes: argument.attrs.clone(), length })
+    Some(Parameter { name, doc: documentation(&argument.attrs), attributes: argument.attrs.clone(), kind })
+}
+
+/// Any named type but those of the language that are no numbers of an energy.
+fn may_be_function(ty: &Type) -> bool {
+    const NEVER: [&str; 17] = [
+        "f32", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize",
+        "bool", "char", "str", "String",
+    ];
+    matches!(ty, Type::Path(path) if !NEVER.iter().any(|name| path.path.is_ident(name)))
 }
 
 /// The text of documentation comments, lines joined by spaces, paragraphs by newlines.

@@ -131,6 +131,9 @@ impl<'a> Quotients<'a> {
             Node::Exp(a) => {
                 self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b)))
             }
+            Node::Function(f, order, a) => self.chain_rule(graph, a, reflection, |graph, a, b| {
+                graph.leaf(Node::FunctionQuotient(f, order, a, b))
+            }),
             Node::Extended(function, order, k) => {
                 let Reflection::Flip(i, j) = reflection else { return undefined(graph) };
                 let quotient = extended_quotient(graph, function, order, i, j);

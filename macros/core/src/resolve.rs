@@ -192,9 +192,12 @@ impl<'a> Resolver<'a> {
             return self.graph.stretch(i);
         }
         if let Some(k) = self.declaration.parameters.iter().position(|parameter| parameter.name == *name) {
-            if self.declaration.parameters[k].length.is_some() {
+            if self.declaration.parameters[k].length().is_some() {
                 return self
                     .mistake(name.span(), &format!("`{text}` is a list: write `sum(|p| … {text}[p] …)`"));
+            }
+            if self.declaration.parameters[k].is_function() {
+                return self.mistake(name.span(), &format!("`{text}` is a function: write `{text}(l1)`"));
             }
             return self.graph.leaf(Node::Parameter(k));
         }
@@ -305,6 +308,18 @@ impl<'a> Resolver<'a> {
     }
 
     fn call(&mut self, call: &syn::ExprCall) -> Id {
+        let functions = self.declaration.parameters.iter().position(|parameter| {
+            parameter.is_function()
+                && matches!(&*call.func, Expr::Path(path) if path.path.is_ident(&parameter.name))
+        });
+        if let Some(k) = functions {
+            self.used.insert(self.declaration.parameters[k].name.to_string());
+            let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
+                return self.mistake(call.span(), "a function has one argument");
+            };
+            let argument = self.expression(argument);
+            return self.graph.leaf(Node::Function(k, 0, argument));
+        }
         let closure = match (&*call.func, call.args.first()) {
             (Expr::Path(path), Some(Expr::Closure(closure))) if path.path.is_ident("sum") => Some(closure),
             _ => None,
@@ -318,7 +333,8 @@ impl<'a> Resolver<'a> {
         let (Some(closure), Some(index)) = (closure, index) else {
             return self.mistake(
                 call.span(),
-                "the only function called by name is `sum(|p| mu[p] * …)`; others are called on a number: `x.ln()`",
+                "the only functions called by name are `sum(|p| mu[p] * …)` and parameters such as `f: piola::Spline`; others \
+                 are called on a number: `x.ln()`",
             );
         };
         if self.index.is_some() {
@@ -348,7 +364,7 @@ impl<'a> Resolver<'a> {
         };
         let parameter = &self.declaration.parameters[k];
         self.used.insert(parameter.name.to_string());
-        let Some(length) = parameter.length else {
+        let Some(length) = parameter.length() else {
             return self.mistake(
                 list.span(),
                 &format!("`{0}` is a number, not a list: write `{0}`", parameter.name),

@@ -46,6 +46,9 @@ pub enum Op {
     Exp(Value),
     /// ln of a product of three.
     LnProduct([Value; 3]),
+    /// Derivative of the given order of a function that is a parameter.
+    Function(Parameter, u8, Value),
+    FunctionQuotient(Parameter, u8, Value, Value),
     Powf(Value, Value),
     Max(Value, Value),
     /// min(first − second, 0).
@@ -81,7 +84,12 @@ impl Op {
             | Self::Entry(_)
             | Self::Epsilon
             | Self::PoleFloor => vec![],
-            Self::Neg(a) | Self::Sqrt(a) | Self::Cbrt(a) | Self::Ln(a) | Self::Exp(a) => vec![a],
+            Self::Neg(a)
+            | Self::Sqrt(a)
+            | Self::Cbrt(a)
+            | Self::Ln(a)
+            | Self::Exp(a)
+            | Self::Function(.., a) => vec![a],
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
@@ -90,7 +98,8 @@ impl Op {
             | Self::Max(a, b)
             | Self::Below(a, b)
             | Self::LnQuotient(a, b)
-            | Self::ExpQuotient(a, b) => vec![a, b],
+            | Self::ExpQuotient(a, b)
+            | Self::FunctionQuotient(.., a, b) => vec![a, b],
             Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
             | Self::ShareAbove(a, b, c)
@@ -282,6 +291,14 @@ impl Scheduler<'_> {
             Node::Exp(a) => {
                 let a = self.value(a);
                 self.push(Op::Exp(a))
+            }
+            Node::Function(k, order, a) => {
+                let a = self.value(a);
+                self.push(Op::Function(k, order, a))
+            }
+            Node::FunctionQuotient(k, order, a, b) => {
+                let (a, b) = (self.value(a), self.value(b));
+                self.push(Op::FunctionQuotient(k, order, a, b))
             }
             Node::Above(i) => {
                 let (stretch, epsilon) = (self.push(Op::Stretch(i)), self.push(Op::Epsilon));

@@ -64,7 +64,7 @@ fn names_and_calls() {
     check_added("m[0]", "write `m");
     check_added("J ^ 2", "x.powi(2)");
     check_added("sum(|p| m[p] * sum(|q| m[q]))", "sums cannot stand inside sums");
-    check_added("max(l1, 0.0)", "the only function called by name is `sum");
+    check_added("max(l1, 0.0)", "the only functions called by name are `sum");
     check_added("J / 0.0", "division by zero");
     check_added("1.0f32", "remove the suffix");
     check_added("1e999", "not finite");

@@ -155,6 +155,14 @@ impl<'a> Writer<'a> {
                 let (a, b) = (n(a), n(b));
                 quote!((#a - #b).min(R::splat(0.0)))
             }
+            Op::Function(k, order, a) => {
+                let name = ["value", "derivative", "second_derivative"].get(usize::from(order));
+                self.function(k, name, &[n(a)])
+            }
+            Op::FunctionQuotient(k, order, a, b) => {
+                let name = ["quotient", "derivative_quotient"].get(usize::from(order));
+                self.function(k, name, &[n(a), n(b)])
+            }
             Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
             Op::LnQuotient(a, b) => self.call("ln_quotient", &[n(a), n(b)]),
@@ -178,6 +186,14 @@ impl<'a> Writer<'a> {
             | Op::Entry(_)
             | Op::Epsilon => quote!(),
         }
+    }
+
+    /// A call of a function that is a parameter. No expression needs a higher derivative than there is; NaN would not go
+    /// unnoticed.
+    fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[TokenStream]) -> TokenStream {
+        let Some(method) = method else { return literal(f64::NAN) };
+        let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));
+        quote!(::piola::Univariate::#method(&self.#name, #(#arguments),*))
     }
 
     fn call(&self, kernel: &str, arguments: &[TokenStream]) -> TokenStream {

@@ -1,0 +1,266 @@
+//! A force curve through control points, and the energy that it is the derivative of.
+
+use super::{Univariate, by_pieces};
+use crate::lanes::Real;
+use crate::material::Inadmissible;
+
+/// A function φ given by its derivative: φ′ is the natural cubic spline through control points, φ(1) = 0.
+///
+/// φ′ is twice continuously differentiable, and linear before the first and behind the last control point, so that φ is defined
+/// for every argument. With a control point (1, 0) on each curve of an energy its rest state is free of stress.
+///
+/// ```
+/// use piola::{Spline, Univariate};
+///
+/// # fn main() -> Result<(), piola::material::Inadmissible> {
+/// let force = Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5]])?;
+/// assert_eq!(force.derivative(2.0), 1e5);
+/// assert_eq!(force.value(1.0), 0.0);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    /// Abscissae of the control points.
+    knots: Vec<f64>,
+    /// One more than knots: piece k ends at knot k. The first and the last are straight.
+    pieces: Vec<Piece>,
+}
+
+/// φ = c0 + c1 d + … + c4 d⁴ with d = x − anchor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    anchor: f64,
+    coefficients: [f64; 5],
+}
+
+impl Spline {
+    /// The spline whose derivative, Pa, passes through these points (x, φ′).
+    ///
+    /// # Errors
+    /// Fewer than two points, a coordinate that is not finite, or abscissae that do not increase.
+    pub fn through(points: &[[f64; 2]]) -> Result<Self, Inadmissible> {
+        let refuse = |expected: String| Err(Inadmissible::Shape { expected });
+        if points.len() < 2 {
+            return refuse(format!("a spline needs two or more control points, not {}", points.len()));
+        }
+        if let Some(point) = points.iter().flatten().find(|coordinate| !coordinate.is_finite()) {
+            return refuse(format!("a control point has the coordinate {point}; it must be a finite number"));
+        }
+        if let Some(pair) = points.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
+            return refuse(format!(
+                "the control points of a spline must be in increasing order of x, but x = {} is followed by {}",
+                pair[0][0], pair[1][0]
+            ));
+        }
+        let bends = bends(points);
+        let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
+        let mut pieces = Vec::new();
+        let mut start = 0.0;
+        for (k, pair) in points.windows(2).enumerate() {
+            let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
+            let (h, m0, m1) = (x1 - x0, bends[k], bends[k + 1]);
+            let slope = (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0;
+            let piece = Piece {
+                anchor: x0,
+                coefficients: [start, y0, slope / 2.0, m0 / 6.0, (m1 - m0) / (24.0 * h)],
+            };
+            if k == 0 {
+                pieces.push(Piece { anchor: x0, coefficients: [0.0, y0, slope / 2.0, 0.0, 0.0] });
+            }
+            start = piece.taylor(x1)[0];
+            pieces.push(piece);
+        }
+        let last = points.len() - 1;
+        let end = pieces[last].taylor(points[last][0]);
+        pieces.push(Piece {
+            anchor: points[last][0],
+            coefficients: [start, points[last][1], end[2] / 2.0, 0.0, 0.0],
+        });
+        let mut spline = Self { knots, pieces };
+        let at_rest = spline.value(1.0);
+        for piece in &mut spline.pieces {
+            piece.coefficients[0] -= at_rest;
+        }
+        Ok(spline)
+    }
+
+    /// The coefficients of the piece that x lies in, each number of R by itself, and the distance from its anchor.
+    #[inline]
+    fn piece<R: Real>(&self, x: R) -> ([R; 5], R) {
+        let mut coefficients = self.pieces[0].coefficients.map(R::splat);
+        let mut anchor = R::splat(self.pieces[0].anchor);
+        for (knot, piece) in self.knots.iter().zip(&self.pieces[1..]) {
+            let is_before = x.less(R::splat(*knot));
+            for (current, next) in coefficients.iter_mut().zip(piece.coefficients) {
+                *current = R::select(is_before, *current, R::splat(next));
+            }
+            anchor = R::select(is_before, anchor, R::splat(piece.anchor));
+        }
+        (coefficients, x - anchor)
+    }
+}
+
+impl Piece {
+    /// φ, φ′ and φ″.
+    fn taylor(&self, x: f64) -> [f64; 3] {
+        let [c0, c1, c2, c3, c4] = self.coefficients;
+        let d = x - self.anchor;
+        [
+            c0 + d * (c1 + d * (c2 + d * (c3 + d * c4))),
+            c1 + d * (2.0 * c2 + d * (3.0 * c3 + d * 4.0 * c4)),
+            2.0 * c2 + d * (6.0 * c3 + d * 12.0 * c4),
+        ]
+    }
+}
+
+/// Second derivatives of the natural cubic spline at its points, by elimination in the tridiagonal system of continuous
+/// slopes [de Boor, *A Practical Guide to Splines*, chapter IV].
+fn bends(points: &[[f64; 2]]) -> Vec<f64> {
+    let n = points.len();
+    let length = |k: usize| points[k + 1][0] - points[k][0];
+    let slope = |k: usize| (points[k + 1][1] - points[k][1]) / length(k);
+    let mut factors = vec![0.0; n];
+    let mut bends = vec![0.0; n];
+    for k in 1..n - 1 {
+        let pivot = 2.0 * (length(k - 1) + length(k)) - length(k - 1) * factors[k - 1];
+        factors[k] = length(k) / pivot;
+        bends[k] = (6.0 * (slope(k) - slope(k - 1)) - length(k - 1) * bends[k - 1]) / pivot;
+    }
+    for k in (1..n - 1).rev() {
+        bends[k] -= factors[k] * bends[k + 1];
+    }
+    bends
+}
+
+impl Univariate for Spline {
+    #[inline]
+    fn value<R: Real>(&self, x: R) -> R {
+        let ([c0, c1, c2, c3, c4], d) = self.piece(x);
+        c4.mul_add(d, c3).mul_add(d, c2).mul_add(d, c1).mul_add(d, c0)
+    }
+
+    #[inline]
+    fn derivative<R: Real>(&self, x: R) -> R {
+        let ([_, c1, c2, c3, c4], d) = self.piece(x);
+        let (twice, thrice, four) = (c2 + c2, R::splat(3.0) * c3, R::splat(4.0) * c4);
+        four.mul_add(d, thrice).mul_add(d, twice).mul_add(d, c1)
+    }
+
+    #[inline]
+    fn second_derivative<R: Real>(&self, x: R) -> R {
+        let ([_, _, c2, c3, c4], d) = self.piece(x);
+        (R::splat(12.0) * c4).mul_add(d, R::splat(6.0) * c3).mul_add(d, c2 + c2)
+    }
+
+    fn breakpoints(&self) -> &[f64] {
+        &self.knots
+    }
+
+    #[inline]
+    fn quotient<R: Real>(&self, a: R, b: R) -> R {
+        by_pieces(a, b, &self.knots, |k, a, b| {
+            let Piece { anchor, coefficients } = self.pieces[k];
+            let [_, c1, c2, c3, c4] = coefficients.map(R::splat);
+            let [a, b] = [a, b].map(|x| x - R::splat(anchor));
+            let (sum, squares) = (a + b, a.mul_add(a, b * b));
+            (c4 * squares + c2).mul_add(sum, c3.mul_add(a.mul_add(b, squares), c1))
+        })
+    }
+
+    #[inline]
+    fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
+        by_pieces(a, b, &self.knots, |k, a, b| {
+            let Piece { anchor, coefficients } = self.pieces[k];
+            let [_, _, c2, c3, c4] = coefficients.map(R::splat);
+            let [a, b] = [a, b].map(|x| x - R::splat(anchor));
+            let (sum, squares) = (a + b, a.mul_add(a, b * b));
+            let quadratic = (R::splat(4.0) * c4) * a.mul_add(b, squares);
+            (R::splat(3.0) * c3).mul_add(sum, quadratic) + (c2 + c2)
+        })
+    }
+
+    /// Control points x, φ′, x, φ′, …
+    fn from_values(values: &[f64]) -> Result<Self, Inadmissible> {
+        let (points, rest) = values.as_chunks::<2>();
+        if !rest.is_empty() {
+            return Err(Inadmissible::Shape {
+                expected: format!("control points are pairs x, φ′, but there are {} numbers", values.len()),
+            });
+        }
+        Self::through(points)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINTS: [[f64; 2]; 5] = [[0.25, -3.0], [0.5, -1.5], [1.0, 0.0], [1.75, 1.0], [3.0, 4.0]];
+
+    #[test]
+    fn the_derivative_passes_through_the_points_and_bends_continuously() {
+        let spline = Spline::through(&POINTS).unwrap();
+        assert_eq!(spline.value(1.0), 0.0);
+        for [x, y] in POINTS {
+            assert!((spline.derivative(x) - y).abs() <= 1e-14, "at {x}");
+            let [before, after] = [x.next_down(), x].map(|x| {
+                let third = (spline.second_derivative(x + 1e-6) - spline.second_derivative(x - 1e-6)) / 2e-6;
+                [spline.value(x), spline.derivative(x), spline.second_derivative(x), third]
+            });
+            for (left, right) in before.into_iter().zip(after) {
+                assert!((left - right).abs() <= 1e-8 * (1.0 + left.abs()), "{left} and {right} at {x}");
+            }
+        }
+        // Natural: straight at both ends.
+        for x in [0.25, -1.0, 3.0, 5.0] {
+            let h = 1e-3;
+            let bend = spline.second_derivative(x + h) - spline.second_derivative(x - h);
+            assert!(bend.abs() <= 0.02, "{bend} at {x}");
+        }
+        assert_eq!(spline.second_derivative(-1.0), spline.second_derivative(0.2));
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        let spline = Spline::through(&POINTS).unwrap();
+        for x in [-0.3, 0.3, 0.7, 1.2, 2.5, 3.5f64] {
+            let h = 1e-4;
+            let slope = (spline.value(x + h) - spline.value(x - h)) / (2.0 * h);
+            assert!((slope - spline.derivative(x)).abs() <= 1e-6, "φ′ at {x}");
+            let slope = (spline.derivative(x + h) - spline.derivative(x - h)) / (2.0 * h);
+            assert!((slope - spline.second_derivative(x)).abs() <= 1e-6, "φ″ at {x}");
+        }
+    }
+
+    #[test]
+    fn quotients_are_exact_within_and_across_pieces() {
+        let spline = Spline::through(&POINTS).unwrap();
+        for (a, b) in [(3.5, -0.5), (0.6, 0.4), (1.0, 0.5), (1.2, 1.1), (2.0, 2.0 + 1e-3)] {
+            let close = |found: f64, expected: f64, scale: f64| {
+                assert!(
+                    (found - expected).abs() <= 1e-11 * scale,
+                    "{found} for {expected} between {a} and {b}"
+                );
+            };
+            close(spline.quotient(a, b), (spline.value(a) - spline.value(b)) / (a - b), 10.0);
+            let slope = (spline.derivative(a) - spline.derivative(b)) / (a - b);
+            close(spline.derivative_quotient(a, b), slope, 10.0);
+        }
+        for x in [0.25, 0.3, 1.0, 3.0, 4.0f64] {
+            let error = spline.derivative_quotient(x, x) - spline.second_derivative(x);
+            assert!(error.abs() <= 1e-14 * spline.second_derivative(x).abs(), "at {x}");
+            let error = spline.derivative_quotient(x, x * (1.0 + 1e-15)) - spline.second_derivative(x);
+            assert!(error.abs() <= 1e-13 * spline.second_derivative(x).abs(), "beside {x}");
+        }
+    }
+
+    #[test]
+    fn bad_points_are_refused() {
+        let message = |values: &[f64]| Spline::from_values(values).unwrap_err().to_string();
+        assert!(message(&[1.0, 0.0]).contains("two or more control points, not 1"));
+        assert!(message(&[1.0, 0.0, 2.0]).contains("pairs"));
+        assert!(message(&[1.0, 0.0, 1.0, 2.0]).contains("x = 1 is followed by 1"));
+        assert!(message(&[1.0, 0.0, f64::NAN, 2.0]).contains("finite"));
+    }
+}
