@@ -1,6 +1,7 @@
 //! The judge: what piola must satisfy, by oracles that share no code with it.
 //!
 //! * [`cases`]: reference values to 25 digits and how a result is judged against them;
+//! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
 //! * `tests/reference.rs`: all of them, with a table of the worst errors;
@@ -8,5 +9,6 @@
 //! * `tests/tidy.rs`: the rules of the house.
 
 pub mod cases;
+pub mod declared;
 pub mod multiprecision;
 pub mod quotients;

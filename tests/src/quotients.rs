@@ -25,17 +25,32 @@ pub struct Quotient {
 impl Quotient {
     /// |found − D| in units of u: of the scale alone, and of scale + sensitivity. Infinite where `found` is not finite.
     #[must_use]
-    pub fn error(&self, found: f64, unit_roundoff: f64) -> (f64, f64) {
+    pub fn error(&self, found: f64, unit_roundoff: f64) -> Error {
         let distance = (Number::splat(found) - self.value).abs();
         if !distance.is_finite() {
-            return (f64::INFINITY, f64::INFINITY);
+            return Error { flat: f64::INFINITY, conditioned: f64::INFINITY };
         }
         if !Number::splat(0.0).less(distance) {
-            return (0.0, 0.0);
+            return Error { flat: 0.0, conditioned: 0.0 };
         }
         let units = |of: Number| (distance / of).to_f64() / unit_roundoff;
-        (units(self.scale), units(self.scale + self.sensitivity))
+        Error { flat: units(self.scale), conditioned: units(self.scale + self.sensitivity) }
     }
+
+    /// The same quotient with Σ|terms| in the maximum that is its scale.
+    #[must_use]
+    pub fn with_terms(self, terms: f64) -> Self {
+        Self { scale: self.scale.max(Number::splat(terms)), ..self }
+    }
+}
+
+/// An error in units of u.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Error {
+    /// Of the scale.
+    pub flat: f64,
+    /// Of scale + sensitivity, that is of (1 + κ) times the scale.
+    pub conditioned: f64,
 }
 
 /// The flips and twists of the [`PAIRS`] at stretches that are exact numbers.
