@@ -36,7 +36,7 @@ impl Declared {
                 }
                 let mut lengths = vec![0; declaration.lengths.len()];
                 for (parameter, list) in declaration.parameters.iter().zip(values) {
-                    if let Some(length) = parameter.length {
+                    if let Some(length) = parameter.length() {
                         lengths[length] = list.len();
                     }
                 }

@@ -16,15 +16,10 @@ pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id
     if real.is_some() || rational.denominator() > LARGEST_ROOT {
         return graph.leaf(Node::PowerQuotient(a, b, exponent));
     }
-    if rational.is_negative() {
-        // a⁻ʳ − b⁻ʳ = −(aʳ − bʳ) a⁻ʳ b⁻ʳ
-        let positive = power_quotient(graph, a, b, Exponent::rational(rational.negated()));
-        let quotient = graph.product(&[(positive, Exponent::ONE), (a, exponent), (b, exponent)]);
-        return graph.neg(quotient);
-    }
     match rational.as_integer() {
         Some(0) => graph.integer(0),
         Some(1) => graph.integer(1),
+        Some(n @ ..0) => reciprocal_quotient(graph, a, b, -n),
         // a²ᵐ − b²ᵐ = (aᵐ − bᵐ)(aᵐ + bᵐ)
         Some(n) if n % 2 == 0 => {
             let half = power_quotient(graph, a, b, Exponent::integer(n / 2));
@@ -52,4 +47,12 @@ pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id
             graph.div(numerator, denominator)
         }
     }
+}
+
+/// (a⁻ⁿ − b⁻ⁿ)/(a − b) = −p q (pⁿ − qⁿ)/(p − q) with p = 1/a, q = 1/b, whose terms are of the size of the result.
+fn reciprocal_quotient(graph: &mut Graph, a: Id, b: Id, n: i64) -> Id {
+    let (p, q) = (graph.powi(a, -1), graph.powi(b, -1));
+    let positive = power_quotient(graph, p, q, Exponent::integer(n));
+    let quotient = graph.product_of(&[p, q, positive]);
+    graph.neg(quotient)
 }

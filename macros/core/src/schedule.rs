@@ -9,9 +9,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::rational::Rational;
+use order::Order;
 use passes::{fuse_multiply_add, renumber};
 use powers::{Powers, Way};
 
+mod order;
 mod passes;
 mod powers;
 
@@ -144,6 +146,7 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
     let mut scheduler = Scheduler {
         graph,
         powers,
+        order: Order::default(),
         count: 0,
         statements: Vec::new(),
         numbers: HashMap::new(),
@@ -158,6 +161,7 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
 struct Scheduler<'g> {
     graph: &'g mut Graph,
     powers: Powers,
+    order: Order,
     count: usize,
     statements: Vec<Statement>,
     numbers: HashMap<Op, Value>,
@@ -270,6 +274,7 @@ impl Scheduler<'_> {
             Node::Epsilon => self.push(Op::Epsilon),
             Node::Linear { constant, terms } => self.linear(constant, &terms),
             Node::Product(factors) => {
+                let factors = self.order.balanced(self.graph, &factors);
                 let powers: Vec<_> = factors.iter().map(|&(base, e)| self.power(base, e)).collect();
                 powers
                     .into_iter()
