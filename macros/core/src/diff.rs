@@ -80,6 +80,7 @@ impl Differentiator {
             | Node::Below(_)
             | Node::ShareAbove(..)
             | Node::ShareBelow(..)
+            | Node::WhereNegative(..)
             | Node::LnQuotient(..)
             | Node::ExpQuotient(..)
             | Node::FunctionQuotient(..)

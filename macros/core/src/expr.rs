@@ -64,6 +64,8 @@ pub enum Node {
     ShareAbove(Stretch, Stretch),
     /// Fraction of the interval between two stretches that lies below ε.
     ShareBelow(Stretch, Stretch),
+    /// The second where the first is negative, else the third.
+    WhereNegative(Id, Id, Id),
     /// (ln a − ln b) / (a − b).
     LnQuotient(Id, Id),
     /// (eᵃ − eᵇ) / (a − b).
@@ -430,6 +432,7 @@ impl Graph {
             Node::Linear { terms, .. } => terms.iter().map(|&(term, _)| term).collect(),
             Node::Product(factors) => factors.iter().flat_map(|(base, e)| with_exponent(*base, e)).collect(),
             Node::Ln(a) | Node::Exp(a) | Node::Function(.., a) | Node::Sum(_, a) => vec![*a],
+            Node::WhereNegative(a, b, c) => vec![*a, *b, *c],
             Node::LnQuotient(a, b)
             | Node::ExpQuotient(a, b)
             | Node::FunctionQuotient(.., a, b)
@@ -482,6 +485,10 @@ impl Graph {
             Node::Sum(length, body) => {
                 let body = map(self, body);
                 self.sum(length, body)
+            }
+            Node::WhereNegative(condition, a, b) => {
+                let node = Node::WhereNegative(map(self, condition), map(self, a), map(self, b));
+                self.leaf(node)
             }
             Node::LnQuotient(a, b) => {
                 let node = Node::LnQuotient(map(self, a), map(self, b));

@@ -77,6 +77,10 @@ impl Printer<'_> {
                 };
                 format!("{name}{}(λ{})", "′".repeat(usize::from(*order)), subscript(i + 1))
             }
+            Node::WhereNegative(condition, a, b) => {
+                let [condition, a, b] = [condition, a, b].map(|&id| self.print(id, Context::Sum));
+                format!("({condition} < 0 ? {a} : {b})")
+            }
             Node::LnQuotient(a, b) => self.quotient("ln", *a, *b),
             Node::ExpQuotient(a, b) => self.quotient("exp", *a, *b),
             Node::PowerQuotient(a, b, e) => self.quotient(&format!("pow{}", self.exponent(*e)), *a, *b),

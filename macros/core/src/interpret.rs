@@ -134,6 +134,10 @@ impl Interpreter<'_> {
             Node::ShareBelow(i, j) => {
                 exact(1.0 - share_above(self.point.stretches[*i], self.point.stretches[*j], epsilon))
             }
+            Node::WhereNegative(condition, a, b) => {
+                let is_negative = self.value(*condition).value < 0.0;
+                self.value(if is_negative { *a } else { *b })
+            }
             Node::LnQuotient(a, b) => {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
                 exact(quotient(a, b, f64::ln, |m| 1.0 / m))

@@ -393,53 +393,25 @@ fn take_out_crossed(
     None
 }
 
-/// (φ′(x) φ(y) − φ′(y) φ(x))/(x − y) for x = λi, y = λj and an extended power φ.
+/// (φ′(x) φ(y) − φ′(y) φ(x))/(x − y) for x = λi, y = λj and an extended power φ(λ) = λ^r.
 ///
-/// It is φ(x) φ(y) times the divided difference of φ′/φ, whose pieces are r/λ above ε and a quotient of polynomials in
-/// t = (λ − ε)/ε below. With w = max(λ, ε), t = 0 above ε, and the fractions s of the interval above and below ε,
-///
-/// ```text
-/// −r (s_above (wx wy)^(r−1) τ(tx) τ(ty) + s_below (wx wy)^r ε⁻² (1 + ½ r (r − 1) (tx + ty) + ½ r (r − 1)² tx ty))
-/// τ(t) = 1 + r t + ½ r (r − 1) t²
-/// ```
+/// The product rule gives it in two ways, with the values of either stretch. That of the smaller φ is right: stretches are
+/// ordered, x ≥ |y|, so it is y for r > 0 and x for r < 0.
 fn crossed_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
-    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
-    let (one, epsilon) = (graph.integer(1), graph.leaf(Node::Epsilon));
+    let extended =
+        |graph: &mut Graph, order, k| graph.leaf(Node::Extended(Extended::Power(exponent), order, k));
+    let [value, slope] = [0, 1].map(|order| extended_quotient(graph, Extended::Power(exponent), order, i, j));
+    let by = |graph: &mut Graph, k| {
+        let (at, slope_at) = (extended(graph, 0, k), extended(graph, 1, k));
+        let (left, right) = (graph.mul(slope, at), graph.mul(value, slope_at));
+        graph.sub(left, right)
+    };
+    if exponent.real.is_none() {
+        return by(graph, if exponent.rational.is_negative() { i } else { j });
+    }
     let r = graph.exponent_value(exponent);
-    let r_minus_one = graph.sub(r, one);
-    let bend = graph.mul(r, r_minus_one);
-    let [(wx, tx), (wy, ty)] = [i, j].map(|k| {
-        let below = graph.leaf(Node::Below(k));
-        (graph.leaf(Node::Above(k)), graph.div(below, epsilon))
-    });
-    let [polynomial_x, polynomial_y] = [tx, ty].map(|t| {
-        let (linear, square) = (graph.mul(r, t), graph.powi(t, 2));
-        let quadratic = graph.mul(bend, square);
-        graph.linear(Rational::ONE, &[(linear, Rational::ONE), (quadratic, half)])
-    });
-    let lowered = graph.add_exponents(exponent, Exponent::integer(-1));
-    let [share_above, share_below] =
-        [Node::ShareAbove(i, j), Node::ShareBelow(i, j)].map(|share| graph.leaf(share));
-    let above = graph.product(&[
-        (share_above, Exponent::ONE),
-        (wx, lowered),
-        (wy, lowered),
-        (polynomial_x, Exponent::ONE),
-        (polynomial_y, Exponent::ONE),
-    ]);
-    let (sum, product) = (graph.add(tx, ty), graph.mul(tx, ty));
-    let (linear, bilinear) = (graph.mul(bend, sum), graph.product_of(&[bend, r_minus_one, product]));
-    let curved = graph.linear(Rational::ONE, &[(linear, half), (bilinear, half)]);
-    let below = graph.product(&[
-        (share_below, Exponent::ONE),
-        (wx, exponent),
-        (wy, exponent),
-        (epsilon, Exponent::integer(-2)),
-        (curved, Exponent::ONE),
-    ]);
-    let sum = graph.add(above, below);
-    let negative = graph.neg(r);
-    graph.mul(negative, sum)
+    let (negative, positive) = (by(graph, i), by(graph, j));
+    graph.leaf(Node::WhereNegative(r, negative, positive))
 }
 
 /// Stands where the calculus has no answer; never reached from an energy, and loud if it were.

@@ -55,6 +55,7 @@ pub enum Op {
     Max(Value, Value),
     /// min(first − second, 0).
     Below(Value, Value),
+    WhereNegative(Value, Value, Value),
     ShareAbove(Value, Value, Value),
     ShareBelow(Value, Value, Value),
     LnQuotient(Value, Value),
@@ -104,6 +105,7 @@ impl Op {
             | Self::FunctionQuotient(.., a, b) => vec![a, b],
             Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
+            | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
             | Self::ShareBelow(a, b, c) => vec![a, b, c],
             Self::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => {
@@ -320,6 +322,10 @@ impl Scheduler<'_> {
             Node::ShareBelow(i, j) => {
                 let [a, b, epsilon] = [Op::Stretch(i), Op::Stretch(j), Op::Epsilon].map(|op| self.push(op));
                 self.push(Op::ShareBelow(a, b, epsilon))
+            }
+            Node::WhereNegative(condition, a, b) => {
+                let [condition, a, b] = [condition, a, b].map(|id| self.value(id));
+                self.push(Op::WhereNegative(condition, a, b))
             }
             Node::LnQuotient(a, b) => {
                 let (a, b) = (self.value(a), self.value(b));

@@ -163,6 +163,10 @@ impl<'a> Writer<'a> {
                 let name = ["quotient", "derivative_quotient"].get(usize::from(order));
                 self.function(k, name, &[n(a), n(b)])
             }
+            Op::WhereNegative(condition, a, b) => {
+                let (condition, a, b) = (n(condition), n(a), n(b));
+                quote!(R::select(#condition.less(R::splat(0.0)), #a, #b))
+            }
             Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
             Op::LnQuotient(a, b) => self.call("ln_quotient", &[n(a), n(b)]),
