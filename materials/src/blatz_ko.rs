@@ -21,7 +21,10 @@ pub fn BlatzKo(
     /// β = ν/(1 − 2ν) with Poisson's ratio ν.
     beta: f64,
 ) -> f64 {
-    let solid = I1 - 3.0 + (J.powf(-2.0 * beta) - 1.0) / beta;
-    let foam = l1.powi(-2) + l2.powi(-2) + l3.powi(-2) - 3.0 + (J.powf(2.0 * beta) - 1.0) / beta;
-    mu / 2.0 * (f * solid + (1.0 - f) * foam)
+    // f stands beside each power: where it is zero, so is the product, though the power may be out of range.
+    let solid = f * (I1 - 3.0) + (f * J.powf(-2.0 * beta) - f) / beta;
+    let g = 1.0 - f;
+    let foam =
+        g * l1.powi(-2) + g * l2.powi(-2) + g * l3.powi(-2) - 3.0 * g + (g * J.powf(2.0 * beta) - g) / beta;
+    mu / 2.0 * (solid + foam)
 }

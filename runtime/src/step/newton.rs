@@ -142,6 +142,7 @@ pub(crate) fn minimize(
             }
         }
         let tangents = objective.elastic.evaluate_stiffnesses(objective.body, settings.filter);
+        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
         report.filtered = report.filtered.max(tangents.filtered);
         report.bounded = report.bounded.max(tangents.bounded);
         objective.gradient(x, &mut workspace.gradient);

@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::rational::Rational;
 
 /// Degrees for t → 0 and for t → ∞.
 type Degrees = [f64; 2];
@@ -19,16 +20,13 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// The factors in the order of multiplication; as they are where none can do harm.
+    /// The factors in the order of multiplication, parameters first.
     pub(super) fn balanced(&mut self, graph: &Graph, factors: &[(Id, Exponent)]) -> Vec<(Id, Exponent)> {
         let mut left: Vec<(Degrees, (Id, Exponent))> = Vec::new();
         for &(base, exponent) in factors {
-            left.push((power(self.degrees(graph, base), exponent), (base, exponent)));
-        }
-        let has =
-            |wanted: fn(f64) -> bool| left.iter().any(|(degrees, _)| degrees.iter().any(|&d| wanted(d)));
-        if !(has(|d| d > 0.0) && has(|d| d < 0.0)) {
-            return factors.to_vec();
+            for part in parts(exponent) {
+                left.push((power(self.degrees(graph, base), part), (base, part)));
+            }
         }
         let mut order = Vec::new();
         let mut total = [0.0; 2];
@@ -88,6 +86,27 @@ impl Order {
             _ => [0.0; 2],
         }
     }
+}
+
+/// x^(−10/3) may leave the range where x^(−1/3), x^(−1) and x^(−2) do not.
+fn parts(exponent: Exponent) -> Vec<Exponent> {
+    const LARGEST: i64 = 2;
+    let Exponent { real, rational } = exponent;
+    let Ok(mut whole) = i64::try_from(rational.numerator() / rational.denominator()) else {
+        return vec![exponent];
+    };
+    let fraction = rational.checked_add(Rational::integer(-whole));
+    let (None, Some(fraction)) = (real, fraction) else { return vec![exponent] };
+    let mut parts = Vec::new();
+    if !fraction.is_zero() {
+        parts.push(Exponent::rational(fraction));
+    }
+    while whole != 0 {
+        let part = whole.clamp(-LARGEST, LARGEST);
+        parts.push(Exponent::integer(part));
+        whole -= part;
+    }
+    parts
 }
 
 /// A real exponent is unknown here and counts by its rational part.

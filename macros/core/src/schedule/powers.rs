@@ -65,7 +65,9 @@ impl Powers {
     /// How `base^exponent` is computed.
     pub(super) fn way(&self, base: Id, exponent: Exponent) -> Way {
         let Exponent { rational, .. } = exponent;
-        if is_simple(exponent) {
+        if exponent.as_integer().is_some() {
+            Way::Root(1)
+        } else if is_simple(exponent) {
             // Roots of one base share a common one unless that is of too high a degree.
             let common = self.denominators.get(&base).copied().filter(|&common| common <= LARGEST_ROOT);
             Way::Root(common.unwrap_or(rational.denominator()))
