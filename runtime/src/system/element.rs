@@ -84,7 +84,7 @@ pub struct Survey {
     pub refused: usize,
     /// How many are at a pole of their tangent, which got a bounded value.
     pub bounded: usize,
-    /// How many have an infinite or NaN deformation or energy.
+    /// How many have an infinite or NaN deformation, energy, gradient or stiffness, whichever of these was evaluated.
     pub nonfinite: usize,
     /// How many tangents the filter changed.
     pub filtered: usize,
@@ -141,7 +141,8 @@ pub trait ElementEnergy: Send + Sync {
     /// Gradients of the energies in the nodal positions, N: minus the forces. `points` as left by `evaluate`.
     fn gradients(&self, elements: &[Element], points: &[Svd<f64>], gradients: &mut [[[f64; 3]; 4]]);
 
-    /// Gradients, and second derivatives after the filter. `points` as left by `evaluate`.
+    /// Gradients, and second derivatives after the filter. `points` as left by `evaluate`. Says nothing of `refused` and
+    /// `min_det`, which `evaluate` has said.
     fn stiffnesses(
         &self,
         elements: &[Element],
@@ -211,8 +212,15 @@ impl<M: Material> ElementEnergy for M {
             *stiffness = element_stiffness(element, point, &blocks);
             let [_, second, third] = point.stretches;
             let at_pole = self.has_pole() && second + third < pole_floor(point.stretches);
-            survey.filtered += usize::from(filtered);
-            survey.bounded += usize::from(at_pole || blunted);
+            // Derivatives leave the range of the numbers before the energy does.
+            let finite = all_finite(gradient) && stiffness.blocks.iter().all(all_finite);
+            survey = survey.and(Survey {
+                filtered: usize::from(filtered),
+                bounded: usize::from(at_pole || blunted),
+                nonfinite: usize::from(!finite),
+                first_offender: (!finite).then_some(element.tag),
+                ..Survey::NONE
+            });
         }
         survey
     }
@@ -220,6 +228,12 @@ impl<M: Material> ElementEnergy for M {
     fn rest_stiffness(&self) -> f64 {
         self.blocks([1.0; 3]).hessian[0]
     }
+}
+
+/// Without a branch for each entry, so that the compiler may test several at once.
+#[inline]
+fn all_finite<const ROWS: usize>(rows: &[[f64; 3]; ROWS]) -> bool {
+    rows.iter().flatten().fold(true, |all, x| all & x.is_finite())
 }
 
 /// Cuts off what a factorisation cannot resolve, and says whether there was anything.

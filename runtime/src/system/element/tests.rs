@@ -205,3 +205,23 @@ fn a_survey_names_the_first_offender() {
     assert_eq!((survey.nonfinite, survey.refused, survey.first_offender), (1, 0, Some(element.tag)));
     assert!(!survey.is_admissible());
 }
+
+#[test]
+fn a_survey_tells_of_forces_and_stiffnesses_that_overflow() {
+    let (element, positions) = sample(3, 0.0);
+    // A stiffness goes with Dm⁻²: rest edges shrunk to 1e-160 m at the same F and the same volume leave the energy as it is.
+    let check = |size: f64, expected: usize| {
+        let mut element = element;
+        element.shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * size));
+        let positions: Vec<_> = positions.iter().map(|x| x.map(|x| x / size)).collect();
+        let (mut points, mut energies) = ([IDENTITY], [0.0]);
+        let survey = KIRCHHOFF.evaluate(&[element], &positions, &mut points, &mut energies);
+        assert!(survey.is_admissible(), "{survey:?}");
+        let (mut gradients, mut stiffnesses) = ([[[0.0; 3]; 4]], [ElementStiffness::ZERO]);
+        let survey =
+            KIRCHHOFF.stiffnesses(&[element], &points, Filter::None, &mut gradients, &mut stiffnesses);
+        assert_eq!((survey.nonfinite, survey.first_offender.is_some()), (expected, expected > 0));
+    };
+    check(1.0, 0);
+    check(1e160, 1);
+}
