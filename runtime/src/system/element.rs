@@ -118,6 +118,15 @@ impl Survey {
         }
     }
 
+    /// Of one element whose numbers are finite or not.
+    fn of_numbers(element: &Element, finite: bool) -> Self {
+        Self {
+            nonfinite: usize::from(!finite),
+            first_offender: (!finite).then_some(element.tag),
+            ..Self::NONE
+        }
+    }
+
     /// Whether every element has a meaningful energy.
     #[must_use]
     pub fn is_admissible(&self) -> bool {
@@ -138,11 +147,12 @@ pub trait ElementEnergy: Send + Sync {
         energies: &mut [f64],
     ) -> Survey;
 
-    /// Gradients of the energies in the nodal positions, N: minus the forces. `points` as left by `evaluate`.
-    fn gradients(&self, elements: &[Element], points: &[Svd<f64>], gradients: &mut [[[f64; 3]; 4]]);
+    /// Gradients of the energies in the nodal positions, N: minus the forces. `points` as left by `evaluate`, which has said
+    /// what is `refused` and `min_det`.
+    fn gradients(&self, elements: &[Element], points: &[Svd<f64>], gradients: &mut [[[f64; 3]; 4]])
+    -> Survey;
 
-    /// Gradients, and second derivatives after the filter. `points` as left by `evaluate`. Says nothing of `refused` and
-    /// `min_det`, which `evaluate` has said.
+    /// Gradients, and second derivatives after the filter; as [`ElementEnergy::gradients`].
     fn stiffnesses(
         &self,
         elements: &[Element],
@@ -188,10 +198,18 @@ impl<M: Material> ElementEnergy for M {
         survey
     }
 
-    fn gradients(&self, elements: &[Element], points: &[Svd<f64>], gradients: &mut [[[f64; 3]; 4]]) {
+    fn gradients(
+        &self,
+        elements: &[Element],
+        points: &[Svd<f64>],
+        gradients: &mut [[[f64; 3]; 4]],
+    ) -> Survey {
+        let mut survey = Survey::NONE;
         for ((element, point), gradient) in elements.iter().zip(points).zip(gradients) {
             *gradient = nodal_gradient(element, point, self.gradient(point.stretches));
+            survey = survey.and(Survey::of_numbers(element, all_finite(gradient)));
         }
+        survey
     }
 
     fn stiffnesses(
@@ -217,9 +235,7 @@ impl<M: Material> ElementEnergy for M {
             survey = survey.and(Survey {
                 filtered: usize::from(filtered),
                 bounded: usize::from(at_pole || blunted),
-                nonfinite: usize::from(!finite),
-                first_offender: (!finite).then_some(element.tag),
-                ..Survey::NONE
+                ..Survey::of_numbers(element, finite)
             });
         }
         survey
