@@ -4,6 +4,8 @@
 use super::*;
 use crate::random::Random;
 
+mod search;
+
 /// Double-double numbers, only as much as residuals need [Dekker 1971].
 #[derive(Clone, Copy)]
 struct Twice(f64, f64);
