@@ -4,7 +4,7 @@
 
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, Material, PAIRS};
-use crate::quotient::pole_floor;
+use crate::quotient::{ln_quotient, pole_floor};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -21,6 +21,13 @@ impl Material for SaintVenantKirchhoff {
 
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
         self.blocks(stretches).gradient
+    }
+
+    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
+        // (λ² − 1)/2 = s + s²/2.
+        let green = s.map(|s| (R::splat(0.5) * s).mul_add(s, s));
+        let pressure = R::splat(LAMBDA) * (green[0] + green[1] + green[2]);
+        std::array::from_fn(|i| (R::splat(1.0) + s[i]) * (R::splat(2.0 * MU) * green[i] + pressure))
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
@@ -67,6 +74,14 @@ impl Material for NeoHookean {
         self.blocks(stretches).gradient
     }
 
+    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
+        let one = R::splat(1.0);
+        // ln(1 + s) = s ln[1 + s, 1], whose second factor is smooth.
+        let log = s.map(|s| s * ln_quotient(one + s, one));
+        let volumetric = R::splat(LAMBDA) * (log[0] + log[1] + log[2]);
+        s.map(|s| (R::splat(MU) * s * (R::splat(2.0) + s) + volumetric) / (one + s))
+    }
+
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
         let (mu, lambda, one) = (R::splat(MU), R::splat(LAMBDA), R::splat(1.0));
         let c = lambda * (l[0] * l[1] * l[2]).ln() - mu;
@@ -107,6 +122,11 @@ impl Material for RotatedLinear {
     fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
         let pressure = R::splat(LAMBDA) * (l[0] + l[1] + l[2] - R::splat(3.0));
         l.map(|l| R::splat(2.0 * MU) * (l - R::splat(1.0)) + pressure)
+    }
+
+    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
+        let pressure = R::splat(LAMBDA) * (s[0] + s[1] + s[2]);
+        s.map(|s| R::splat(2.0 * MU) * s + pressure)
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {

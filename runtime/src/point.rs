@@ -2,9 +2,9 @@
 //!
 //! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames
 //! carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames
-//! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Everything is generic over the
-//! real type, and what cannot be computed is said in a [`Status`] instead of an error, because a point may be one
-//! of many in a batch.
+//! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly deform start
+//! from the displacement gradient F − I instead ([`small_strain`]). Everything is generic over the real type, and what
+//! cannot be computed is said in a [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
 //! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a
@@ -21,6 +21,7 @@ use crate::quotient::pole_floor;
 pub mod gradient;
 pub(crate) mod matrix;
 pub mod project;
+pub mod small_strain;
 pub mod stress;
 pub mod svd;
 pub mod tangent;
@@ -30,6 +31,7 @@ mod tests;
 
 pub use gradient::{SvdGradient, svd_gradient};
 pub use project::{Filter, project};
+pub use small_strain::{evaluate_from_displacement, evaluate_stress_from_displacement};
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
 pub use tangent::{Tangent, contract};

@@ -132,7 +132,7 @@ fn surely_definite<R: Real>(A: [R; 6]) -> R::Mask {
 /// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic Jacobi
 /// rotations.
 #[inline(always)]
-fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
+pub(super) fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let [a11, a22, a33, a12, a13, a23] = A;
     let mut A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];

@@ -75,7 +75,10 @@ fn start(random: &mut Random) -> Exact {
     match pick(random, 6) {
         0 => random.matrix(),
         1 => product(&random.rotation(), &product(&diagonal(spectrum), &random.rotation())),
-        2 => product(&random.rotation(), &product(&diagonal([1.0, 1.0 + gap, spectrum[1]]), &random.rotation())),
+        2 => product(
+            &random.rotation(),
+            &product(&diagonal([1.0, 1.0 + gap, spectrum[1]]), &random.rotation()),
+        ),
         3 => perturbed(&random.rotation(), gap, &random.matrix()),
         4 => random.matrix().map(|row| row.map(|x| x * 2f64.powi(-(pick(random, 50) as i32)))),
         _ => product(&diagonal(spectrum), &product(&random.matrix(), &diagonal([gap, 1.0, spectrum[2]]))),

@@ -1,0 +1,180 @@
+//! Stress from the displacement gradient H = F − I, for bodies that hardly deform.
+//!
+//! # What is lost in F, and how it is kept
+//!
+//! Vibrations and stiff parts have strains of 10⁻⁶ and less. F = I + H then spends its digits on the identity: u is
+//! all that a diagonal entry tells of H, and a stress that is linear in H comes out with an error of u ‖dP/dF‖
+//! instead of u ‖P‖. No care taken after that brings the digits back, so the way from H to P must not pass F.
+//!
+//! **Strain.** The identity cancels in the Green strain on paper, not in floating point:
+//!
+//! ```text
+//! 2E = FᵀF − I = H + Hᵀ + HᵀH
+//! ```
+//!
+//! Each entry of the sum H + Hᵀ has one rounding, relative to itself. HᵀH is of second order: it cancels against
+//! H + Hᵀ where H is mostly rotation, by an angle θ say, and then leaves an error of u θ² where u θ = u ‖H‖ is what
+//! rounding H itself would do.
+//!
+//! **Stretches.** FᵀF = V diag(λ²) Vᵀ, so the eigenvectors of 2E are the principal directions V, and its eigenvalues
+//! qi = λi² − 1 give the principal Biot strains without subtracting:
+//!
+//! ```text
+//! si = λi − 1 = (λi² − 1)/(λi + 1) = qi / (1 + √(1 + qi))
+//! ```
+//!
+//! Jacobi rotations find V and q as the exact ones of a matrix that differs from 2E by a few u ‖E‖.
+//!
+//! **Stress.** [`Material::gradient_at_strains`] gives ψi from the si. U need not be known, since U diag(λ) = F V:
+//!
+//! ```text
+//! P = U diag(ψi) Vᵀ = F V diag(ψi/λi) Vᵀ = S + H S,     S = V diag(ψi/λi) Vᵀ
+//! ```
+//!
+//! with the second Piola stress S, which is proportional to the strain, and once more no identity added to H. The
+//! signs and the order of the columns of V drop out of S. The quotients need λi > 0, away from zero: this is for
+//! ‖H‖ < ½, where λ3 > ½ and λi is the positive root. Beyond, F has lost nothing worth keeping.
+//!
+//! **Error.** A few u (‖P‖ + ‖dP/dF‖ ‖H‖), with a material whose ψi are accurate relative to the strains, however
+//! small these are: no square of a strain can underflow where it matters. (The tangent needs none of this; it changes
+//! by its own rounding when F does.)
+//!
+//! This module knows no particular material.
+
+#![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
+
+use super::matrix::{column, dot, multiply_transposed};
+use super::project::eigen;
+use super::{Filter, Matrix3, Point, evaluate, evaluate_stress, finite};
+use crate::lanes::{Mask, Real};
+use crate::material::{Material, PAIRS, Status};
+
+/// The first Piola stress P, Pa, at F = I + H, and its status; H is the displacement gradient, dimensionless.
+///
+/// Accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where [`evaluate_stress`] at I + H reaches u ‖dP/dF‖. Where
+/// ‖H‖ ≥ ½ in the Frobenius norm, the two are the same. The status is that of [`evaluate_stress`].
+///
+/// ```
+/// use piola::point::{evaluate_stress, evaluate_stress_from_displacement};
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let rubber = Rubber::new(1e6, 4e6)?;
+/// // A strain of 3·10⁻¹⁴ along the first axis.
+/// let H = [[3e-14, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+/// let (P, status) = evaluate_stress_from_displacement(&rubber, &H);
+/// let expected = (2.0 * 1e6 + 4e6) * 3e-14;
+/// assert!(!status.refused && !status.nonfinite);
+/// // Linear elasticity differs by as much as the strain.
+/// assert!((P[0][0] - expected).abs() < 1e-13 * expected);
+///
+/// let F = [[1.0 + 3e-14, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let through_F = evaluate_stress(&rubber, &F).0[0][0];
+/// assert!((through_F - expected).abs() > 1e-3 * expected);
+/// # Ok(())
+/// # }
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn evaluate_stress_from_displacement<R: Real>(
+    material: &impl Material,
+    H: &Matrix3<R>,
+) -> (Matrix3<R>, Status<R::Mask>) {
+    let squared = H.iter().flatten().fold(R::splat(0.0), |sum, x| x.mul_add(*x, sum));
+    let is_small = squared.less(R::splat(0.25));
+    // Both ways are defined for each number of a batch by itself; only the work for a way that none takes is
+    // skipped, so that a number's result never depends on its neighbours.
+    if !is_small.any() {
+        return evaluate_stress(material, &plus_identity(H));
+    }
+    let near = stress_near_rest(material, H);
+    if !(!is_small).any() {
+        return near;
+    }
+    let far = evaluate_stress(material, &plus_identity(H));
+    let either = |near: R::Mask, far: R::Mask| (is_small & near) | (!is_small & far);
+    let P = std::array::from_fn(|i| std::array::from_fn(|j| R::select(is_small, near.0[i][j], far.0[i][j])));
+    let status = Status {
+        refused: either(near.1.refused, far.1.refused),
+        bounded: either(near.1.bounded, far.1.bounded),
+        nonfinite: either(near.1.nonfinite, far.1.nonfinite),
+    };
+    (P, status)
+}
+
+/// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent filtered.
+///
+/// The tangent is that of [`evaluate`] at I + H. The status says what either says.
+#[inline(always)]
+#[must_use]
+pub fn evaluate_from_displacement<R: Real>(
+    material: &impl Material,
+    H: &Matrix3<R>,
+    filter: Filter,
+) -> Point<R> {
+    let point = evaluate(material, &plus_identity(H), filter);
+    let (stress, status) = evaluate_stress_from_displacement(material, H);
+    let status = Status {
+        refused: point.status.refused | status.refused,
+        bounded: point.status.bounded,
+        nonfinite: point.status.nonfinite | status.nonfinite,
+    };
+    Point { stress, status, ..point }
+}
+
+/// F = I + H.
+#[inline(always)]
+fn plus_identity<R: Real>(H: &Matrix3<R>) -> Matrix3<R> {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { R::splat(1.0) + H[i][j] } else { H[i][j] }))
+}
+
+/// P = S + H S for ‖H‖ < ½; anything where H is larger.
+#[inline(always)]
+fn stress_near_rest<R: Real>(material: &impl Material, H: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
+    let one = R::splat(1.0);
+    let (strains, V) = principal_strains(H);
+    let stretches = strains.map(|s| one + s);
+    let gradient = material.gradient_at_strains(strains);
+
+    let weights: [R; 3] = std::array::from_fn(|k| gradient[k] / stretches[k]);
+    let weighted: Matrix3<R> = V.map(|row| std::array::from_fn(|k| row[k] * weights[k]));
+    let S = multiply_transposed(&weighted, &V);
+    let P: Matrix3<R> = std::array::from_fn(|i| std::array::from_fn(|j| S[i][j] + dot(H[i], column(&S, j))));
+
+    let refused = !material.admits(stretches);
+    let nonfinite = !(finite(strains) & finite(P.into_iter().flatten()));
+    (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
+}
+
+/// s1 ≥ s2 ≥ s3, exactly in floating point, and the directions V at rest as columns, for ‖H‖ < ½.
+#[inline(always)]
+fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
+    let one = R::splat(1.0);
+    let entries = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let twice_E = entries.map(|(i, j)| (H[i][j] + H[j][i]) + dot(column(H, i), column(H, j)));
+
+    // A power of two, which is exact, keeps the squares of the rotations from underflow.
+    let largest = twice_E.into_iter().fold(R::splat(0.0), |largest, x| largest.max(x.abs()));
+    let (scale, back) = largest.power_of_two_scale();
+    let (q, mut V) = eigen(twice_E.map(|x| x * scale));
+    let mut strains = q.map(|q| {
+        let q = q * back;
+        q / (one + (one + q).sqrt())
+    });
+
+    // The strains are put in order, not the eigenvalues: rounding after the sort could disturb it.
+    for (i, j) in PAIRS {
+        let swap = strains[i].less(strains[j]);
+        let exchange = |pair: &mut [R; 3]| {
+            (pair[i], pair[j]) = (R::select(swap, pair[j], pair[i]), R::select(swap, pair[i], pair[j]));
+        };
+        exchange(&mut strains);
+        V.iter_mut().for_each(exchange);
+    }
+    (strains, V)
+}
