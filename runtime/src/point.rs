@@ -28,6 +28,8 @@ pub mod tangent;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod twice;
 
 pub use gradient::{SvdGradient, svd_gradient};
 pub use project::{Filter, project};
@@ -80,22 +82,26 @@ pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R,
 #[must_use]
 pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
     let svd = decompose(material, F);
-    let gradient = material.gradient(svd.stretches);
+    let P = stress(&svd, material.gradient(svd.stretches));
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(finite(svd.stretches) & finite(gradient));
-    (stress(&svd, gradient), Status { refused, bounded: R::Mask::splat(false), nonfinite })
+    let nonfinite = !(finite(svd.stretches) & finite(P.into_iter().flatten()));
+    (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
 /// Stress and tangent at F, the tangent filtered.
 ///
-/// Outside the domain of the energy the status says `refused` and the numbers mean nothing.
+/// Outside the domain of the energy the status says `refused` and the numbers mean nothing. Where it does not say
+/// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to any dF with
+/// ‖dF‖ ≤ 1.
 #[inline(always)]
 #[must_use]
 pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
     let svd = decompose(material, F);
     let blocks = material.blocks(svd.stretches);
+    let P = stress(&svd, blocks.gradient);
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(finite(svd.stretches) & blocks_are_finite(&blocks));
+    let nonfinite =
+        !(finite(svd.stretches) & finite(P.into_iter().flatten()) & tangent_stays_finite(&blocks));
     let bounded = if material.has_pole() {
         (svd.stretches[1] + svd.stretches[2]).less(pole_floor(svd.stretches))
     } else {
@@ -103,7 +109,7 @@ pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filte
     };
     let (blocks, filtered) = project(&blocks, filter);
     Point {
-        stress: stress(&svd, blocks.gradient),
+        stress: P,
         tangent: Tangent { U: svd.U, V: svd.V, blocks },
         filtered,
         status: Status { refused, bounded, nonfinite },
@@ -121,7 +127,12 @@ fn finite<R: Real>(values: impl IntoIterator<Item = R>) -> R::Mask {
     values.into_iter().fold(R::Mask::splat(true), |all, value| all & value.is_finite())
 }
 
+/// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest finite one.
+///
+/// With m the largest of the numbers, an eigenvalue of the Hessian block is at most 3m, which so bounds what a filter
+/// leaves; and the partial sums of [`contract`] between rotations stay below four times that.
 #[inline(always)]
-fn blocks_are_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
-    finite(blocks.gradient) & finite(blocks.hessian) & finite(blocks.flip) & finite(blocks.twist)
+fn tangent_stays_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
+    let all = blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist);
+    finite(all.map(|x| x * R::splat(16.0)))
 }

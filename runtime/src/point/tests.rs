@@ -8,6 +8,8 @@ use crate::random::Random;
 mod differences;
 mod filters;
 mod lanes;
+mod small_strain;
+mod statuses;
 
 fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))

@@ -2,34 +2,10 @@
 //! with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
 
 use super::*;
+use crate::point::twice::Twice;
 use crate::random::Random;
 
 mod search;
-
-/// Double-double numbers, only as much as residuals need [Dekker 1971].
-#[derive(Clone, Copy)]
-struct Twice(f64, f64);
-
-impl Twice {
-    fn add(self, other: Self) -> Self {
-        let sum = self.0 + other.0;
-        let part = sum - self.0;
-        let error = (self.0 - (sum - part)) + (other.0 - part) + self.1 + other.1;
-        let high = sum + error;
-        Self(high, error - (high - sum))
-    }
-
-    fn mul(self, other: Self) -> Self {
-        let product = self.0 * other.0;
-        let error = f64::mul_add(self.0, other.0, -product) + self.0 * other.1 + self.1 * other.0;
-        let high = product + error;
-        Self(high, error - (high - product))
-    }
-
-    fn sum(terms: impl IntoIterator<Item = Self>) -> Self {
-        terms.into_iter().fold(Self(0.0, 0.0), Self::add)
-    }
-}
 
 type Exact = [[f64; 3]; 3];
 
@@ -61,8 +37,8 @@ fn diagonal(d: [f64; 3]) -> Exact {
 /// The largest entry of UᵀU − I.
 fn orthogonality(U: &Exact) -> f64 {
     let entry = |i: usize, j: usize| {
-        let terms = (0..3).map(|k| Twice(U[k][i], 0.0).mul(Twice(U[k][j], 0.0)));
-        Twice::sum(terms.chain([Twice(if i == j { -1.0 } else { 0.0 }, 0.0)])).0.abs()
+        let terms = (0..3).map(|k| Twice::of(U[k][i]).mul(Twice::of(U[k][j])));
+        Twice::sum(terms.chain([Twice::of(if i == j { -1.0 } else { 0.0 })])).0.abs()
     };
     (0..9).map(|k| entry(k / 3, k % 3)).fold(0.0, f64::max)
 }
@@ -81,8 +57,8 @@ fn residual(F: &Exact, U: &Exact, stretches: [f64; 3], V: &Exact) -> f64 {
     frobenius(&std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let terms =
-                (0..3).map(|k| Twice(-U[i][k], 0.0).mul(Twice(stretches[k], 0.0)).mul(Twice(V[j][k], 0.0)));
-            Twice::sum([Twice(F[i][j], 0.0)].into_iter().chain(terms)).0
+                (0..3).map(|k| Twice::of(-U[i][k]).mul(Twice::of(stretches[k])).mul(Twice::of(V[j][k])));
+            Twice::sum([Twice::of(F[i][j])].into_iter().chain(terms)).0
         })
     }))
 }
@@ -127,8 +103,17 @@ impl Worst {
     }
 }
 
-/// Calls `f` for the matrices of all families, with exponents limited to what the type holds.
+/// Calls `f` for the matrices of all families: plain, and scaled by 10^±exponent or its root.
 fn families(count: usize, exponent: f64, mut f: impl FnMut(&str, &Exact)) {
+    let scales = [exponent, -exponent, exponent / 2.0, -exponent / 2.0].map(|e| (e, 10f64.powf(e)));
+    let mut turn = scales.into_iter().cycle();
+    let mut f = |name: &str, F: &Exact| {
+        f(name, F);
+        if let Some((e, scale)) = turn.next() {
+            f(&format!("{name}, 1e{e}"), &F.map(|row| row.map(|x| x * scale)));
+        }
+    };
+    f("zero", &[[0.0; 3]; 3]);
     let mut random = Random::new(1);
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     for _ in 0..count {
@@ -159,9 +144,6 @@ fn families(count: usize, exponent: f64, mut f: impl FnMut(&str, &Exact)) {
             "graded both ways",
             &product(&diagonal([1.0, e, e.sqrt()]), &product(&G, &diagonal([e, 1.0, 1.0]))),
         );
-        let large = 10f64.powf(random.uniform(0.0, exponent));
-        f("large", &G.map(|row| row.map(|x| x * large)));
-        f("small", &G.map(|row| row.map(|x| x / large)));
         // Every entry has its own magnitude.
         let wild = G.map(|row| row.map(|x| x * 2f64.powi(random.uniform(-60.0, 1.0) as i32)));
         f("wild", &wild);
