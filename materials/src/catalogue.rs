@@ -104,7 +104,7 @@ catalogue! {
     ],
     "stvk" => StVenantKirchhoff [[8.1e10], [1.2e11]],
     "symmetric_dirichlet" => SymmetricDirichlet [[1.0]],
-    "varga" => Varga [[4.8e5], [2e7]],
+    "varga" => Varga [[4.0e5], [2e7]],
     "yeoh" => Yeoh [[1.85e5], [-1.46e3], [40.4], [2e7]],
 }
 

@@ -6,8 +6,8 @@ use piola::material;
 ///
 /// ψ = μ/2 Σ (λi² + λi⁻² − 2).
 ///
-/// Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015, §3, in three dimensions. Even in each stretch, and
-/// defined wherever none is zero: it separates inverted elements from others by an infinite barrier, which
+/// Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015, §3, in three dimensions. Even in each
+/// stretch, and defined wherever none is zero: it separates inverted elements from others by an infinite barrier, which
 /// [`Inversion::Extend`](piola::Inversion::Extend) opens.
 ///
 /// Typical: `mu = 1.0`, since energies of maps have no unit.

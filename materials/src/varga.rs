@@ -9,7 +9,7 @@ use piola::material;
 /// Varga, *Stress-Strain Behavior of Elastic Materials*, 1966, for the first term; the source is incompressible, and the others
 /// free the rest state of stress and penalise changes of volume. Defined for J > 0.
 ///
-/// Typical: `mu = 4.8e5, kappa = 2e7`, natural rubber at moderate strain, fitted to \[Treloar 1944\].
+/// Typical: `mu = 4.0e5, kappa = 2e7`, natural rubber fitted to \[Treloar 1944\] up to twice the rest length.
 #[material(domain(J > 0.0), admissible(mu > 0.0), extend)]
 pub fn Varga(
     [l1, l2, l3]: [f64; 3],
