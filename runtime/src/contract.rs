@@ -19,7 +19,7 @@
 //! | [`stress_slope`] | difference quotients of ψ approach P as h² |
 //! | [`tangent_slope`] | difference quotients of P approach dP/dF as h² |
 //! | [`quotients`] | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
-//! | [`extension`] | ψ is twice differentiable across the threshold and drives inverted material back below it |
+//! | [`extension`] | P and dP/dF are exact beside the threshold, across it and deep below, where ψ drives inverted material back |
 //! | [`moduli`] | the small-strain moduli that a declaration states are those of its Hessian |
 //!
 //! A check returns what it found or the first [`Violation`]; nothing is printed, nothing panics. Samples are

@@ -1,12 +1,22 @@
-//! The rule on extensions: smooth across the threshold, restoring below it.
+//! The rule on extensions: smooth beside and across the threshold, restoring below it.
 
-use super::{Finding, Judge, Rule, Settings, Violation, gradient_name, slopes};
+use super::slopes::{Approach, energy_at, stress_at};
+use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
 use crate::material::Material;
 use crate::random::Random;
 
-/// For a material built with `Inversion::Extend { epsilon }`: it admits every point; at and around λ3 = ε
-/// difference quotients approach P and dP/dF (as h, since third derivatives jump there), deep inside inversion as
-/// h²; and ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
+/// How far beyond det F = 0 the extension is looked at: λ3 is minus this.
+const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
+
+/// For a material built with `Inversion::Extend { epsilon }`:
+///
+/// * it admits an inverted point where it admits its mirror image;
+/// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the threshold, be
+///   it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01, −0.5 and −2;
+/// * those across the threshold do so as h² and as h, since third derivatives of ψ jump there;
+/// * ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
+///
+/// Depths beyond the [`range`](Settings::range) are left out.
 ///
 /// # Errors
 /// The first violation.
@@ -15,31 +25,75 @@ pub fn extension(material: &impl Material, settings: &Settings, epsilon: f64) ->
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {
+        // λ2 clear of the threshold, unless a rule says otherwise.
         let l2 = random.uniform(1.1 * epsilon, high);
         let l1 = random.uniform(l2, high.max(1.01 * l2));
         let near = [0.0, 1e-3, -1e-3, 1e-8, -1e-8][point % 5];
-        let threshold = [l1, l2, epsilon * (1.0 + near)];
-        admitted(&mut judge, material, threshold)?;
-        slopes::energy_at(&mut judge, material, threshold, 1, &mut random)?;
-        slopes::stress_at(&mut judge, material, threshold, 1, &mut random)?;
+        across(&mut judge, material, [l1, l2, epsilon * (1.0 + near)], &mut random)?;
 
-        let inverted = [l1, l2, random.uniform(-0.95, -0.05) * l2];
-        admitted(&mut judge, material, inverted)?;
-        slopes::stress_at(&mut judge, material, inverted, 2, &mut random)?;
-
-        for l3 in [epsilon * (1.0 - 1e-6), inverted[2], -l2] {
-            let stretches = [l1, l2, l3];
-            if l3 < epsilon && l1 * l2 * l3 < 1.0 {
-                admitted(&mut judge, material, stretches)?;
-                let found = -material.gradient(stretches)[2];
-                judge.positive(|| format!("negative {}", gradient_name(2)), stretches, found)?;
-            }
+        let gap = [1.0 / 16.0, 1.0 / 64.0][point % 2];
+        let (above, below) = (epsilon * (1.0 + gap), epsilon * (1.0 - gap));
+        let (further, lower) = (epsilon * (1.0 + 2.0 * gap), epsilon * (1.0 - 2.0 * gap));
+        for (l2, l3) in [(l2, above), (l2, below), (further, above), (above, below), (below, lower)] {
+            beside(&mut judge, material, [l1, l2, l3], epsilon, &mut random)?;
+        }
+        for depth in DEPTHS.into_iter().filter(|depth| 1.1 * depth < high) {
+            let l2 = random.uniform((1.1 * depth).max(1.1 * epsilon), high);
+            let l1 = random.uniform(l2, high.max(1.01 * l2));
+            beside(&mut judge, material, [l1, l2, -depth], epsilon, &mut random)?;
+        }
+        for l3 in [epsilon * (1.0 - 1e-6), random.uniform(-0.95, -0.05) * l2, -l2] {
+            restoring(&mut judge, material, [l1, l2, l3])?;
         }
     }
     judge.finding()
 }
 
-fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+fn across(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    random: &mut Random,
+) -> Result<(), Violation> {
+    if !admitted(judge, material, stretches)? {
+        return Ok(());
+    }
+    energy_at(judge, material, stretches, &Approach::smooth(stretches), random)?;
+    stress_at(judge, material, stretches, &Approach::across(stretches), random)
+}
+
+fn beside(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    epsilon: f64,
+    random: &mut Random,
+) -> Result<(), Violation> {
+    if !admitted(judge, material, stretches)? {
+        return Ok(());
+    }
+    let approach = Approach::beside(epsilon, stretches);
+    energy_at(judge, material, stretches, &approach, random)?;
+    stress_at(judge, material, stretches, &approach, random)?;
+    if stretches[2] < epsilon { restoring(judge, material, stretches) } else { Ok(()) }
+}
+
+fn restoring(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+    if stretches.iter().product::<f64>() >= 1.0 || !admitted(judge, material, stretches)? {
+        return Ok(());
+    }
+    let found = -material.gradient(stretches)[2];
+    judge.positive(|| format!("negative {}", gradient_name(2)), stretches, found)
+}
+
+/// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such as Gent's
+/// on I1 is no matter of inversion.
+fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<bool, Violation> {
+    let [l1, l2, l3] = stretches;
+    if !material.admits([l1, l2, l3.abs()]) {
+        return Ok(false);
+    }
     let admitted = if material.admits(stretches) { 1.0 } else { -1.0 };
-    judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)
+    judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
+    Ok(true)
 }

@@ -21,7 +21,7 @@ pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Fin
     let mut judge = Judge::new(Rule::StressSlope);
     let mut random = Random::new(settings.seed);
     for stretches in samples::stretches(material, settings, &mut random) {
-        energy_at(&mut judge, material, stretches, 2, &mut random)?;
+        energy_at(&mut judge, material, stretches, &Approach::smooth(stretches), &mut random)?;
     }
     judge.finding()
 }
@@ -34,19 +34,43 @@ pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Fi
     let mut judge = Judge::new(Rule::TangentSlope);
     let mut random = Random::new(settings.seed);
     for stretches in samples::stretches(material, settings, &mut random) {
-        stress_at(&mut judge, material, stretches, 2, &mut random)?;
+        stress_at(&mut judge, material, stretches, &Approach::smooth(stretches), &mut random)?;
     }
     judge.finding()
 }
 
-/// A random frame and direction at these stretches, the direction so short that no step of ½ changes the sign of
-/// det F or reaches a pole.
-fn line(stretches: [f64; 3], random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
+/// How difference quotients approach a derivative.
+pub(super) struct Approach {
+    /// At the rate h^order.
+    order: i32,
+    /// Over this distance in F for h = 1.
+    reach: f64,
+}
+
+impl Approach {
+    /// As h², within the distance to det F = 0 and to the pole at λ2 + λ3 = 0.
+    pub(super) fn smooth(stretches: [f64; 3]) -> Self {
+        Self { order: 2, reach: stretches[2].abs().min(stretches[1] + stretches[2]) }
+    }
+
+    /// As h², on one side of a threshold of each stretch.
+    pub(super) fn beside(epsilon: f64, stretches: [f64; 3]) -> Self {
+        let Self { order, reach } = Self::smooth(stretches);
+        Self { order, reach: stretches.into_iter().map(|l| (l - epsilon).abs()).fold(reach, f64::min) }
+    }
+
+    /// As h, where the second derivative of what is differenced jumps.
+    pub(super) fn across(stretches: [f64; 3]) -> Self {
+        Self { order: 1, ..Self::smooth(stretches) }
+    }
+}
+
+/// A random frame and direction at these stretches, as long as the reach. Stretches move by no more than F does
+/// [Weyl's inequality], so steps below 1 keep to where the approach is as said.
+fn line(stretches: [f64; 3], reach: f64, random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
     let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
     let A = random.matrix();
-    let length = A.iter().flatten().map(|a| a * a).sum::<f64>().sqrt();
-    // Distances to det F = 0 and to the pole at λ2 + λ3 = 0.
-    let scale = stretches[2].abs().min(stretches[1] + stretches[2]) / length;
+    let scale = reach / A.iter().flatten().map(|a| a * a).sum::<f64>().sqrt();
     (F, A.map(|row| row.map(|a| a * scale)))
 }
 
@@ -54,15 +78,15 @@ fn moved(F: &Matrix3<f64>, h: f64, A: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| F[i][j] + h * A[i][j]))
 }
 
-/// The derivative of the energy along a random line, judged at rate h^`order`.
+/// The derivative of the energy along a random line.
 pub(super) fn energy_at(
     judge: &mut Judge,
     material: &impl Material,
     stretches: [f64; 3],
-    order: i32,
+    approach: &Approach,
     random: &mut Random,
 ) -> Result<(), Violation> {
-    let (F, A) = line(stretches, random);
+    let (F, A) = line(stretches, approach.reach, random);
     let P = evaluate_stress(material, &F).0;
     let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
     let blocks = material.blocks(stretches);
@@ -70,18 +94,18 @@ pub(super) fn energy_at(
     let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + energy);
     let along = |h: f64| evaluate_energy(material, &moved(&F, h, &A)).0;
     let name = || "difference quotient of the energy along a random line".into();
-    slope(judge, name, stretches, along, derivative, order, rounding)
+    slope(judge, name, stretches, along, derivative, approach.order, rounding)
 }
 
-/// The derivative of one component of the stress along a random line, judged at rate h^`order`.
+/// The derivative of one component of the stress along a random line.
 pub(super) fn stress_at(
     judge: &mut Judge,
     material: &impl Material,
     stretches: [f64; 3],
-    order: i32,
+    approach: &Approach,
     random: &mut Random,
 ) -> Result<(), Violation> {
-    let (F, A) = line(stretches, random);
+    let (F, A) = line(stretches, approach.reach, random);
     let B = random.matrix();
     let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
     let point = evaluate(material, &F, Filter::None);
@@ -89,7 +113,7 @@ pub(super) fn stress_at(
     let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
     let along = |h: f64| inner(&evaluate_stress(material, &moved(&F, h, &A)).0);
     let name = || "difference quotient of the stress along a random line".into();
-    slope(judge, name, stretches, along, inner(&point.tangent.apply(&A)), order, rounding)
+    slope(judge, name, stretches, along, inner(&point.tangent.apply(&A)), approach.order, rounding)
 }
 
 /// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
