@@ -7,7 +7,8 @@ use piola::material;
 /// ψ = μ Σₖ Cₖ/λm^(2k−2) (I1b^k − 3^k) + κ/2 ((J² − 1)/2 − ln J) with C = 1/2, 1/20, 11/1050, 19/7000, 519/673750.
 ///
 /// Arruda, Boyce, *A three-dimensional constitutive model for the large stretch behavior of rubber elastic materials*,
-/// 1993, eq. 16; the volumetric part is that of Abaqus. Defined for J > 0.
+/// 1993, eq. 16; the volumetric part is that of Abaqus. Defined for J > 0; continued
+/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 ///
 /// Typical: `mu = 3.3e5, lambda_m = 5.2, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 #[material(domain(J > 0.0), admissible(mu > 0.0, lambda_m > 0.0, kappa > 0.0), extend)]

@@ -7,7 +7,8 @@ use piola::material;
 /// ψ = μ Σ (ln λi)² + λ/2 (ln J)².
 ///
 /// Hencky, *Über die Form des Elastizitätsgesetzes bei ideal elastischen Stoffen*, 1928; Xiao, Chen, *Hencky's elasticity
-/// model and linear stress-strain relations in isotropic finite hyperelasticity*, 2002. Defined for J > 0.
+/// model and linear stress-strain relations in isotropic finite hyperelasticity*, 2002. Defined for J > 0; continued below
+/// a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 ///
 /// Typical: `mu = 1.36e5, lambda = 2.04e5`, sand, E = 354 kPa and ν = 0.3 of Klár et al., *Drucker–Prager elastoplasticity
 /// for sand animation*, 2016.

@@ -10,11 +10,11 @@ use piola::material;
 /// rubberlike solids*, Proc. R. Soc. Lond. A 326, 1972, eq. 12, for the shear part. The source is incompressible; here
 /// −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of volume. κ is the first Lamé
 /// parameter at small strain. Defined for J > 0; continued below a threshold stretch with
-/// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0: a term with μₚ αₚ < 0 would attract collapse.
+/// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ αₚ < 0 would attract collapse.
 ///
 /// Typical: `mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7`, natural rubber, the three terms of the
 /// source.
-#[material(domain(J > 0.0), admissible(alpha[p] != 0.0), extend(mu[p] * alpha[p] > 0.0))]
+#[material(domain(J > 0.0), admissible(alpha[p] != 0.0), extend(mu[p] * alpha[p] > 0.0, kappa >= 0.0))]
 pub fn Ogden<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /// Moduli μₚ, Pa.
