@@ -5,9 +5,11 @@ use piola::material::{Declared, Description, Inadmissible, Moduli};
 use piola::system::element::ElementEnergy;
 
 use crate::{
-    Arap, ArrudaBoyce, BlatzKo, FixedCorotated, Fung, Gent, Hencky, MooneyRivlin, MooneyRivlinCoupled,
-    NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, StretchSpline, SymmetricDirichlet,
-    Varga, Yeoh,
+    AnssariBenamBucchi, Arap, ArrudaBoyce, BlatzKo, Carroll, CiarletGeymonat, CiarletNeoHookean,
+    ExponentiatedHencky, ExtendedTube, FixedCorotated, Fung, Gent, GentGent, GentThomas, Hencky,
+    IsochoricNeoHookean, IsochoricOgden, Knowles, LopezPamies, MooneyRivlin, MooneyRivlinCoupled, NeoHookean,
+    Ogden, RotatedLinear, StVenantKirchhoff, StableNeoHookean, Storakers, StretchSpline, SymmetricDirichlet,
+    ValanisLandel, Varga, Yeoh,
 };
 
 /// An energy of the catalogue.
@@ -84,19 +86,32 @@ macro_rules! catalogue {
 }
 
 catalogue! {
+    "anssari_benam_bucchi" => AnssariBenamBucchi [[3.3e5], [30.0], [2e7]],
     "arap" => Arap [[1.0]],
     "arruda_boyce" => ArrudaBoyce [[3.3e5], [5.2], [2e7]],
     "blatz_ko" => BlatzKo [[2.2e5], [0.0], [0.5]],
+    "carroll" => Carroll [[1.46e5], [0.31], [1.25e5], [2e7]],
+    "ciarlet_geymonat" => CiarletGeymonat [[1.8e5], [3.4e3], [5e6]],
+    "ciarlet_neo_hookean" => CiarletNeoHookean [[3.8e5], [2e7]],
+    "exponentiated_hencky" => ExponentiatedHencky [[3.9e5], [0.25], [2e7], [0.125]],
+    "extended_tube" => ExtendedTube [[2.05e5], [0.094], [1.8e5], [0.2], [2e7]],
     "fixed_corotated" => FixedCorotated [[5.8e4], [3.9e4]],
     "fung" => Fung [[2.7e4], [0.5], [0.5]],
     "gent" => Gent [[3.3e5], [108.0], [2e7]],
+    "gent_gent" => GentGent [[2.6e5], [81.0], [2.0e5], [2e7]],
+    "gent_thomas" => GentThomas [[1.4e5], [1.7e5], [2e7]],
     "hencky" => Hencky [[1.36e5], [2.04e5]],
+    "isochoric_neo_hookean" => IsochoricNeoHookean [[3.8e5], [2e7]],
+    "isochoric_ogden" => IsochoricOgden<1 | 2 | 3 | 4 | 5 | 6> [[3.5e5, 96.0], [2.0, 6.0], [2e7]],
+    "knowles" => Knowles [[3.3e5], [0.024], [2.0], [2e7]],
+    "lopez_pamies" => LopezPamies<1 | 2 | 3> [[3.53e5, 15.9], [1.0, 4.45], [2e7]],
     "mooney_rivlin" => MooneyRivlin [[1.8e5], [3.4e3], [2e7]],
     "mooney_rivlin_coupled" => MooneyRivlinCoupled [[1.8e5], [3.4e3], [2e7]],
     "neo_hookean_lnj" => NeoHookean [[3.8e5], [2e7]],
     "ogden" => Ogden<1 | 2 | 3 | 4 | 5 | 6> [[6.3e5, 1.2e3, -1e4], [1.3, 5.0, -2.0], [2e7]],
     "rotated_linear" => RotatedLinear [[3.4e5], [3.1e6]],
     "stable_neo_hookean" => StableNeoHookean [[4.5e3], [1.4e5]],
+    "storakers" => Storakers<1 | 2 | 3> [[2.2e5], [2.0], [0.5]],
     "stretch_spline" => StretchSpline [
         [0.25, -3.6e5, 0.5, -1.8e5, 1.0, 0.0, 2.0, 1.2e5, 3.0, 2.0e5, 5.0, 8.0e5],
         [0.1, -2.0e4, 1.0, 0.0, 4.0, 3.0e4],
@@ -104,6 +119,7 @@ catalogue! {
     ],
     "stvk" => StVenantKirchhoff [[8.1e10], [1.2e11]],
     "symmetric_dirichlet" => SymmetricDirichlet [[1.0]],
+    "valanis_landel" => ValanisLandel [[3.9e5], [2e7]],
     "varga" => Varga [[4.0e5], [2e7]],
     "yeoh" => Yeoh [[1.85e5], [-1.46e3], [40.4], [2e7]],
 }

@@ -66,3 +66,21 @@ fn typical_parameters_are_accepted() {
         }
     }
 }
+
+/// The table of the crate's documentation: name, type, domain, and what happens beyond it.
+fn table() -> String {
+    let mut table = String::new();
+    for Entry { name, description, .. } in CATALOGUE {
+        let Description { name: type_name, domain, refusal, .. } = description;
+        let inversion = refusal.unwrap_or("extends");
+        table += &format!("//! | `{name}` | [`{type_name}`] | {domain} | {inversion} |\n");
+    }
+    table
+}
+
+#[test]
+fn the_crate_lists_every_energy() {
+    let text = fs::read_to_string(sources().join("lib.rs")).expect("the crate's documentation");
+    let table = table();
+    assert!(text.contains(&table), "the table in lib.rs should be\n{table}");
+}

@@ -1,17 +1,18 @@
 //! An extended energy restores a point: a free element, however collapsed or inverted, ends at a rotation of its rest shape.
 
 use piola::Inversion;
-use piola::material::Declared;
 use piola::mesh::TetMesh;
 use piola::point::svd;
-use piola::step::{NewtonSettings, Settings, Simulation};
-use piola::system::{Body, Pins};
-use piola_materials::{ArrudaBoyce, Hencky, MooneyRivlinCoupled, NeoHookean, Ogden, Varga};
+use piola::step::{NewtonSettings, Settings, Simulation, StepError};
+use piola::system::{Body, ElementEnergy, Part, Pins};
+use piola_materials::{CATALOGUE, Entry};
 
 /// How many random deformation gradients each element starts from.
 const STARTS: u64 = 60;
 
-const EXTEND: Inversion = Inversion::Extend { epsilon: 0.1 };
+/// Most of the typical materials are nearly incompressible. Above a threshold of about 2μ/κ, here 0.04, those whose
+/// resistance to volume is −ln J rather than (ln J)² have a second equilibrium, a wide disc as thin as nothing.
+const EXTEND: Inversion = Inversion::Extend { epsilon: 0.03 };
 
 const REST: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 0.9, 0.0], [0.3, 0.2, 1.1]];
 
@@ -33,68 +34,58 @@ fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 }
 
 /// Minimises from F0 by long, damped time steps and returns the stretches at the end.
-fn relax<M: Declared + Clone + 'static>(material: &M, start: &[[f64; 3]; 3]) -> [f64; 3] {
+fn relax(material: Box<dyn ElementEnergy>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
-    let body = Body::new(&mesh, material.clone(), 1.0).expect("a body");
+    let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
     let settings = Settings { damping: 1.0, newton: NewtonSettings::default(), ..Settings::default() };
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     let positions = REST.map(|x| times(start, x));
     simulation.set_positions(&positions).expect("finite positions");
     for _ in 0..400 {
-        simulation.step(1.0).expect("a step");
+        simulation.step(1.0)?;
     }
     let elements = simulation.body().elements();
     let deformation = elements[0].deformation_gradient(simulation.positions());
-    svd(&deformation).stretches
+    Ok(svd(&deformation).stretches)
 }
 
-#[track_caller]
-fn restores<M: Declared + Clone + 'static>(material: M) {
-    for seed in 0..STARTS {
+/// A third inverted as they come, a third collapsed nearly to a point, a third mirrored; and one without any extent.
+fn starts() -> impl Iterator<Item = [[f64; 3]; 3]> {
+    let random = (0..STARTS).map(|seed| {
         let mut start = random_matrix(seed);
-        // A third inverted as they come, a third collapsed nearly to a point, a third mirrored.
         match seed % 3 {
             0 => {}
             1 => start = start.map(|row| row.map(|x| 1e-3 * x)),
             _ => start[0] = start[0].map(|x| -x),
         }
-        let stretches = relax(&material, &start);
-        let distance = stretches.iter().fold(0.0f64, |worst, stretch| worst.max((stretch - 1.0).abs()));
-        assert!(distance < 1e-6, "from {start:?} it ends at the stretches {stretches:?}");
+        start
+    });
+    random.chain([[[0.0; 3]; 3]])
+}
+
+/// Where the material is lost, from each of the starts from which it does not come to rest undeformed.
+fn lost(entry: &Entry) -> Vec<String> {
+    let end = |start| {
+        let material = entry.elements(entry.typical, EXTEND).expect("typical parameters extend");
+        match relax(material, &start) {
+            Ok(stretches) if stretches.iter().all(|stretch| (stretch - 1.0).abs() < 1e-6) => None,
+            Ok(stretches) => Some(format!("from {start:?} it ends at the stretches {stretches:?}")),
+            Err(error) => Some(format!("from {start:?} it stops: {error}")),
+        }
+    };
+    // At F = 0 itself a power of I1b below 2 has the second derivative 0·∞, and the status says so.
+    let is_tried = |start: &[[f64; 3]; 3]| entry.name != "lopez_pamies" || *start != [[0.0; 3]; 3];
+    starts().filter(is_tried).filter_map(end).collect()
+}
+
+#[test]
+fn every_extended_material_restores_every_element() {
+    let mut failures = String::new();
+    for entry in CATALOGUE.iter().filter(|entry| entry.description.extends) {
+        let lost = lost(entry);
+        if !lost.is_empty() {
+            failures += &format!("{}: {} starts are lost, such as {}\n", entry.name, lost.len(), lost[0]);
+        }
     }
-}
-
-#[test]
-fn neo_hookean() {
-    restores(
-        NeoHookean::new(1.0, 5.0).and_then(|material| material.with_inversion(EXTEND)).expect("admissible"),
-    );
-}
-
-#[test]
-fn ogden() {
-    let material = Ogden::new([0.6, 0.1, -0.2], [1.3, 5.0, -2.0], 5.0);
-    restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
-}
-
-#[test]
-fn hencky() {
-    restores(Hencky::new(1.0, 5.0).and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
-}
-
-#[test]
-fn varga() {
-    restores(Varga::new(1.0, 5.0).and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
-}
-
-#[test]
-fn mooney_rivlin_coupled() {
-    let material = MooneyRivlinCoupled::new(0.4, 0.1, 5.0);
-    restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
-}
-
-#[test]
-fn arruda_boyce() {
-    let material = ArrudaBoyce::new(1.0, 3.0, 5.0);
-    restores(material.and_then(|material| material.with_inversion(EXTEND)).expect("admissible"));
+    assert!(failures.is_empty(), "\n{failures}");
 }
