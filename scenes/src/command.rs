@@ -27,7 +27,7 @@ pub(crate) enum Command {
     /// Run a scene and write its surfaces, a picture and a summary.
     #[command(after_help = scenes())]
     Run(Box<Run>),
-    /// List the materials with formula, parameters, domain and small-strain moduli.
+    /// List the materials with formula, parameters and typical values of them, domain and small-strain moduli.
     Materials,
 }
 

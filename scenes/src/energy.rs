@@ -105,21 +105,27 @@ pub struct Substance {
 
 /// A page for each material of the catalogue.
 pub fn pages() -> impl Iterator<Item = Page<'static>> {
-    CATALOGUE.iter().map(|entry| Page { name: entry.name, description: &entry.description })
+    CATALOGUE.iter().map(|entry| Page {
+        name: entry.name,
+        description: &entry.description,
+        typical: entry.typical,
+    })
 }
 
-/// A material's page for a reader: formula, parameters, domain, small-strain moduli.
+/// A material's page for a reader: formula, parameters with typical values, domain, small-strain moduli.
 #[derive(Clone, Copy, Debug)]
 pub struct Page<'a> {
     name: &'a str,
     description: &'a Description,
+    typical: &'a [&'a [f64]],
 }
 
 impl fmt::Display for Page<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, description } = self;
-        let Description { summary, formula, parameters, domain, extends, admissible, moduli, .. } =
-            description;
+        let Self { name, description, typical } = self;
+        let Description {
+            summary, formula, parameters, domain, extends, refusal, admissible, moduli, ..
+        } = description;
         writeln!(f, "{name}\n  {summary}")?;
         writeln!(f, "  ψ = {formula}")?;
         for parameter in *parameters {
@@ -129,7 +135,16 @@ impl fmt::Display for Page<'_> {
         if !admissible.is_empty() {
             writeln!(f, "  admissible   {}", admissible.join(", "))?;
         }
-        let beyond = if *extends { ", can be extended beyond" } else { "" };
+        let given = parameters.iter().zip(*typical).map(|(parameter, values)| {
+            let values: Vec<_> = values.iter().map(f64::to_string).collect();
+            format!("{}={}", parameter.name, values.join(","))
+        });
+        writeln!(f, "  typical      {}", given.collect::<Vec<_>>().join(" "))?;
+        let beyond = match refusal {
+            _ if *extends => ", can be extended beyond".to_owned(),
+            Some(reason) => format!(", not extended: {reason}"),
+            None => String::new(),
+        };
         writeln!(f, "  domain       {domain}{beyond}")?;
         writeln!(f, "  small strain μ = {}, λ = {}", moduli[0], moduli[1])
     }

@@ -141,7 +141,7 @@ fn materials_are_described() {
     let output = piola(folder.path(), &["materials"]);
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success());
-    for word in ["ψ = ", "domain", "small strain", "Ogden", "mu", "Pa"] {
+    for word in ["ψ = ", "domain", "typical", "small strain", "Ogden", "mu", "Pa"] {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
 }
