@@ -1,0 +1,14 @@
+//! How dP/dF is computed elsewhere, from the same singular value decomposition and the same derivatives of the energy.
+//!
+//! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
+//! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
+//! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only.
+//!
+//! They are written as a good engineer would write them, generic over the real type, and nothing in them is slower or
+//! less exact than its method asks for.
+//!
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+
+pub mod eigen;
+pub mod quotients;
+pub mod svd_gradients;
