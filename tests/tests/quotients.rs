@@ -71,7 +71,7 @@ fn run() -> Result<usize, String> {
     println!("terms: how many need Σ|terms| in that maximum. pole: twists below the floor of a pole.");
     println!("range: the exact value leaves the format.\n");
     println!(
-        "{:28} {:6} {:4} {:>8} {:>7} {:>9} {:>6} {:>6} {:>6} {:>6}",
+        "{:28} {:6} {:4} {:>8} {:>7} {:>8} {:>6} {:>6} {:>6} {:>6}",
         "material", "", "", "judged", "worst", "flat", "terms", "pole", "range", "failed"
     );
     let mut work = Vec::new();
@@ -261,8 +261,6 @@ impl Tally {
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { judged, worst, flat, terms, failed, pole, range, .. } = self;
-        // Rounded down, so that 100 % means all.
-        let share = (1e4 * *flat as f64 / (*judged).max(1) as f64).floor() / 100.0;
-        write!(f, "{judged:8} {worst:7.1} {share:8.2}% {terms:6} {pole:6} {range:6} {failed:6}")
+        write!(f, "{judged:8} {worst:7.1} {flat:8} {terms:6} {pole:6} {range:6} {failed:6}")
     }
 }
