@@ -1,18 +1,22 @@
 //! The judge: what piola must satisfy, by oracles that share no code with it.
 //!
-//! * [`baselines`]: how the tangent is computed elsewhere;
 //! * [`cases`]: reference values to 25 digits and how a result is judged against them;
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
-//! * [`stability`]: the table of errors in `STABILITY.md`;
-//! * `tests/reference.rs`: all of them, with a table of the worst errors;
+//! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of them;
+//! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in `STABILITY.md`;
+//! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
+//! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
 //! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and the contract of every material;
 //! * `tests/tidy.rs`: the rules of the house.
 
 pub mod baselines;
+pub mod bits;
 pub mod cases;
 pub mod declared;
 pub mod multiprecision;
 pub mod quotients;
+pub mod random;
+pub mod soundness;
 pub mod stability;

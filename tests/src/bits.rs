@@ -1,0 +1,221 @@
+//! Deformation gradients of arbitrary finite entries: random patterns of bits, and families of them that reach the regions
+//! which independent entries miss, such as rank 1, equal stretches, or all entries subnormal.
+//!
+//! This module knows no material.
+
+#![expect(non_snake_case, reason = "F, U, V as in the literature")]
+
+use piola::Real;
+use piola::point::Matrix3;
+
+use crate::random::Random;
+
+/// A real type of one machine number, read and written by its bits.
+pub trait Precision: Real<Mask = bool> + PartialOrd {
+    /// `f64` or `f32`.
+    const NAME: &'static str;
+    /// The largest finite number.
+    const LARGEST: f64;
+    /// The smallest positive number, subnormal.
+    const SMALLEST: f64;
+
+    /// The number of these bits; of the lower half of them where it has only 32.
+    fn from_bits(bits: u64) -> Self;
+
+    /// The same number as a double.
+    fn widen(self) -> f64;
+}
+
+impl Precision for f64 {
+    const NAME: &'static str = "f64";
+    const LARGEST: f64 = Self::MAX;
+    const SMALLEST: f64 = 5e-324;
+
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+
+    fn widen(self) -> f64 {
+        self
+    }
+}
+
+impl Precision for f32 {
+    const NAME: &'static str = "f32";
+    const LARGEST: f64 = Self::MAX as f64;
+    const SMALLEST: f64 = 1.401_298_464_324_817e-45;
+
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits as u32)
+    }
+
+    fn widen(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// Every entry as a double.
+#[must_use]
+pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
+    F.map(|row| row.map(R::widen))
+}
+
+/// How a deformation gradient is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Family {
+    /// Nine independent patterns of bits.
+    Bits,
+    /// Nine patterns of bits with the exponent in common.
+    OneMagnitude,
+    /// Entries from a few special numbers, hence duplicates, zeros, subnormal and largest numbers.
+    Palette,
+    /// A permuted diagonal matrix of independent patterns of bits.
+    Diagonal,
+    /// Rotation times stretches of chosen spread times rotation, some of them equal, opposite, zero or reflected.
+    Frames,
+    /// Sums of one or two products of vectors: rank 1 and, but for rounding, rank 2.
+    Deficient,
+    /// A rotation, or the identity, with a disturbance of any smaller magnitude.
+    NearRest,
+    /// Entries uniform in −2 … 2.
+    Moderate,
+}
+
+impl Family {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Bits,
+        Self::OneMagnitude,
+        Self::Palette,
+        Self::Diagonal,
+        Self::Frames,
+        Self::Deficient,
+        Self::NearRest,
+        Self::Moderate,
+    ];
+
+    /// A deformation gradient with finite entries.
+    pub fn draw<R: Precision>(self, random: &mut Random) -> Matrix3<R> {
+        loop {
+            let F = self.candidate(random);
+            // Products of large numbers may have overflowed.
+            if F.iter().flatten().all(|x: &R| x.is_finite()) {
+                return F;
+            }
+        }
+    }
+
+    fn candidate<R: Precision>(self, random: &mut Random) -> Matrix3<R> {
+        match self {
+            Self::Bits => matrix(|_, _| finite(random)),
+            Self::OneMagnitude => {
+                let (power, _) = magnitude::<R>(random, full_range::<R>());
+                matrix(|_, _| R::splat(power * random.uniform(-2.0, 2.0)))
+            }
+            Self::Palette => {
+                let palette: [R; 3] = std::array::from_fn(|_| special(random));
+                matrix(|_, _| palette[random.below(3)])
+            }
+            Self::Diagonal => {
+                let shift = random.below(3);
+                matrix(|i, j| if (i + shift) % 3 == j { finite(random) } else { R::splat(0.0) })
+            }
+            Self::Frames => frames(random),
+            Self::Deficient => {
+                let (power, _) = magnitude::<R>(random, full_range::<R>());
+                let spread = random.below(40) as i32;
+                let mut vector = || -> [f64; 3] {
+                    std::array::from_fn(|_| {
+                        // Small integers make the products exact, so that the rank is.
+                        let integer = random.below(9) as f64 - 4.0;
+                        integer * 2f64.powi(random.below(spread as usize + 1) as i32)
+                    })
+                };
+                let (a, b, c, d) = (vector(), vector(), vector(), vector());
+                let second = if random.once_in(2) { 0.0 } else { 1.0 };
+                matrix(|i, j| R::splat(power * (a[i] * b[j] + second * c[i] * d[j])))
+            }
+            Self::NearRest => {
+                let rest = if random.once_in(2) { IDENTITY } else { random.rotation() };
+                let size = 2f64.powi(-(random.below(70) as i32));
+                matrix(|i, j| R::splat(rest[i][j] + size * random.uniform(-1.0, 1.0)))
+            }
+            Self::Moderate => matrix(|_, _| R::splat(random.uniform(-2.0, 2.0))),
+        }
+    }
+}
+
+const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+fn matrix<R>(mut entry: impl FnMut(usize, usize) -> R) -> Matrix3<R> {
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+/// A pattern of bits that is neither infinite nor NaN.
+fn finite<R: Precision>(random: &mut Random) -> R {
+    loop {
+        let x = R::from_bits(random.bits());
+        if x.is_finite() {
+            return x;
+        }
+    }
+}
+
+/// The binary exponents of all finite numbers, subnormal ones included.
+fn full_range<R: Precision>() -> (i32, i32) {
+    (R::SMALLEST.log2() as i32, R::LARGEST.log2() as i32 - 1)
+}
+
+/// A power of two with an exponent of that range, and the exponent.
+fn magnitude<R: Precision>(random: &mut Random, (low, high): (i32, i32)) -> (f64, i32) {
+    let exponent = low + random.below((high - low + 1) as usize) as i32;
+    // In two steps, because 2^-1074 is subnormal and `powi` would divide one by infinity.
+    (2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2), exponent)
+}
+
+/// A number at which something may happen.
+fn special<R: Precision>(random: &mut Random) -> R {
+    let largest = R::splat(R::LARGEST);
+    let magnitude = match random.below(12) {
+        0 | 1 => R::splat(0.0),
+        2 => R::splat(R::SMALLEST),
+        3 => R::splat(R::MIN_POSITIVE),
+        4 => R::splat(R::MIN_POSITIVE.sqrt()),
+        5 => R::splat(R::UNIT_ROUNDOFF),
+        6 | 7 => R::splat(1.0),
+        8 => R::splat(R::LARGEST.sqrt()),
+        9 => largest,
+        10 => R::splat(1.0 + random.below(4) as f64 * R::UNIT_ROUNDOFF),
+        _ => finite(random),
+    };
+    if random.once_in(2) { -magnitude } else { magnitude }
+}
+
+/// U diag(λ) Vᵀ, where the λ lie within a window of exponents.
+fn frames<R: Precision>(random: &mut Random) -> Matrix3<R> {
+    let (low, high) = full_range::<R>();
+    let width = [2, 12, 60, high - low][random.below(4)];
+    let start = if random.once_in(2) { -width / 2 } else { low + random.below((high - low) as usize) as i32 };
+    let window = (start.max(low), (start + width).clamp(low, high));
+    let mut stretches: [f64; 3] =
+        std::array::from_fn(|_| magnitude::<R>(random, window).0 * random.uniform(1.0, 2.0));
+    if random.once_in(3) {
+        // Equal but for a gap of any size.
+        stretches[1] = stretches[0] * (1.0 + 2f64.powi(-(random.below(60) as i32)));
+    }
+    if random.once_in(4) {
+        stretches[2] = stretches[random.below(2)];
+    }
+    if random.once_in(8) {
+        stretches[2] = 0.0;
+    }
+    if random.once_in(2) {
+        stretches[2] = -stretches[2];
+    }
+    let (U, V) = match random.below(3) {
+        0 => (IDENTITY, IDENTITY),
+        1 => (random.rotation(), IDENTITY),
+        _ => (random.rotation(), random.rotation()),
+    };
+    matrix(|i, j| R::splat((0..3).map(|k| U[i][k] * stretches[k] * V[j][k]).sum()))
+}

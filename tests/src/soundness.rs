@@ -1,0 +1,301 @@
+//! What must hold at every deformation gradient of finite entries: numbers that mean nothing are flagged, and numbers that
+//! mean something are not.
+//!
+//! One half needs no oracle ([`check`], [`check_element`]): where a status is clean, ψ, P, dP/dF, forces and stiffness are
+//! finite, and all evaluations of one deformation agree on whether it is refused. The other half compares `f32` with `f64`
+//! ([`check_single`]): what every deformation within rounding of F has comfortably inside the range of `f32` may not be
+//! flagged there, and must be right there.
+//!
+//! This module knows no particular material, and draws no samples.
+
+#![expect(non_snake_case, reason = "F, P as in the literature")]
+
+use std::fmt;
+
+use piola::Material;
+use piola::material::Blocks;
+use piola::mesh::RestShape;
+use piola::point::{
+    Filter, Matrix3, Svd, evaluate, evaluate_energy, evaluate_stress, svd, svd_signed_by_determinant,
+};
+use piola::system::element::{Element, ElementEnergy, ElementStiffness};
+
+use crate::bits::{Precision, widen};
+
+/// The filters, in the order of their strength.
+pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
+
+/// How a deformation was answered, where the answer is sound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// All numbers are exact to rounding.
+    Clean,
+    /// The tangent has a bounded value in place of an infinite one.
+    Bounded,
+    /// Outside the domain.
+    Refused,
+    /// Outside the range of the format.
+    Nonfinite,
+}
+
+/// A quantity that an evaluation returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// ψ.
+    Energy,
+    /// P from `evaluate_stress`.
+    StressAlone,
+    /// P from `evaluate`.
+    Stress,
+    /// dP/dF.
+    Tangent,
+    /// Nodal forces of an element.
+    Forces,
+    /// Stiffness of an element.
+    Stiffness,
+}
+
+/// What is wrong at a deformation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// An infinite or NaN entry under a clean status.
+    Unflagged(Quantity),
+    /// Energy, stress and tangent of one deformation disagree on whether it is refused.
+    Disagreement,
+    /// A clean dP/dF that is not exactly symmetric.
+    Asymmetric,
+    /// An eigenvalue of a filtered tangent is negative.
+    Indefinite,
+    /// Flagged as non-finite though it fits.
+    FlaggedInRange(Quantity),
+    /// Refused well inside the domain.
+    RefusedInside,
+    /// Admitted well outside the domain.
+    AdmittedOutside,
+    /// Said to be at a pole though far from one.
+    BoundedFarFromPole,
+    /// Clean, and off by more than rounding of F and of the result.
+    Inexact(Quantity),
+    /// A panic.
+    Panic,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unflagged(quantity) => write!(f, "{quantity:?} is not finite and its status is clean"),
+            Self::Disagreement => write!(f, "energy, stress and tangent disagree on the domain"),
+            Self::Asymmetric => write!(f, "the tangent is not symmetric"),
+            Self::Indefinite => write!(f, "the filtered tangent has a negative eigenvalue"),
+            Self::FlaggedInRange(quantity) => write!(f, "{quantity:?} is flagged and fits the format"),
+            Self::RefusedInside => write!(f, "refused inside the domain"),
+            Self::AdmittedOutside => write!(f, "admitted outside the domain"),
+            Self::BoundedFarFromPole => write!(f, "bounded far from a pole"),
+            Self::Inexact(quantity) => write!(f, "{quantity:?} is off by more than rounding"),
+            Self::Panic => write!(f, "panic"),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+/// Whatever the entries of F: a clean status means finite numbers, and the status does not depend on what is asked for.
+///
+/// # Errors
+/// The first fault found.
+pub fn check<R: Precision>(material: &impl Material, F: &Matrix3<R>) -> Result<Answer, Fault> {
+    let (energy, energy_status) = evaluate_energy(material, F);
+    let (stress, stress_status) = evaluate_stress(material, F);
+    let finite_input = F.iter().flatten().all(|x| x.is_finite());
+    let mut answer = Answer::Clean;
+    for filter in FILTERS {
+        let point = evaluate(material, F, filter);
+        let status = point.status;
+        if status.refused != energy_status.refused || status.refused != stress_status.refused {
+            return Err(Fault::Disagreement);
+        }
+        if !finite_input && !(status.nonfinite && energy_status.nonfinite && stress_status.nonfinite) {
+            return Err(Fault::Unflagged(Quantity::Tangent));
+        }
+        if status.refused {
+            return Ok(Answer::Refused);
+        }
+        if status.nonfinite {
+            answer = Answer::Nonfinite;
+            continue;
+        }
+        if status.bounded {
+            answer = Answer::Bounded;
+        }
+        finite(Quantity::Stress, point.stress.iter().flatten())?;
+        let tangent = point.tangent.to_matrix();
+        finite(Quantity::Tangent, tangent.iter().flatten())?;
+        if (0..9).any(|row| (0..row).any(|column| tangent[row][column] != tangent[column][row])) {
+            return Err(Fault::Asymmetric);
+        }
+        if filter != Filter::None && !is_semidefinite(&point.tangent.blocks) {
+            return Err(Fault::Indefinite);
+        }
+    }
+    if !energy_status.nonfinite {
+        finite(Quantity::Energy, [&energy])?;
+    }
+    if !stress_status.nonfinite {
+        finite(Quantity::StressAlone, stress.iter().flatten())?;
+    }
+    Ok(answer)
+}
+
+fn finite<'a, R: Precision>(
+    quantity: Quantity,
+    entries: impl IntoIterator<Item = &'a R>,
+) -> Result<(), Fault> {
+    if entries.into_iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Fault::Unflagged(quantity)) }
+}
+
+/// Flips and twists are eigenvalues themselves; of the 3×3 block the eigenvalues are known to a few u of the largest, for
+/// which 64 u leaves room.
+fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
+    let zero = R::splat(0.0);
+    if blocks.flip.iter().chain(&blocks.twist).any(|&x| x < zero) {
+        return false;
+    }
+    let [h11, h22, h33, h12, h13, h23] = blocks.hessian.map(R::widen);
+    let scale = [h11, h22, h33, h12, h13, h23].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if scale == 0.0 {
+        return true;
+    }
+    let H = nalgebra::Matrix3::new(h11, h12, h13, h12, h22, h23, h13, h23, h33) / scale;
+    let underflow = R::SMALLEST / scale;
+    H.symmetric_eigenvalues().min() >= -64.0 * R::UNIT_ROUNDOFF - 64.0 * underflow
+}
+
+/// The same of a tetrahedron with the corner shape as rest shape, whose deformation gradient is exactly F: where no count
+/// of its surveys is other than zero, energy, forces and stiffness are finite.
+///
+/// # Errors
+/// The first fault found.
+pub fn check_element(material: &impl Material, F: &Matrix3<f64>) -> Result<(), Fault> {
+    let shape = RestShape { inverse: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], volume: 1.0 / 6.0 };
+    let elements = [Element { nodes: [0, 1, 2, 3], shape, tag: 0 }];
+    let corner = |n: usize| [F[0][n], F[1][n], F[2][n]];
+    let positions = [[0.0; 3], corner(0), corner(1), corner(2)];
+    let mut points = [Svd { U: [[0.0; 3]; 3], stretches: [0.0; 3], V: [[0.0; 3]; 3] }];
+    let mut energies = [0.0];
+    let survey = ElementEnergy::evaluate(material, &elements, &positions, &mut points, &mut energies);
+    if !survey.is_admissible() {
+        return Ok(());
+    }
+    finite(Quantity::Energy, &energies)?;
+    let mut gradients = [[[0.0; 3]; 4]];
+    let mut stiffnesses = [ElementStiffness::ZERO];
+    for filter in FILTERS {
+        let survey = material.stiffnesses(&elements, &points, filter, &mut gradients, &mut stiffnesses);
+        if survey.is_admissible() {
+            finite(Quantity::Forces, gradients.iter().flatten().flatten())?;
+            finite(Quantity::Stiffness, stiffnesses[0].blocks.iter().flatten().flatten())?;
+        }
+    }
+    Ok(())
+}
+
+/// `f32` against `f64` on the same numbers.
+///
+/// # Errors
+/// The first fault found.
+pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<(), Fault> {
+    let around = Neighbourhood::of(material, &widen(F));
+    let (_, energy) = evaluate_energy(material, F);
+    let (_, stress) = evaluate_stress(material, F);
+    let tangent = evaluate(material, F, Filter::None).status;
+    match around.admitted {
+        Some(true) if energy.refused => return Err(Fault::RefusedInside),
+        Some(false) if !energy.refused && !energy.nonfinite => return Err(Fault::AdmittedOutside),
+        _ => {}
+    }
+    if around.energy_fits && energy.nonfinite {
+        return Err(Fault::FlaggedInRange(Quantity::Energy));
+    }
+    if around.stress_fits && stress.nonfinite {
+        return Err(Fault::FlaggedInRange(Quantity::StressAlone));
+    }
+    if around.tangent_fits && tangent.nonfinite {
+        return Err(Fault::FlaggedInRange(Quantity::Tangent));
+    }
+    if around.is_far_from_pole && tangent.bounded && !tangent.nonfinite {
+        return Err(Fault::BoundedFarFromPole);
+    }
+    Ok(())
+}
+
+/// What holds, in `f64`, for all deformations that an `f32` decomposition cannot tell from F.
+struct Neighbourhood {
+    /// Whether all are inside the domain, or all outside.
+    admitted: Option<bool>,
+    energy_fits: bool,
+    stress_fits: bool,
+    tangent_fits: bool,
+    is_far_from_pole: bool,
+}
+
+const SINGLE: f64 = <f32 as piola::Real>::UNIT_ROUNDOFF;
+
+impl Neighbourhood {
+    fn of(material: &impl Material, F: &Matrix3<f64>) -> Self {
+        // A result of entries up to this fits `f32` with room for the sums that its entries are.
+        let limit = f32::LARGEST / 32.0;
+        let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);
+        let stretches = decompose(material, F).stretches;
+        let mut around = Self {
+            admitted: Some(material.admits(stretches)),
+            energy_fits: true,
+            stress_fits: true,
+            tangent_fits: true,
+            is_far_from_pole: stretches[1] + stretches[2]
+                > 64.0 * SINGLE * stretches[0] + 64.0 * f64::from(f32::MIN_POSITIVE).sqrt(),
+        };
+        for stretches in indistinguishable(material.ends_at_zero_volume(), stretches) {
+            if around.admitted != Some(material.admits(stretches)) {
+                around.admitted = None;
+            }
+            let blocks = material.blocks(stretches);
+            around.energy_fits &= fits(&[material.energy(stretches)]) && fits(&stretches);
+            around.stress_fits &= fits(&blocks.gradient) && fits(&stretches);
+            around.tangent_fits &=
+                around.stress_fits && fits(&blocks.hessian) && fits(&blocks.flip) && fits(&blocks.twist);
+        }
+        let is_inside = around.admitted == Some(true);
+        let has_tangent = !material.has_pole() || around.is_far_from_pole;
+        around.energy_fits &= is_inside;
+        around.stress_fits &= is_inside && has_tangent;
+        around.tangent_fits &= is_inside && has_tangent;
+        around
+    }
+}
+
+fn decompose(material: &impl Material, F: &Matrix3<f64>) -> Svd<f64> {
+    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
+}
+
+/// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is documented as
+/// 20 u λ1, and for a λ3 from the determinant as the relative error of λ1 λ2.
+fn indistinguishable(ends_at_zero_volume: bool, [l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
+    let error = 20.0 * SINGLE * l1 + f32::SMALLEST;
+    let ratio = (l2 / l1) * (l3 / l1).abs();
+    let sign_is_known = ratio > 32.0 * SINGLE * SINGLE && ratio > 2.0 * f64::from(f32::MIN_POSITIVE) / SINGLE;
+    let third = if ends_at_zero_volume && sign_is_known {
+        (l3.abs() * (error / l2 + error / l1 + 32.0 * SINGLE) + f32::SMALLEST).min(error.max(l3.abs()))
+    } else {
+        error
+    };
+    // A domain may end at zero volume from both sides.
+    let flat = (l3.abs() <= third).then_some([l1, l2, 0.0]);
+    let corners = (0..27).map(move |corner: i32| {
+        let [a, b, c] = [corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1].map(f64::from);
+        let (x, y, z) = ((l1 + a * error).max(0.0), (l2 + b * error).max(0.0), l3 + c * third);
+        let (x, y) = (x.max(y), x.min(y));
+        let (y, magnitude) = (y.max(z.abs()), y.min(z.abs()));
+        [x.max(y), x.min(y), magnitude.copysign(z)]
+    });
+    corners.chain(flat)
+}

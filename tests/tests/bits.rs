@@ -1,0 +1,184 @@
+//! The catalogue at deformation gradients of arbitrary finite entries: no panic, no infinite or NaN result under a clean
+//! status, no clean result flagged.
+//!
+//! 10⁵ patterns for each energy, precision and way of inversion; the variable `PIOLA_BITS` asks for another number:
+//! `PIOLA_BITS=2000000 cargo test --release -p piola-tests --test bits -- --nocapture` prints what was found and the time.
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use piola::material::Declared;
+use piola::point::Matrix3;
+use piola::{Inversion, Material};
+use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::bits::{Family, Precision};
+use piola_tests::random::Random;
+use piola_tests::soundness::{Answer, Fault, check, check_element, check_single};
+
+const PATTERNS: usize = 100_000;
+
+const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
+
+#[test]
+fn f64_is_sound_at_every_pattern_of_bits() {
+    every_entry::<f64>();
+}
+
+#[test]
+fn f32_is_sound_at_every_pattern_of_bits() {
+    every_entry::<f32>();
+}
+
+fn patterns() -> usize {
+    std::env::var("PIOLA_BITS").ok().and_then(|text| text.parse().ok()).unwrap_or(PATTERNS)
+}
+
+fn every_entry<R: Judged>() {
+    let start = Instant::now();
+    let mut total = Tally::default();
+    let mut report = String::new();
+    for (index, entry) in CATALOGUE.iter().enumerate() {
+        for inversion in INVERSIONS {
+            if inversion != Inversion::Refuse && !entry.description.extends {
+                continue;
+            }
+            let trial =
+                Trial::<R> { seed: index as u64, patterns: patterns(), precision: std::marker::PhantomData };
+            let tally =
+                entry.visit(entry.typical, inversion, trial).expect("typical parameters are admissible");
+            for (fault, (count, F)) in &tally.faults {
+                let _ =
+                    writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", entry.name, R::NAME);
+            }
+            total.add(tally);
+        }
+    }
+    println!(
+        "{}: {} patterns in {:.1} s: {} clean, {} bounded, {} refused, {} outside the format",
+        R::NAME,
+        total.patterns,
+        start.elapsed().as_secs_f64(),
+        total.clean,
+        total.bounded,
+        total.refused,
+        total.nonfinite
+    );
+    assert!(total.faults.is_empty(), "{report}");
+    // A judge that never meets one of the answers judges nothing.
+    assert!(total.clean > 0 && total.bounded > 0 && total.refused > 0 && total.nonfinite > 0);
+}
+
+/// A precision with all the judges that it has.
+trait Judged: Precision {
+    fn judge(material: &impl Material, F: &Matrix3<Self>) -> Result<Answer, Fault>;
+}
+
+impl Judged for f64 {
+    fn judge(material: &impl Material, F: &Matrix3<Self>) -> Result<Answer, Fault> {
+        let answer = check(material, F)?;
+        check_element(material, F)?;
+        Ok(answer)
+    }
+}
+
+impl Judged for f32 {
+    fn judge(material: &impl Material, F: &Matrix3<Self>) -> Result<Answer, Fault> {
+        let answer = check(material, F)?;
+        check_single(material, F)?;
+        Ok(answer)
+    }
+}
+
+#[derive(Default)]
+struct Tally {
+    patterns: usize,
+    clean: usize,
+    bounded: usize,
+    refused: usize,
+    nonfinite: usize,
+    /// How often, and where first.
+    faults: BTreeMap<Fault, (usize, String)>,
+}
+
+impl Tally {
+    fn count(&mut self, answer: Answer) {
+        self.patterns += 1;
+        *match answer {
+            Answer::Clean => &mut self.clean,
+            Answer::Bounded => &mut self.bounded,
+            Answer::Refused => &mut self.refused,
+            Answer::Nonfinite => &mut self.nonfinite,
+        } += 1;
+    }
+
+    fn add(&mut self, other: Self) {
+        self.patterns += other.patterns;
+        self.clean += other.clean;
+        self.bounded += other.bounded;
+        self.refused += other.refused;
+        self.nonfinite += other.nonfinite;
+        self.faults.extend(other.faults);
+    }
+}
+
+/// One material at random patterns of bits.
+struct Trial<R> {
+    seed: u64,
+    patterns: usize,
+    precision: std::marker::PhantomData<R>,
+}
+
+impl<R: Judged> Visitor for Trial<R> {
+    type Output = Tally;
+
+    fn visit<M: Declared + 'static>(self, material: M) -> Tally {
+        let mut random = Random::new(self.seed);
+        let mut tally = Tally::default();
+        for pattern in 0..self.patterns {
+            let F = Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
+            match judge(&material, &F) {
+                Ok(answer) => tally.count(answer),
+                Err(fault) => {
+                    tally.patterns += 1;
+                    let entry = tally.faults.entry(fault).or_insert_with(|| {
+                        let F = simplest(&material, F, fault);
+                        (0, format!("{F:?}"))
+                    });
+                    entry.0 += 1;
+                }
+            }
+        }
+        tally
+    }
+}
+
+fn judge<R: Judged>(material: &impl Material, F: &Matrix3<R>) -> Result<Answer, Fault> {
+    catch_unwind(AssertUnwindSafe(|| R::judge(material, F))).unwrap_or(Err(Fault::Panic))
+}
+
+/// A deformation with the same fault and simpler entries, for whoever has to find out why.
+fn simplest<R: Judged>(material: &impl Material, mut F: Matrix3<R>, fault: Fault) -> Matrix3<R> {
+    loop {
+        let before = F;
+        for (i, j) in (0..9).map(|entry| (entry / 3, entry % 3)) {
+            let value = F[i][j].widen();
+            let power = 2f64.powi(value.abs().max(1e-300).log2().floor() as i32).copysign(value);
+            for simpler in [0.0, 1.0, power, (value / power).round() * power] {
+                let mut trial = F;
+                trial[i][j] = R::splat(simpler);
+                let is_simpler = value != simpler && (simpler == 0.0 || value != 0.0 && value.abs() != 1.0);
+                if is_simpler && trial[i][j].is_finite() && judge(material, &trial) == Err(fault) {
+                    F = trial;
+                    break;
+                }
+            }
+        }
+        if F == before {
+            return F;
+        }
+    }
+}
