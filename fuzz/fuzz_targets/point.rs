@@ -1,0 +1,115 @@
+//! Any material of the catalogue, with any parameters, at any deformation gradient: no panic, no infinite or NaN result
+//! under a clean status, and in single precision no clean result flagged.
+//!
+//! ```sh
+//! cargo +nightly fuzz run -s none -O point fuzz/corpus/point fuzz/seeds/point -- -max_len=256 -use_value_profile=1
+//! ```
+//!
+//! An input is read as: the entry of the catalogue; precision, inversion and origin of the parameters; parameters; nine
+//! numbers by their bits. What is missing is zero.
+
+#![no_main]
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use libfuzzer_sys::fuzz_target;
+use piola::Inversion;
+use piola::material::Declared;
+use piola::point::Matrix3;
+use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::bits::Precision;
+use piola_tests::soundness::{Fault, check, check_element, check_single, check_single_accuracy};
+
+fuzz_target!(|input: &[u8]| {
+    let mut input = Input(input);
+    let entry = &CATALOGUE[usize::from(input.byte()) % CATALOGUE.len()];
+    let switches = input.byte();
+    let inversion = match switches >> 1 & 3 {
+        0 | 1 => Inversion::Refuse,
+        2 => Inversion::Extend { epsilon: 0.1 },
+        _ => Inversion::Extend { epsilon: input.number::<f64>() },
+    };
+    let origin = match switches >> 3 & 3 {
+        0 | 1 => Origin::Typical,
+        2 => Origin::Near,
+        _ => Origin::Anything,
+    };
+    let parameters: Vec<Vec<f64>> = entry
+        .typical
+        .iter()
+        .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
+        .collect();
+    let parameters: Vec<&[f64]> = parameters.iter().map(Vec::as_slice).collect();
+    let trial = Trial { is_single: switches & 1 == 1, is_typical: origin == Origin::Typical, input };
+    // A refusal of the parameters is an answer; what it may not be is a panic.
+    if let Ok(Err((fault, F))) = entry.visit(&parameters, inversion, trial) {
+        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", entry.name);
+    }
+});
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    Typical,
+    Near,
+    Anything,
+}
+
+impl Origin {
+    fn parameter(self, typical: f64, input: &mut Input) -> f64 {
+        match self {
+            Self::Typical => typical,
+            // From an eighth to eight times as much, of either sign.
+            Self::Near => {
+                let byte = input.byte();
+                let factor = f64::from(1 + (byte & 63)) / 8.0;
+                if byte & 128 == 0 { typical * factor } else { -typical * factor }
+            }
+            Self::Anything => input.number(),
+        }
+    }
+}
+
+struct Trial<'a> {
+    is_single: bool,
+    is_typical: bool,
+    input: Input<'a>,
+}
+
+impl Visitor for Trial<'_> {
+    type Output = Result<(), (Fault, String)>;
+
+    fn visit<M: Declared + 'static>(mut self, material: M) -> Self::Output {
+        if self.is_single {
+            let F: Matrix3<f32> = self.input.matrix();
+            let mut verdict = check(&material, &F).map(drop);
+            // Parameters that single precision rounds to zero or infinity are another material there.
+            if verdict.is_ok() && self.is_typical && F.iter().flatten().all(|x| x.is_finite()) {
+                verdict = check_single(&material, &F).and_then(|()| check_single_accuracy(&material, &F));
+            }
+            verdict.map_err(|fault| (fault, format!("{F:?}")))
+        } else {
+            let F: Matrix3<f64> = self.input.matrix();
+            let verdict = check(&material, &F).and_then(|_| check_element(&material, &F));
+            verdict.map_err(|fault| (fault, format!("{F:?}")))
+        }
+    }
+}
+
+/// The bytes that are left.
+struct Input<'a>(&'a [u8]);
+
+impl Input<'_> {
+    fn byte(&mut self) -> u8 {
+        let Some((&first, rest)) = self.0.split_first() else { return 0 };
+        self.0 = rest;
+        first
+    }
+
+    fn number<R: Precision>(&mut self) -> R {
+        let bytes = if R::NAME == "f32" { 4 } else { 8 };
+        R::from_bits((0..bytes).fold(0, |bits, _| bits << 8 | u64::from(self.byte())))
+    }
+
+    fn matrix<R: Precision>(&mut self) -> Matrix3<R> {
+        std::array::from_fn(|_| std::array::from_fn(|_| self.number()))
+    }
+}
