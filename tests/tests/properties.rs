@@ -1,0 +1,291 @@
+//! What holds for every isotropic energy at every deformation of moderate condition: each property for the whole catalogue,
+//! refusing and extended, at deformations that `proptest` draws and, on failure, shrinks.
+//!
+//! Bounds. A stress is computed to 30 u (‖P‖ + ‖dP/dF‖ ‖F‖), which the reference cases establish for every material. A
+//! property that compares two stresses may use twice that, and a few u more for the products that set it up: C = 64.
+//! Sums of nine products and eigenvalues of 9×9 matrices are good to less than C u of the norms that enter.
+
+#![expect(non_snake_case, reason = "F, P, Q, U, V as in the literature")]
+
+use nalgebra::SMatrix;
+use piola::material::Declared;
+use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy, evaluate_stress};
+use piola::{Inversion, Real};
+use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::soundness::{check, check_single_accuracy};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+const C: f64 = 64.0;
+const UNIT: f64 = f64::UNIT_ROUNDOFF;
+
+/// A deformation gradient F = U diag(λ) Vᵀ with its factors, another rotation, and an increment of F.
+#[derive(Clone, Debug)]
+struct Sample {
+    U: Matrix3<f64>,
+    stretches: [f64; 3],
+    V: Matrix3<f64>,
+    rotation: Matrix3<f64>,
+    increment: Matrix3<f64>,
+}
+
+impl Sample {
+    fn F(&self) -> Matrix3<f64> {
+        self.in_frames(self.stretches)
+    }
+
+    /// U diag(x) Vᵀ.
+    fn in_frames(&self, x: [f64; 3]) -> Matrix3<f64> {
+        matrix(|i, j| (0..3).map(|k| self.U[i][k] * x[k] * self.V[j][k]).sum())
+    }
+}
+
+trait Property {
+    /// The error says by how much it does not hold.
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String>;
+}
+
+#[track_caller]
+fn for_every_energy(property: impl Property) {
+    let config = Config { cases: 384, failure_persistence: None, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    let result = runner.run(&samples(), |sample| {
+        for entry in CATALOGUE {
+            for inversion in [Inversion::Refuse, Inversion::Extend { epsilon: 0.4 }] {
+                if inversion != Inversion::Refuse && !entry.description.extends {
+                    continue;
+                }
+                let verdict = entry.visit(entry.typical, inversion, Trial(&property, &sample));
+                let error = match verdict {
+                    Ok(Ok(())) => continue,
+                    Ok(Err(error)) => error,
+                    Err(error) => error.to_string(),
+                };
+                return Err(TestCaseError::fail(format!("{} {inversion:?}: {error}", entry.name)));
+            }
+        }
+        Ok(())
+    });
+    if let Err(failure) = result {
+        panic!("{failure}");
+    }
+}
+
+struct Trial<'a, P>(&'a P, &'a Sample);
+
+impl<P: Property> Visitor for Trial<'_, P> {
+    type Output = Result<(), String>;
+
+    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+        self.0.holds(&material, self.1)
+    }
+}
+
+/// Stretches of 0.3 … 2, some equal, some inverted, some at rest.
+fn samples() -> impl Strategy<Value = Sample> {
+    let stretches = prop_oneof![
+        4 => [0.3..2.0f64, 0.3..2.0, 0.3..2.0],
+        1 => (0.3..2.0f64, 0.3..2.0f64).prop_map(|(x, y)| [x, x, y]),
+        1 => (0.3..2.0f64).prop_map(|x| [x; 3]),
+        1 => [0.999..1.001f64, 0.999..1.001, 0.999..1.001],
+    ];
+    let ordered = (stretches, prop::bool::weighted(0.3)).prop_map(|(mut stretches, inverted)| {
+        stretches.sort_by(|a, b| b.total_cmp(a));
+        if inverted {
+            stretches[2] = -stretches[2];
+        }
+        stretches
+    });
+    let increment = [-1.0..1.0f64, -1.0..1.0, -1.0..1.0];
+    let increment = [increment.clone(), increment.clone(), increment];
+    (rotations(), ordered, rotations(), rotations(), increment)
+        .prop_map(|(U, stretches, V, rotation, increment)| Sample { U, stretches, V, rotation, increment })
+}
+
+fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
+    // A quaternion with w ≥ 0.1 keeps away from the zero quaternion and covers all but turns by almost π.
+    (0.1..1.0f64, [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]).prop_map(|(w, [x, y, z])| {
+        let s = 2.0 / (w * w + x * x + y * y + z * z);
+        [
+            [1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+            [s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)],
+            [s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)],
+        ]
+    })
+}
+
+fn matrix(entry: impl Fn(usize, usize) -> f64) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+}
+
+fn product(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
+    matrix(|i, j| (0..3).map(|k| a[i][k] * b[k][j]).sum())
+}
+
+fn norm<const N: usize>(a: &[[f64; N]; N]) -> f64 {
+    a.iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn distance(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
+    norm(&matrix(|i, j| a[i][j] - b[i][j]))
+}
+
+fn at_most(what: &str, value: f64, bound: f64) -> Result<(), String> {
+    // Written so that NaN fails.
+    if value <= bound { Ok(()) } else { Err(format!("{what} is {value:e}, more than {bound:e}")) }
+}
+
+/// The point at F, where it is admissible and not at a pole.
+fn evaluate_inside<M: Declared>(material: &M, F: &Matrix3<f64>, filter: Filter) -> Option<Point<f64>> {
+    let point = evaluate(material, F, filter);
+    (!(point.status.refused || point.status.bounded)).then_some(point)
+}
+
+/// ‖P‖ + ‖dP/dF‖ ‖F‖: what an error of the stress is relative to.
+fn scale(point: &Point<f64>, F: &Matrix3<f64>) -> f64 {
+    norm(&point.stress) + norm(&point.tangent.to_matrix()) * norm(F)
+}
+
+struct Objectivity;
+
+impl Property for Objectivity {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        let F = sample.F();
+        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+        let (turned, _) = evaluate_stress(material, &product(&sample.rotation, &F));
+        let expected = product(&sample.rotation, &point.stress);
+        at_most("‖P(QF) − Q P(F)‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
+    }
+}
+
+#[test]
+fn a_rotation_of_space_rotates_the_stress() {
+    for_every_energy(Objectivity);
+}
+
+struct Isotropy;
+
+impl Property for Isotropy {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        let F = sample.F();
+        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+        let (turned, _) = evaluate_stress(material, &product(&F, &sample.rotation));
+        let expected = product(&point.stress, &sample.rotation);
+        at_most("‖P(FQ) − P(F) Q‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
+    }
+}
+
+#[test]
+fn a_rotation_of_the_rest_shape_rotates_the_stress() {
+    for_every_energy(Isotropy);
+}
+
+struct PrincipalFrames;
+
+impl Property for PrincipalFrames {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        let F = sample.F();
+        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+        let expected = sample.in_frames(material.gradient(sample.stretches));
+        at_most("‖P − U diag(ψi) Vᵀ‖", distance(&point.stress, &expected), C * UNIT * scale(&point, &F))?;
+        let (energy, _) = evaluate_energy(material, &F);
+        let expected = material.energy(sample.stretches);
+        // At rest the terms of an energy are of the size of its stiffness and cancel.
+        let terms = expected.abs() + norm(&point.stress) * norm(&F) + material.blocks([1.0; 3]).hessian[0];
+        at_most("|ψ(F) − ψ(λ)|", (energy - expected).abs(), C * UNIT * terms)
+    }
+}
+
+#[test]
+fn stress_and_energy_are_those_of_the_stretches() {
+    for_every_energy(PrincipalFrames);
+}
+
+struct Products;
+
+impl Property for Products {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
+            let Some(point) = evaluate_inside(material, &sample.F(), filter) else { return Ok(()) };
+            let tangent = point.tangent.to_matrix();
+            if (0..81).any(|entry| tangent[entry / 9][entry % 9] != tangent[entry % 9][entry / 9]) {
+                return Err(format!("{filter:?}: dP/dF is not symmetric"));
+            }
+            let applied = point.tangent.apply(&sample.increment);
+            let expected =
+                matrix(|i, j| (0..9).map(|k| tangent[3 * i + j][k] * sample.increment[k / 3][k % 3]).sum());
+            let bound = C * UNIT * norm(&tangent) * norm(&sample.increment);
+            at_most("‖apply(dF) − (dP/dF) dF‖", distance(&applied, &expected), bound)?;
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn a_tangent_is_symmetric_and_its_product_that_of_its_matrix() {
+    for_every_energy(Products);
+}
+
+struct Filters;
+
+impl Property for Filters {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        let tangent = |filter| {
+            let point = evaluate_inside(material, &sample.F(), filter)?;
+            let rows = point.tangent.to_matrix();
+            Some(SMatrix::<f64, 9, 9>::from_fn(|i, j| rows[i][j]))
+        };
+        let (Some(none), Some(clamp), Some(absolute)) =
+            (tangent(Filter::None), tangent(Filter::Clamp), tangent(Filter::Absolute))
+        else {
+            return Ok(());
+        };
+        let noise = C * UNIT * none.norm();
+        let negative = |matrix: SMatrix<f64, 9, 9>| -matrix.symmetric_eigenvalues().min();
+        at_most("−smallest eigenvalue of the clamped tangent", negative(clamp), noise)?;
+        at_most("−smallest eigenvalue of absolute − clamped", negative(absolute - clamp), noise)?;
+        at_most("−smallest eigenvalue of clamped − unfiltered", negative(clamp - none), noise)?;
+        // Where nothing is negative, nothing is changed; else clamped is half way to absolute.
+        at_most("‖none + absolute − 2 clamped‖", (none + absolute - 2.0 * clamp).norm(), noise)
+    }
+}
+
+#[test]
+fn filters_are_semidefinite_and_ordered() {
+    for_every_energy(Filters);
+}
+
+struct SinglePrecision;
+
+impl Property for SinglePrecision {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        let F = sample.F().map(|row| row.map(|x| x as f32));
+        check_single_accuracy(material, &F).map_err(|fault| fault.to_string())
+    }
+}
+
+#[test]
+fn single_precision_is_close_to_double() {
+    for_every_energy(SinglePrecision);
+}
+
+struct Infection;
+
+impl Property for Infection {
+    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+        for entry in 0..9 {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut F = sample.F();
+                F[entry / 3][entry % 3] = value;
+                check(material, &F).map_err(|fault| format!("{fault}: {F:?}"))?;
+                check(material, &F.map(|row| row.map(|x| x as f32))).map_err(|fault| fault.to_string())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_said_to_be() {
+    for_every_energy(Infection);
+}
