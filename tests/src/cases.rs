@@ -31,6 +31,7 @@ pub struct Case {
     pub deformation: [f64; 9],
     /// Every entry of F is an `f32`.
     pub f32_exact: bool,
+    stretches: Vec<String>,
     psi: String,
     #[serde(rename = "P")]
     stress: Vec<String>,
@@ -123,6 +124,16 @@ impl Case {
         description.parameters.iter().map(|parameter| value(parameter.name)).collect()
     }
 
+    /// λ1 ≥ λ2 ≥ |λ3|, nearest `f64`.
+    ///
+    /// # Errors
+    /// Where they are not three numbers.
+    pub fn stretches(&self) -> Result<[f64; 3], String> {
+        let numbers: Option<Vec<f64>> = self.stretches.iter().map(|text| text.parse().ok()).collect();
+        let triple = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+        triple.ok_or_else(|| format!("{}: the stretches are not 3 numbers", self.id))
+    }
+
     fn expected(&self, quantity: Quantity) -> Option<Vec<f64>> {
         let texts = match quantity {
             Quantity::Energy => std::slice::from_ref(&self.psi),
@@ -141,7 +152,7 @@ impl Case {
 
     /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs half a unit.
     ///
-    /// The noise is the size of terms that cancel by the energy's formula; zero for all but ψ near rest.
+    /// The noise is Σ|terms| of the energy's formula for ψ, whose terms cancel near rest, and zero for the others.
     #[must_use]
     pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
         let expected = self.reference(quantity);
@@ -163,7 +174,8 @@ impl Case {
         };
         let distance = norm(&mut values.iter().zip(&expected).map(|(x, y)| x - y));
         let scale = norm(&mut expected.iter().copied()) + sensitivity + noise;
-        if values.len() != expected.len() || !distance.is_finite() {
+        // An infinite scale would excuse everything.
+        if values.len() != expected.len() || !distance.is_finite() || !scale.is_finite() {
             f64::INFINITY
         } else if distance == 0.0 {
             0.0

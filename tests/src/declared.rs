@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use piola::Inversion;
 use piola::material::Description;
-use piola_codegen::interpret::{Point, evaluate_with};
+use piola_codegen::interpret::{Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
 use piola_codegen::parse::parse;
 
@@ -14,6 +14,8 @@ use piola_codegen::parse::parse;
 #[derive(Debug)]
 pub struct Declared {
     model: Model,
+    /// Which length the list of each parameter has; `None` for scalars.
+    lengths: Vec<Option<usize>>,
     point: Point,
     is_extended: bool,
 }
@@ -34,23 +36,36 @@ impl Declared {
                 if declaration.name != description.name {
                     continue;
                 }
-                let mut lengths = vec![0; declaration.lengths.len()];
-                for (parameter, list) in declaration.parameters.iter().zip(values) {
-                    if let Some(length) = parameter.length() {
-                        lengths[length] = list.len();
-                    }
-                }
+                let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
                 let (is_extended, epsilon) = match inversion {
                     Inversion::Refuse => (false, 0.0),
                     Inversion::Extend { epsilon } => (true, epsilon),
                 };
-                let parameters = values.iter().map(|list| list.to_vec()).collect();
-                let point = Point { stretches: [1.0; 3], parameters, lengths, epsilon };
                 let model = model(&declaration).map_err(|error| text(&error))?;
-                return Ok(Self { model, point, is_extended });
+                let point = Point { epsilon, ..Point::default() };
+                let declared = Self { model, lengths, point, is_extended };
+                return Ok(Self { point: declared.point(values, [1.0; 3]), ..declared });
             }
         }
         Err(text(&"not declared"))
+    }
+
+    fn point(&self, values: &[&[f64]], stretches: [f64; 3]) -> Point {
+        let mut lengths = vec![0; self.lengths.iter().flatten().max().map_or(0, |last| last + 1)];
+        for (&length, list) in self.lengths.iter().zip(values) {
+            if let Some(length) = length {
+                lengths[length] = list.len();
+            }
+        }
+        let parameters = values.iter().map(|list| list.to_vec()).collect();
+        Point { stretches, parameters, lengths, epsilon: self.point.epsilon }
+    }
+
+    /// Σ|terms| of ψ as written inside its domain, for any parameters: every subtraction in the formula replaced by an
+    /// addition of magnitudes, J/m³.
+    #[must_use]
+    pub fn energy_terms(&self, values: &[&[f64]], stretches: [f64; 3]) -> f64 {
+        evaluate(&self.model.graph, self.model.energy, &self.point(values, stretches)).magnitude
     }
 
     /// Σ|terms| of the flips and twists of the pairs, every subtraction inside them replaced by an addition of magnitudes, Pa.
