@@ -56,27 +56,26 @@ impl Spline {
         let bends = bends(points);
         let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
         let mut pieces = Vec::new();
-        let mut start = 0.0;
         for (k, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
             let (h, m0, m1) = (x1 - x0, bends[k], bends[k + 1]);
-            let slope = (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0;
-            let piece = Piece {
-                anchor: x0,
-                coefficients: [start, y0, slope / 2.0, m0 / 6.0, (m1 - m0) / (24.0 * h)],
+            let slope = (y1 - y0) / h;
+            // At the end that is nearer to rest, where a curve is zero, it is so from both sides.
+            let (anchor, y, slope, m) = if x1 <= 1.0 {
+                (x1, y1, slope + h * (m0 + 2.0 * m1) / 6.0, m1)
+            } else {
+                (x0, y0, slope - h * (2.0 * m0 + m1) / 6.0, m0)
             };
+            let mut piece =
+                Piece { anchor, coefficients: [0.0, y, slope / 2.0, m / 6.0, (m1 - m0) / (24.0 * h)] };
             if k == 0 {
-                pieces.push(Piece { anchor: x0, coefficients: [0.0, y0, slope / 2.0, 0.0, 0.0] });
+                pieces.push(piece.straight_from(x0));
             }
-            start = piece.taylor(x1)[0];
+            piece.coefficients[0] = pieces[k].taylor(x0)[0] - piece.taylor(x0)[0];
             pieces.push(piece);
         }
         let last = points.len() - 1;
-        let end = pieces[last].taylor(points[last][0]);
-        pieces.push(Piece {
-            anchor: points[last][0],
-            coefficients: [start, points[last][1], end[2] / 2.0, 0.0, 0.0],
-        });
+        pieces.push(pieces[last].straight_from(points[last][0]));
         let mut spline = Self { knots, pieces };
         let at_rest = spline.value(1.0);
         for piece in &mut spline.pieces {
@@ -102,6 +101,12 @@ impl Spline {
 }
 
 impl Piece {
+    /// Goes on from x with the same φ, φ′ and φ″.
+    fn straight_from(&self, x: f64) -> Self {
+        let [value, slope, bend] = self.taylor(x);
+        Self { anchor: x, coefficients: [value, slope, bend / 2.0, 0.0, 0.0] }
+    }
+
     /// φ, φ′ and φ″.
     fn taylor(&self, x: f64) -> [f64; 3] {
         let [c0, c1, c2, c3, c4] = self.coefficients;

@@ -1,0 +1,115 @@
+//! Stress from the displacement gradient, for every energy and strains down to 10⁻³⁰⁰, beside what is left of it in F:
+//! `cargo test -p piola-tests --test small_strain -- --nocapture`.
+//!
+//! The oracle is the ordinary way through F = I + H, in 320 bits.
+
+use piola::material::Declared;
+use piola::point::project::Filter;
+use piola::point::{self, Matrix3};
+use piola::{Inversion, Real};
+use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::multiprecision::Multiprecision;
+use piola_tests::random::Random;
+
+/// The constant of the judgement ‖P − P*‖ ≤ C u (‖P*‖ + ‖dP/dF‖ ‖H‖).
+const C: f64 = 30.0;
+
+/// Displacement gradients of each magnitude, rotations as large as strains.
+const SAMPLES: usize = 8;
+
+type Exact = Multiprecision<5>;
+
+/// Worst errors in units of u (‖P‖ + ‖dP/dF‖ ‖H‖): from H, and through F.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst {
+    from_displacement: f64,
+    through_deformation: f64,
+}
+
+struct Judge<R> {
+    magnitude: f64,
+    random: Random,
+    widen: fn(R) -> f64,
+}
+
+impl<R: Real<Mask = bool>> Visitor for Judge<R> {
+    type Output = Worst;
+
+    fn visit<M: Declared + 'static>(mut self, material: M) -> Worst {
+        let mut worst = Worst::default();
+        for _ in 0..SAMPLES {
+            // Entries that both precisions hold.
+            let displacement: Matrix3<f64> = std::array::from_fn(|_| {
+                std::array::from_fn(|_| {
+                    (self.widen)(R::splat(self.magnitude * (2.0 * self.random.unit() - 1.0)))
+                })
+            });
+            let exact: Matrix3<Exact> = plus_identity(&displacement.map(|row| row.map(Exact::splat)));
+            let expected = point::evaluate_stress(&material, &exact).0;
+
+            let rounded = displacement.map(|row| row.map(R::splat));
+            let (stress, status) = point::evaluate_stress_from_displacement(&material, &rounded);
+            assert!(!status.refused && !status.nonfinite && !status.bounded);
+            let through = point::evaluate_stress(&material, &plus_identity(&rounded)).0;
+
+            let tangent = point::evaluate(&material, &plus_identity(&displacement), Filter::None).tangent;
+            let stiffness = norm(tangent.to_matrix().iter().flatten().copied());
+            let size = norm(displacement.iter().flatten().copied());
+            let scale = norm(expected.iter().flatten().map(|x| x.to_f64())) + stiffness * size;
+            let error = |found: &Matrix3<R>| {
+                let differences = found.iter().flatten().zip(expected.iter().flatten());
+                let differences = differences.map(|(&x, &y)| (Exact::splat((self.widen)(x)) - y).to_f64());
+                norm(differences) / (R::UNIT_ROUNDOFF * scale)
+            };
+            worst.from_displacement = worst.from_displacement.max(error(&stress));
+            worst.through_deformation = worst.through_deformation.max(error(&through));
+        }
+        worst
+    }
+}
+
+fn plus_identity<R: Real>(displacement: &Matrix3<R>) -> Matrix3<R> {
+    let one = R::splat(1.0);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| if i == j { displacement[i][j] + one } else { displacement[i][j] })
+    })
+}
+
+/// Scaled by the largest entry, so that squares do not underflow.
+fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
+    let entries: Vec<f64> = entries.into_iter().collect();
+    let largest = entries.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if largest == 0.0 { 0.0 } else { largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt() }
+}
+
+#[track_caller]
+fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R) -> f64) {
+    println!("\n{precision}: worst error from H, and through F, in u (‖P‖ + ‖dP/dF‖ ‖H‖)\n");
+    let columns: Vec<_> = magnitudes.iter().map(|magnitude| format!("{magnitude:>16e}")).collect();
+    println!("{:22}{}", "largest entry of H", columns.concat());
+    let mut failures = Vec::new();
+    for entry in CATALOGUE {
+        let mut line = format!("{:22}", entry.name);
+        for &magnitude in magnitudes {
+            let judge = Judge { magnitude, random: Random::new(7), widen };
+            let worst = entry.visit(entry.typical, Inversion::Refuse, judge).expect("typical parameters");
+            line += &format!("{:7.1} {:8.0e}", worst.from_displacement, worst.through_deformation);
+            let within = worst.from_displacement <= C;
+            if !within {
+                failures.push(format!("{} at {magnitude:e}: {worst:?}", entry.name));
+            }
+        }
+        println!("{line}");
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn stresses_keep_their_digits_in_f64() {
+    judge("f64", &[0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-100], |x: f64| x);
+}
+
+#[test]
+fn stresses_keep_their_digits_in_f32() {
+    judge("f32", &[0.1, 1e-2, 1e-4, 1e-6, 1e-12], |x: f32| f64::from(x));
+}
