@@ -66,7 +66,7 @@ use crate::material::{Material, PAIRS, Status};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let rubber = Rubber::new(1e6, 4e6)?;
 /// // A strain of 3·10⁻¹⁴ along the first axis.
-/// let H = [[3e-14, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+/// let H: [[f64; 3]; 3] = [[3e-14, 0.0, 0.0], [0.0; 3], [0.0; 3]];
 /// let (P, status) = evaluate_stress_from_displacement(&rubber, &H);
 /// let expected = (2.0 * 1e6 + 4e6) * 3e-14;
 /// assert!(!status.refused && !status.nonfinite);
