@@ -5,6 +5,9 @@
 //! cargo +nightly fuzz run -s none -O point fuzz/corpus/point fuzz/seeds/point -- -max_len=256 -use_value_profile=1
 //! ```
 //!
+//! The seeds hold each entry of the catalogue at deformations at rest, sheared, inverted, of rank one, graded, huge, tiny
+//! and subnormal.
+//!
 //! An input is read as: the entry of the catalogue; precision, inversion and origin of the parameters; parameters; nine
 //! numbers by their bits. What is missing is zero.
 

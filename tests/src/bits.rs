@@ -109,7 +109,7 @@ impl Family {
         match self {
             Self::Bits => matrix(|_, _| finite(random)),
             Self::OneMagnitude => {
-                let (power, _) = magnitude::<R>(random, full_range::<R>());
+                let power = magnitude(random, full_range::<R>());
                 matrix(|_, _| R::splat(power * random.uniform(-2.0, 2.0)))
             }
             Self::Palette => {
@@ -122,7 +122,7 @@ impl Family {
             }
             Self::Frames => frames(random),
             Self::Deficient => {
-                let (power, _) = magnitude::<R>(random, full_range::<R>());
+                let power = magnitude(random, full_range::<R>());
                 let spread = random.below(40) as i32;
                 let mut vector = || -> [f64; 3] {
                     std::array::from_fn(|_| {
@@ -166,11 +166,11 @@ fn full_range<R: Precision>() -> (i32, i32) {
     (R::SMALLEST.log2() as i32, R::LARGEST.log2() as i32 - 1)
 }
 
-/// A power of two with an exponent of that range, and the exponent.
-fn magnitude<R: Precision>(random: &mut Random, (low, high): (i32, i32)) -> (f64, i32) {
+/// A power of two with an exponent of that range.
+fn magnitude(random: &mut Random, (low, high): (i32, i32)) -> f64 {
     let exponent = low + random.below((high - low + 1) as usize) as i32;
     // In two steps, because 2^-1074 is subnormal and `powi` would divide one by infinity.
-    (2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2), exponent)
+    2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
 }
 
 /// A number at which something may happen.
@@ -198,7 +198,7 @@ fn frames<R: Precision>(random: &mut Random) -> Matrix3<R> {
     let start = if random.once_in(2) { -width / 2 } else { low + random.below((high - low) as usize) as i32 };
     let window = (start.max(low), (start + width).clamp(low, high));
     let mut stretches: [f64; 3] =
-        std::array::from_fn(|_| magnitude::<R>(random, window).0 * random.uniform(1.0, 2.0));
+        std::array::from_fn(|_| magnitude(random, window) * random.uniform(1.0, 2.0));
     if random.once_in(3) {
         // Equal but for a gap of any size.
         stretches[1] = stretches[0] * (1.0 + 2f64.powi(-(random.below(60) as i32)));

@@ -114,7 +114,8 @@ pub fn check<R: Precision>(material: &impl Material, F: &Matrix3<R>) -> Result<A
         if status.refused != energy_status.refused || status.refused != stress_status.refused {
             return Err(Fault::Disagreement);
         }
-        if !finite_input && !(status.nonfinite && energy_status.nonfinite && stress_status.nonfinite) {
+        let all_flagged = status.nonfinite && energy_status.nonfinite && stress_status.nonfinite;
+        if !finite_input && !all_flagged {
             return Err(Fault::Unflagged(Quantity::Tangent));
         }
         if status.refused {
