@@ -91,7 +91,7 @@ impl Visitor for Trial<'_> {
             let F: Matrix3<f32> = self.input.matrix();
             let mut verdict = check(&material, &F).map(drop);
             if verdict.is_ok() && self.is_typical && F.iter().flatten().all(|x| x.is_finite()) {
-                verdict = check_single(&material, &F).and_then(|()| check_single_accuracy(&material, &F));
+                verdict = check_single(&material, &F).and_then(|_| check_single_accuracy(&material, &F));
             }
             verdict.map_err(|fault| (fault, format!("{F:?}")))
         } else {

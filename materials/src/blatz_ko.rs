@@ -8,10 +8,17 @@ use piola::material;
 ///
 /// Blatz, Ko, *Application of Finite Elastic Theory to the Deformation of Rubbery Materials*, Trans. Soc. Rheol. 6, 1962, eq. 25;
 /// β = ν/(1 − 2ν), and Σ λi⁻² is the source's I2/I3. Nothing is added: the source is compressible. Defined for J > 0, continued
-/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
+/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if f = 1 or β ≥ 1: the polynomial that continues
+/// J^(2β) has negative values for β < 1, so that ψ falls without bound as an inverted body grows. For f > 0 and β > 2, J^(−2β)
+/// makes an inverted body so stiff that the solver gives up on a third of all single elements.
 ///
-/// Typical: `mu = 2.2e5, f = 0.0, beta = 0.5`, the foamed polyurethane of the source.
-#[material(domain(J > 0.0), admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0), extend)]
+/// Typical: `mu = 2.2e5, f = 0.0, beta = 1.0`, the foamed polyurethane of the source, but for its β = 1/2, that is ν = 1/4,
+/// with which it does not extend.
+#[material(
+    domain(J > 0.0),
+    admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0),
+    extend((1.0 - f) * (beta - 1.0) >= 0.0)
+)]
 pub fn BlatzKo(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

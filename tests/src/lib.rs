@@ -4,6 +4,7 @@
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
+//! * [`compiled`]: the evaluation of a point, compiled once;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of them;
 //! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in `STABILITY.md`;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
@@ -14,6 +15,7 @@
 pub mod baselines;
 pub mod bits;
 pub mod cases;
+pub mod compiled;
 pub mod declared;
 pub mod multiprecision;
 pub mod quotients;

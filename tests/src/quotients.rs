@@ -18,7 +18,8 @@ pub struct Quotient {
     pub value: Number,
     /// max(|D|, |ψii| + |ψij|), Pa: D is a mean of ψii ∓ ψij, and can be the small difference of them.
     pub scale: Number,
-    /// Σk |λk ∂D/∂λk|, Pa: what relative changes of the stretches by one change in D.
+    /// Σk |λk ∂D/∂λk|, Pa: what relative changes of the stretches by one change in D; with |ε ∂D/∂ε| where an extension has
+    /// a threshold ε, which takes the place of a stretch below it.
     pub sensitivity: Number,
 }
 
@@ -35,6 +36,13 @@ impl Quotient {
         }
         let units = |of: Number| (distance / of).to_f64() / unit_roundoff;
         Error { flat: units(self.scale), conditioned: units(self.scale + self.sensitivity) }
+    }
+
+    /// The same quotient with |ε ∂D/∂ε| in its sensitivity, from its value where ε is larger by this fraction.
+    #[must_use]
+    pub fn with_threshold(self, moved: Number, fraction: f64) -> Self {
+        let change = (moved - self.value).abs() / Number::splat(fraction);
+        Self { sensitivity: self.sensitivity + change, ..self }
     }
 
     /// The same quotient with Σ|terms| in the maximum that is its scale.

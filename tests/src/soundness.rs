@@ -15,12 +15,11 @@ use std::fmt;
 use piola::Material;
 use piola::material::Blocks;
 use piola::mesh::RestShape;
-use piola::point::{
-    Filter, Matrix3, Svd, evaluate, evaluate_energy, evaluate_stress, svd, svd_signed_by_determinant,
-};
+use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
 use piola::system::element::{Element, ElementEnergy, ElementStiffness};
 
 use crate::bits::{Precision, widen};
+use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
 
 /// The filters, in the order of their strength.
 pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
@@ -36,6 +35,8 @@ pub enum Answer {
     Refused,
     /// Outside the range of the format.
     Nonfinite,
+    /// Said to be outside the range of the format, though it fits, because a part of it does not.
+    FlaggedEarly,
 }
 
 /// A quantity that an evaluation returns.
@@ -200,35 +201,39 @@ pub fn check_element(material: &impl Material, F: &Matrix3<f64>) -> Result<(), F
     Ok(())
 }
 
-/// `f32` against `f64` on the same numbers.
+/// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a power of a
+/// stretch, or a product of two, may leave the format though the answer does not, and it is enough that the status says so.
+const ORDINARY: f64 = 1024.0;
+
+/// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not [`ORDINARY`].
 ///
 /// # Errors
 /// The first fault found.
-pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<(), Fault> {
+pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, Fault> {
     let (_, energy) = evaluate_energy(material, F);
     let (_, stress) = evaluate_stress(material, F);
     let tangent = evaluate(material, F, Filter::None).status;
     let stretches = decompose(material, &widen(F)).stretches;
     match agreed(material, stretches) {
-        Some(true) if energy.refused => return Err(Fault::RefusedInside),
+        Some(true) if energy.refused && !energy.nonfinite => return Err(Fault::RefusedInside),
         Some(false) if !energy.refused && !energy.nonfinite => return Err(Fault::AdmittedOutside),
         Some(true) if energy.nonfinite || stress.nonfinite || tangent.nonfinite || tangent.bounded => {}
-        _ => return Ok(()),
+        _ => return Ok(false),
     }
+    let is_ordinary = stretches.iter().all(|stretch| (1.0 / ORDINARY..ORDINARY).contains(&stretch.abs()));
     let around = Neighbourhood::of(material, stretches);
-    if around.energy_fits && energy.nonfinite {
-        return Err(Fault::FlaggedInRange(Quantity::Energy));
-    }
-    if around.stress_fits && stress.nonfinite {
-        return Err(Fault::FlaggedInRange(Quantity::StressAlone));
-    }
-    if around.tangent_fits && tangent.nonfinite {
-        return Err(Fault::FlaggedInRange(Quantity::Tangent));
+    let quantities = [
+        (Quantity::Energy, around.energy_fits && energy.nonfinite),
+        (Quantity::StressAlone, around.stress_fits && stress.nonfinite),
+        (Quantity::Tangent, around.tangent_fits && tangent.nonfinite),
+    ];
+    if let Some((quantity, _)) = quantities.into_iter().find(|(_, is_early)| *is_early) {
+        return if is_ordinary { Err(Fault::FlaggedInRange(quantity)) } else { Ok(true) };
     }
     if around.is_far_from_pole && tangent.bounded && !tangent.nonfinite {
         return Err(Fault::BoundedFarFromPole);
     }
-    Ok(())
+    Ok(false)
 }
 
 /// Where `f32` has a clean answer, it is that of `f64` but for rounding.

@@ -7,12 +7,13 @@ use std::fmt::{self, Write as _};
 
 use piola::material::Declared;
 use piola::point::svd::{Svd, svd, svd_signed_by_determinant};
-use piola::point::{self, Filter, Matrix3, Tangent, project};
+use piola::point::{Filter, Matrix3, Tangent, project};
 use piola::{Inversion, Material, Real};
 use piola_materials::Visitor;
 
 use crate::baselines::{eigen, quotients, svd_gradients};
 use crate::cases::{Case, Quantity};
+use crate::compiled;
 
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
 pub const BOUND: f64 = 30.0;
@@ -231,9 +232,9 @@ impl Measure<'_> {
                 return None;
             }
             let result = match quantity {
-                Quantity::Energy => Some(vec![point::evaluate_energy(material, &deformation).0]),
+                Quantity::Energy => Some(vec![compiled::evaluate_energy(material, &deformation).0]),
                 Quantity::Stress => {
-                    Some(point::evaluate_stress(material, &deformation).0.into_iter().flatten().collect())
+                    Some(compiled::evaluate_stress(material, &deformation).0.into_iter().flatten().collect())
                 }
                 Quantity::Tangent => Some(method.tangent(material, &deformation).concat()),
                 Quantity::Projected => {
@@ -277,7 +278,7 @@ impl Method {
             Self::Naive => quotients::naive(material, stretches),
             Self::Lhopital => quotients::lhopital(material, stretches, SWITCH),
             Self::Ours | Self::SvdGradients => {
-                return point::evaluate(material, F, filter).tangent.to_matrix();
+                return compiled::evaluate(material, F, filter).tangent.to_matrix();
             }
         };
         let (blocks, _) = project(&blocks, filter);

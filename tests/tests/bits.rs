@@ -61,16 +61,18 @@ fn every_entry<R: Judged>() {
         }
     }
     println!(
-        "{}: {} patterns in {:.1} s: {} clean, {} bounded, {} refused, {} outside the format",
+        "{}: {} patterns in {:.1} s: {} clean, {} bounded, {} refused, {} outside the format, {} flagged early",
         R::NAME,
         total.patterns,
         start.elapsed().as_secs_f64(),
         total.clean,
         total.bounded,
         total.refused,
-        total.nonfinite
+        total.nonfinite,
+        total.flagged_early
     );
     assert!(total.faults.is_empty(), "{report}");
+    assert!(100 * total.flagged_early <= total.patterns, "one in a hundred may be flagged early");
     // A judge that never meets one of the answers judges nothing.
     assert!(total.clean > 0 && total.bounded > 0 && total.refused > 0 && total.nonfinite > 0);
 }
@@ -92,11 +94,11 @@ impl Judged for f64 {
 impl Judged for f32 {
     fn judge(material: &impl Material, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault> {
         let answer = check(material, F)?;
-        check_single(material, F)?;
+        let is_flagged_early = check_single(material, F)?;
         if closely {
             check_single_accuracy(material, F)?;
         }
-        Ok(answer)
+        Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
     }
 }
 
@@ -107,6 +109,7 @@ struct Tally {
     bounded: usize,
     refused: usize,
     nonfinite: usize,
+    flagged_early: usize,
     /// How often, and where first.
     faults: BTreeMap<Fault, (usize, String)>,
 }
@@ -119,6 +122,7 @@ impl Tally {
             Answer::Bounded => &mut self.bounded,
             Answer::Refused => &mut self.refused,
             Answer::Nonfinite => &mut self.nonfinite,
+            Answer::FlaggedEarly => &mut self.flagged_early,
         } += 1;
     }
 
@@ -128,6 +132,7 @@ impl Tally {
         self.bounded += other.bounded;
         self.refused += other.refused;
         self.nonfinite += other.nonfinite;
+        self.flagged_early += other.flagged_early;
         self.faults.extend(other.faults);
     }
 }

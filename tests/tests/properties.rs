@@ -9,9 +9,10 @@
 
 use nalgebra::SMatrix;
 use piola::material::Declared;
-use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy, evaluate_stress};
+use piola::point::{Filter, Matrix3, Point};
 use piola::{Inversion, Real};
 use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::soundness::{check, check_single_accuracy};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

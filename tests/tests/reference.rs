@@ -16,11 +16,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use piola::material::{Declared, Status};
+use piola::point::Matrix3;
 use piola::point::project::Filter;
-use piola::point::{self, Matrix3};
 use piola::{Inversion, Real};
 use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::cases::{Case, Quantity};
+use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::declared;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
@@ -181,10 +182,10 @@ impl Judge<'_> {
     ) -> Vec<Judgement> {
         let f = self.case.deformation;
         let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));
-        let (energy, of_energy) = point::evaluate_energy(material, &deformation);
-        let (stress, of_stress) = point::evaluate_stress(material, &deformation);
-        let plain = point::evaluate(material, &deformation, Filter::None);
-        let clamped = point::evaluate(material, &deformation, Filter::Clamp);
+        let (energy, of_energy) = evaluate_energy(material, &deformation);
+        let (stress, of_stress) = evaluate_stress(material, &deformation);
+        let plain = evaluate(material, &deformation, Filter::None);
+        let clamped = evaluate(material, &deformation, Filter::Clamp);
         let wide = |values: &[R]| values.iter().map(|&x| widen(x)).collect::<Vec<_>>();
         let leaves = |quantity| self.case.reference(quantity).into_iter().any(|x| !R::splat(x).is_finite());
         // A point with a tangent computes the stress too, and its one status speaks for both.

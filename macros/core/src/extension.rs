@@ -17,11 +17,11 @@ use std::collections::HashMap;
 use crate::divided::power_quotient;
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::rational::Rational;
-use crate::volume::{Logarithms, rewrite, separate};
+use crate::volume::{Purpose, rewrite, separate};
 
 /// The energy with its logarithms and real or negative powers of stretches extended.
 pub fn extend(graph: &mut Graph, energy: Id) -> Id {
-    let separated = separate(graph, energy, Logarithms::OfStretches);
+    let separated = separate(graph, energy, Purpose::Extension);
     rewrite(graph, separated, &mut HashMap::new(), &extend_node)
 }
 

@@ -15,7 +15,7 @@ use crate::quotient::Quotients;
 use crate::rational::Rational;
 use crate::resolve::Resolver;
 use crate::simplify::simplify;
-use crate::volume::{Logarithms, separate};
+use crate::volume::{Purpose, separate};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -116,8 +116,10 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
         return diagnostics.finish(None);
     }
 
-    let separated = if positive { separate(&mut graph, energy, Logarithms::OfVolume) } else { energy };
-    let plain = derive(&mut graph, separated, &samples, positive);
+    let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
+    let bounds = bounds.into_iter().map(&mut in_range).collect();
+    let energy_in_range = in_range(energy);
+    let plain = derive(&mut graph, energy_in_range, &samples, positive);
     if !declaration.options.prestressed && !declaration.has_functions() {
         check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
     }

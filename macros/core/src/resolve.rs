@@ -227,8 +227,6 @@ impl<'a> Resolver<'a> {
     }
 
     /// J = λ1 λ2 λ3, I1 = Σ λ², I2 = λ1²λ2² + λ2²λ3² + λ3²λ1², I1b = J^(−2/3) I1, I2b = J^(−4/3) I2.
-    ///
-    /// I2b is formed as J^(2/3) Σ λ⁻²: for small stretches I2 underflows where neither of its factors here does.
     fn word(&mut self, word: &str) -> Option<Id> {
         let graph = &mut *self.graph;
         let stretches = [0, 1, 2].map(|i| graph.stretch(i));
@@ -237,19 +235,17 @@ impl<'a> Resolver<'a> {
         let i1 = graph.sum_of(&squares);
         let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
         let i2 = graph.sum_of(&pairs);
-        let reciprocal_squares = stretches.map(|stretch| graph.powi(stretch, -2));
-        let mut isochoric = |terms: &[Id], numerator: i128| {
+        let mut isochoric = |invariant: Id, numerator: i128| {
             let exponent = Rational::new(numerator, 3).map(Exponent::rational)?;
             let power = graph.power(j, exponent);
-            let sum = graph.sum_of(terms);
-            Some(graph.mul(power, sum))
+            Some(graph.mul(power, invariant))
         };
         match word {
             "J" => Some(j),
             "I1" => Some(i1),
             "I2" => Some(i2),
-            "I1b" => isochoric(&squares, -2),
-            "I2b" => isochoric(&reciprocal_squares, 2),
+            "I1b" => isochoric(i1, -2),
+            "I2b" => isochoric(i2, -4),
             _ => None,
         }
     }

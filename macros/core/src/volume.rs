@@ -7,26 +7,34 @@
 //! (Π λi^e)^r = Π λi^(e r)        ln Π λi^e = Σ e ln λi
 //! ```
 //!
-//! for positive stretches. Differentiating λi^r lowers its exponent instead of dividing the whole by λi afterwards.
+//! for positive stretches. Differentiating λi^r lowers its exponent instead of dividing the whole by λi afterwards. And as
+//! J^(−2/3) overflows where I1 underflows, though their product I1b is 3, real powers are multiplied into sums of products:
+//!
+//! ```text
+//! J^(−2/3) I1 = λ1^(4/3) (λ2λ3)^(−2/3) + λ2^(4/3) (λ3λ1)^(−2/3) + λ3^(4/3) (λ1λ2)^(−2/3)
+//! ```
+//!
+//! An extension takes the factors apart instead: below ε it continues J^(−2/3) and leaves I1 as it is.
 
 use std::collections::HashMap;
 
 use crate::expr::{Exponent, Graph, Id, Node, Stretch};
 use crate::rational::Rational;
 
-/// What becomes of the logarithm of a product of stretches.
+/// What the separated expression is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Logarithms {
-    /// A multiple of ln J stays one, to be computed by a single logarithm wherever J is in range.
-    OfVolume,
-    /// Σ e ln λi.
-    OfStretches,
+pub enum Purpose {
+    /// To be computed for positive stretches: real powers go into sums, and ln J stays, to be computed by a single logarithm
+    /// wherever J is in range.
+    Evaluation,
+    /// To be extended: a product of sums and of functions of single stretches.
+    Extension,
 }
 
-/// The expression with real powers of products of stretches separated, and their logarithms as said.
-pub fn separate(graph: &mut Graph, e: Id, logarithms: Logarithms) -> Id {
+/// The expression with real powers and logarithms of products of stretches separated.
+pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
     rewrite(graph, e, &mut HashMap::new(), &|graph, id| match graph.node(id).clone() {
-        Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, logarithms),
+        Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, purpose),
         Node::Product(factors) => {
             let mut separated = Vec::new();
             for (base, exponent) in factors {
@@ -37,8 +45,11 @@ pub fn separate(graph: &mut Graph, e: Id, logarithms: Logarithms) -> Id {
                             separated.push((stretch, multiply(graph, inner, exponent)));
                         }
                     }
-                    None => separated.push((separate(graph, base, logarithms), exponent)),
+                    None => separated.push((separate(graph, base, purpose), exponent)),
                 }
+            }
+            if purpose == Purpose::Evaluation {
+                multiply_in(graph, &mut separated);
             }
             Some(graph.product(&separated))
         }
@@ -46,9 +57,9 @@ pub fn separate(graph: &mut Graph, e: Id, logarithms: Logarithms) -> Id {
     })
 }
 
-fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], logarithms: Logarithms) -> Option<Id> {
+fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], purpose: Purpose) -> Option<Id> {
     let all_equal = monomial.iter().all(|factor| factor.1 == monomial[0].1);
-    if logarithms == Logarithms::OfVolume && monomial.len() == 3 && all_equal {
+    if purpose == Purpose::Evaluation && monomial.len() == 3 && all_equal {
         let stretches = [0, 1, 2].map(|i| graph.stretch(i));
         let volume = graph.product_of(&stretches);
         let (factor, ln) = (graph.exponent_value(monomial[0].1), graph.ln(volume));
@@ -61,6 +72,28 @@ fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], logarithms: Lo
         terms.push(graph.mul(factor, ln));
     }
     Some(graph.sum_of(&terms))
+}
+
+/// Multiplies real powers of stretches into a sum of products of stretches, if there are both among the factors.
+fn multiply_in(graph: &mut Graph, factors: &mut Vec<(Id, Exponent)>) {
+    let is_power = |graph: &Graph, base| matches!(graph.node(base), Node::Stretch(_));
+    if !factors.iter().any(|&(base, exponent)| is_power(graph, base) && exponent.as_integer().is_none()) {
+        return;
+    }
+    let position = factors.iter().position(|&(base, exponent)| {
+        exponent == Exponent::ONE
+            && matches!(graph.node(base), Node::Linear { constant, terms }
+                if constant.is_zero() && terms.iter().all(|&(term, _)| monomial(graph, term).is_some()))
+    });
+    let Some(position) = position else { return };
+    let Node::Linear { terms, .. } = graph.node(factors[position].0).clone() else { return };
+    let (powers, mut others): (Vec<_>, Vec<_>) =
+        factors.iter().copied().partition(|&(base, _)| is_power(graph, base));
+    others.retain(|factor| *factor != factors[position]);
+    let power = graph.product(&powers);
+    let terms: Vec<_> = terms.into_iter().map(|(term, c)| (graph.mul(power, term), c)).collect();
+    others.push((graph.linear(Rational::ZERO, &terms), Exponent::ONE));
+    *factors = others;
 }
 
 /// The factors of a product of powers of stretches, without coefficient; `None` for anything else.
@@ -113,15 +146,15 @@ mod tests {
         let volume = g.product_of(&[x, y, z]);
         let two_thirds = Exponent::rational(Rational::new(2, 3).unwrap());
         let power = g.power(volume, two_thirds);
-        let separated = separate(&mut g, power, Logarithms::OfVolume);
+        let separated = separate(&mut g, power, Purpose::Evaluation);
         assert_eq!(separated, g.product(&[x, y, z].map(|stretch| (stretch, two_thirds))));
 
         let square = g.powi(volume, 2);
         let ln_square = g.ln(square);
         let ln = g.ln(volume);
         let twice = g.scale(ln, Rational::integer(2));
-        assert_eq!(separate(&mut g, ln_square, Logarithms::OfVolume), twice);
+        assert_eq!(separate(&mut g, ln_square, Purpose::Evaluation), twice);
         let lns = [x, y, z].map(|stretch| g.ln(stretch));
-        assert_eq!(separate(&mut g, ln, Logarithms::OfStretches), g.sum_of(&lns));
+        assert_eq!(separate(&mut g, ln, Purpose::Extension), g.sum_of(&lns));
     }
 }

@@ -88,9 +88,8 @@ impl Order {
     }
 }
 
-/// x^(−10/3) may leave the range where x^(−1/3), x^(−1) and x^(−2) do not.
+/// x^(−7/3) may leave the range where x^(−1/3) and x^(−1) do not.
 fn parts(exponent: Exponent) -> Vec<Exponent> {
-    const LARGEST: i64 = 2;
     let Exponent { real, rational } = exponent;
     let Ok(mut whole) = i64::try_from(rational.numerator() / rational.denominator()) else {
         return vec![exponent];
@@ -102,7 +101,7 @@ fn parts(exponent: Exponent) -> Vec<Exponent> {
         parts.push(Exponent::rational(fraction));
     }
     while whole != 0 {
-        let part = whole.clamp(-LARGEST, LARGEST);
+        let part = whole.signum();
         parts.push(Exponent::integer(part));
         whole -= part;
     }
