@@ -180,7 +180,7 @@ impl<'a> Quotients<'a> {
     fn leibniz(&mut self, graph: &mut Graph, (f, df): (Id, Id), g: Id, reflection: Reflection) -> Id {
         let dg = self.quotient(graph, g, reflection);
         let mirrored = reflect(graph, f, reflection);
-        let (left, right) = (graph.mul(df, g), graph.mul(mirrored, dg));
+        let (left, right) = (graph.mul(df, g), multiply_pieces(graph, mirrored, dg));
         graph.add(left, right)
     }
 
@@ -355,6 +355,25 @@ fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretc
         [Node::ShareAbove(i, j), Node::ShareBelow(i, j)].map(|share| graph.leaf(share));
     let (above, below) = (graph.mul(above_share, above), graph.mul(below_share, below));
     graph.add(above, below)
+}
+
+/// A factor times a quotient. That of an extended function is a sum over the pieces above and below ε, which the factor
+/// goes into: λ times a piece in λ⁻² stays in range where the piece does not.
+fn multiply_pieces(graph: &mut Graph, factor: Id, quotient: Id) -> Id {
+    let Node::Linear { constant, terms } = graph.node(quotient).clone() else {
+        return graph.mul(factor, quotient);
+    };
+    let is_piece = |&(term, _): &(Id, Rational)| {
+        let (_, factors) = graph.factors(term);
+        factors
+            .iter()
+            .any(|&(base, _)| matches!(graph.node(base), Node::ShareAbove(..) | Node::ShareBelow(..)))
+    };
+    if !constant.is_zero() || !terms.iter().all(is_piece) {
+        return graph.mul(factor, quotient);
+    }
+    let terms: Vec<_> = terms.into_iter().map(|(term, c)| (graph.mul(factor, term), c)).collect();
+    graph.linear(Rational::ZERO, &terms)
 }
 
 /// A crossed pair φ′(x) φ(y) of an extended power, taken out of a product.
