@@ -73,7 +73,7 @@ pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R,
     let svd = decompose(material, F);
     let energy = material.energy(svd.stretches);
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(finite(svd.stretches) & energy.is_finite());
+    let nonfinite = !(stretches_in_range(svd.stretches) & energy.is_finite());
     (energy, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
@@ -84,7 +84,7 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
     let svd = decompose(material, F);
     let P = stress(&svd, material.gradient(svd.stretches));
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(finite(svd.stretches) & finite(P.into_iter().flatten()));
+    let nonfinite = !(stretches_in_range(svd.stretches) & finite(P.into_iter().flatten()));
     (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
@@ -100,8 +100,9 @@ pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filte
     let blocks = material.blocks(svd.stretches);
     let P = stress(&svd, blocks.gradient);
     let refused = !material.admits(svd.stretches);
-    let nonfinite =
-        !(finite(svd.stretches) & finite(P.into_iter().flatten()) & tangent_stays_finite(&blocks));
+    let nonfinite = !(stretches_in_range(svd.stretches)
+        & finite(P.into_iter().flatten())
+        & tangent_stays_finite(&blocks));
     let bounded = if material.has_pole() {
         (svd.stretches[1] + svd.stretches[2]).less(pole_floor(svd.stretches))
     } else {
@@ -125,6 +126,13 @@ pub(crate) fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Sv
 #[inline(always)]
 fn finite<R: Real>(values: impl IntoIterator<Item = R>) -> R::Mask {
     values.into_iter().fold(R::Mask::splat(true), |all, value| all & value.is_finite())
+}
+
+/// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of the largest
+/// finite number.
+#[inline(always)]
+pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
+    finite(stretches.map(|stretch| stretch * R::splat(16.0)))
 }
 
 /// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest finite one.

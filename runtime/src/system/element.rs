@@ -20,7 +20,7 @@
 
 use crate::material::{Blocks, Material};
 use crate::mesh::RestShape;
-use crate::point::{Filter, Svd, contract, decompose, project};
+use crate::point::{Filter, Svd, contract, decompose, project, stretches_in_range};
 use crate::quotient::pole_floor;
 
 /// A tetrahedron of a body.
@@ -185,8 +185,7 @@ impl<M: Material> ElementEnergy for M {
             let stretches = point.stretches;
             let admitted = self.admits(stretches);
             *energy = element.shape.volume * self.energy(stretches);
-            let finite =
-                stretches.iter().all(|stretch| stretch.is_finite()) && (!admitted || energy.is_finite());
+            let finite = stretches_in_range(stretches) && (!admitted || energy.is_finite());
             survey = survey.and(Survey {
                 refused: usize::from(finite && !admitted),
                 nonfinite: usize::from(!finite),
