@@ -3,6 +3,8 @@
 //!
 //! The oracle is the ordinary way through F = I + H, in 320 bits.
 
+#![expect(clippy::print_stdout, reason = "a table to show")]
+
 use piola::material::Declared;
 use piola::point::project::Filter;
 use piola::point::{self, Matrix3};
