@@ -36,7 +36,7 @@ pub fn evaluate_stress_from_displacement<R: Real>(
     point::evaluate_stress_from_displacement(material, H)
 }
 
-/// [`point::svd`].
+/// [`point::svd()`].
 #[inline(never)]
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
