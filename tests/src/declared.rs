@@ -8,7 +8,25 @@ use piola::Inversion;
 use piola::material::Description;
 use piola_codegen::interpret::{Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
-use piola_codegen::parse::parse;
+use piola_codegen::parse::{Declaration, parse};
+
+/// All declarations of the catalogue's sources.
+///
+/// # Errors
+/// Where a file cannot be read or its declaration is not understood; says which and why.
+pub fn declarations() -> Result<Vec<Declaration>, String> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../materials/src");
+    let mut found = Vec::new();
+    for file in std::fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))? {
+        let path = file.map_err(|error| format!("{}: {error}", folder.display()))?.path();
+        let text = |error: &dyn Display| format!("{}: {error}", path.display());
+        let source = std::fs::read_to_string(&path).map_err(|error| text(&error))?;
+        for (arguments, item) in piola_codegen::declarations(&source).map_err(|error| text(&error))? {
+            found.push(parse(arguments, item).map_err(|error| text(&error))?);
+        }
+    }
+    Ok(found)
+}
 
 /// An energy with parameters, as expressions.
 #[derive(Debug)]
@@ -26,28 +44,19 @@ impl Declared {
     /// # Errors
     /// Where it is not found or not understood; says which and why.
     pub fn read(description: &Description, values: &[&[f64]], inversion: Inversion) -> Result<Self, String> {
-        let text = |error: &dyn Display| format!("{}: {error}", description.name);
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../materials/src");
-        for file in std::fs::read_dir(&folder).map_err(|error| text(&error))? {
-            let path = file.map_err(|error| text(&error))?.path();
-            let source = std::fs::read_to_string(&path).map_err(|error| text(&error))?;
-            for (arguments, item) in piola_codegen::declarations(&source).map_err(|error| text(&error))? {
-                let declaration = parse(arguments, item).map_err(|error| text(&error))?;
-                if declaration.name != description.name {
-                    continue;
-                }
-                let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
-                let (is_extended, epsilon) = match inversion {
-                    Inversion::Refuse => (false, 0.0),
-                    Inversion::Extend { epsilon } => (true, epsilon),
-                };
-                let model = model(&declaration).map_err(|error| text(&error))?;
-                let point = Point { epsilon, ..Point::default() };
-                let declared = Self { model, lengths, point, is_extended };
-                return Ok(Self { point: declared.point(values, [1.0; 3]), ..declared });
-            }
-        }
-        Err(text(&"not declared"))
+        let declaration = declarations()?
+            .into_iter()
+            .find(|declaration| declaration.name == description.name)
+            .ok_or_else(|| format!("{}: not declared", description.name))?;
+        let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
+        let (is_extended, epsilon) = match inversion {
+            Inversion::Refuse => (false, 0.0),
+            Inversion::Extend { epsilon } => (true, epsilon),
+        };
+        let model = model(&declaration).map_err(|error| format!("{}: {error}", description.name))?;
+        let point = Point { epsilon, ..Point::default() };
+        let declared = Self { model, lengths, point, is_extended };
+        Ok(Self { point: declared.point(values, [1.0; 3]), ..declared })
     }
 
     fn point(&self, values: &[&[f64]], stretches: [f64; 3]) -> Point {

@@ -203,7 +203,7 @@ pub fn check_element(material: &impl Material, F: &Matrix3<f64>) -> Result<(), F
 
 /// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a power of a
 /// stretch, or a product of two, may leave the format though the answer does not, and it is enough that the status says so.
-pub const ORDINARY: f64 = 100.0;
+pub const ORDINARY: f64 = 30.0;
 
 /// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not [`ORDINARY`].
 ///

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use piola::Inversion;
 use piola::material::Description;
-use piola_codegen::parse::{documentation, parse};
+use piola_codegen::parse::{Declaration, documentation};
 use piola_materials::{CATALOGUE, Entry};
+use piola_tests::declared::declarations;
 
 fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../materials/src")
@@ -14,15 +15,9 @@ fn sources() -> PathBuf {
 
 /// The documentation of each energy, by name of type.
 fn documented() -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    for file in fs::read_dir(sources()).expect("the catalogue's sources") {
-        let source = fs::read_to_string(file.expect("a file").path()).expect("a source file");
-        for (arguments, item) in piola_codegen::declarations(&source).expect("Rust") {
-            let declaration = parse(arguments, item).expect("a declaration");
-            found.push((declaration.name.to_string(), documentation(&declaration.attributes)));
-        }
-    }
-    found
+    let documentation = |declaration: &Declaration| documentation(&declaration.attributes);
+    let all = declarations().expect("the catalogue's sources");
+    all.iter().map(|declaration| (declaration.name.to_string(), documentation(declaration))).collect()
 }
 
 /// The values of `mu = [1.0, 2.0], kappa = 2e7`.

@@ -1,35 +1,28 @@
 //! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives, quotients,
 //! schedule and emission at once, in `f64` and `f32`.
 
-use std::path::PathBuf;
-
 use piola::material::{Blocks, Declared, Inadmissible};
 use piola::{Inversion, Material, Real};
 use piola_codegen::expr::Id;
 use piola_codegen::interpret::{Point, Value, evaluate};
 use piola_codegen::model::{Model, Variant, Volume, model};
-use piola_codegen::parse::{Declaration, parse};
+use piola_codegen::parse::Declaration;
 use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola_tests::declared::declarations;
 
-/// The declarations of the catalogue crate, by name of type.
-fn declarations() -> Vec<(Declaration, Model)> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../materials/src");
-    let mut found = Vec::new();
-    for file in std::fs::read_dir(&folder).expect("the catalogue's sources") {
-        let source = std::fs::read_to_string(file.expect("a file").path()).expect("a source file");
-        for (arguments, item) in piola_codegen::declarations(&source).expect("Rust") {
-            let declaration = parse(arguments, item).expect("a declaration");
-            let model = model(&declaration).expect("an energy");
-            found.push((declaration, model));
-        }
-    }
-    found
+/// The declarations of the catalogue crate, understood.
+fn models() -> Vec<(Declaration, Model)> {
+    let understood = |declaration| {
+        let model = model(&declaration).expect("an energy");
+        (declaration, model)
+    };
+    declarations().expect("the catalogue's sources").into_iter().map(understood).collect()
 }
 
 #[test]
 fn the_catalogue_is_complete_and_sorted() {
     let declared: Vec<_> =
-        declarations().into_iter().map(|(declaration, _)| declaration.name.to_string()).collect();
+        models().into_iter().map(|(declaration, _)| declaration.name.to_string()).collect();
     for name in &declared {
         assert!(
             CATALOGUE.iter().any(|entry| entry.description.name == name),
@@ -49,7 +42,7 @@ fn the_catalogue_is_complete_and_sorted() {
 #[test]
 fn compiled_materials_compute_what_they_declare() {
     // What a function that is a parameter computes is unknown to the interpreter; contract and oracles judge those.
-    for (declaration, model) in declarations().into_iter().filter(|(declared, _)| !declared.has_functions()) {
+    for (declaration, model) in models().into_iter().filter(|(declared, _)| !declared.has_functions()) {
         let entry = CATALOGUE
             .iter()
             .find(|entry| declaration.name == entry.description.name)
