@@ -1,20 +1,35 @@
 //! The real numbers that every kernel and every generated material computes with.
 //!
-//! A kernel is written once over [`Real`] and instantiated for `f64` and `f32` here, for batches of them side by
-//! side, and for multiprecision types in tests. So a `Real` may be many numbers at once: there is no comparison
-//! that yields a `bool`, only masks, and no branch on a value, only [`Real::select`].
+//! A kernel is written once over [`Real`] and instantiated for `f64` and `f32`, for batches of them side by side in the
+//! registers of a processor ([`Lanes`]), and for multiprecision types in tests. So a `Real` may be many numbers at once:
+//! there is no comparison that yields a `bool`, only masks, and no branch on a value, only [`Real::select`].
 //!
-//! This module knows numbers only: no matrices, no materials.
+//! How wide the registers are is known at run time only. A [`Kernel`] is what wants to compute with lanes; a [`Backend`],
+//! AVX-512, AVX2 or portable, runs it with a type of its own. Scalars and lanes share all code above the operations of
+//! IEEE arithmetic, elementary functions included, and no number depends on its neighbours: within a back end a
+//! number gets the same bits in any lane.
+//!
+//! This module knows numbers only: no matrices, no materials. It is the only one with unsafe code.
 
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+mod array;
+mod backend;
+mod elementary;
+mod primitive;
 mod scalar;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use array::Array;
+pub use backend::{Backend, Kernel};
+pub use scalar::Element;
 
 /// A real number, or several that are computed with side by side.
 ///
 /// Operations are those of IEEE 754 arithmetic with round-to-nearest; the elementary functions are accurate to
-/// 1.5 units in the last place and give NaN outside their domain.
+/// 1.5 units in the last place, exact at 0 and ∞, and give NaN outside their domain.
 pub trait Real:
     Copy
     + Debug
@@ -30,6 +45,9 @@ pub trait Real:
     /// The result of a comparison.
     type Mask: Mask;
 
+    /// A logarithm with enough digits to make any power from it; see [`Real::logarithm`].
+    type Logarithm: Copy + Debug + Send + Sync + 'static;
+
     /// Unit roundoff u: 2⁻⁵³ for `f64`, 2⁻²⁴ for `f32`.
     const UNIT_ROUNDOFF: f64;
 
@@ -38,6 +56,11 @@ pub trait Real:
 
     /// The number nearest to `value`.
     fn splat(value: f64) -> Self;
+
+    /// One number for each lane, the nearest to `value(lane)`.
+    ///
+    /// What is a single number asks for lane 0 only.
+    fn from_fn(value: impl Fn(usize) -> f64) -> Self;
 
     /// self · factor + addend, with one rounding where the hardware has such an instruction, else with two.
     ///
@@ -48,6 +71,18 @@ pub trait Real:
     /// √self.
     #[must_use]
     fn sqrt(self) -> Self;
+    /// 1/√self to two units in the last place for a normal self > 0.
+    #[must_use]
+    #[inline(always)]
+    fn reciprocal_sqrt(self) -> Self {
+        Self::splat(1.0) / self.sqrt()
+    }
+    /// √self to 2⁻¹² for a normal self > 0, where the digits don't matter and a fast instruction exists.
+    #[must_use]
+    #[inline(always)]
+    fn rough_sqrt(self) -> Self {
+        self.sqrt()
+    }
     /// ∛self.
     #[must_use]
     fn cbrt(self) -> Self;
@@ -57,17 +92,29 @@ pub trait Real:
     /// e^self.
     #[must_use]
     fn exp(self) -> Self;
-    /// self^exponent for self > 0.
+    /// self^exponent for self ≥ 0; NaN for self < 0.
     #[must_use]
-    fn powf(self, exponent: Self) -> Self;
+    #[inline(always)]
+    fn powf(self, exponent: Self) -> Self {
+        Self::power(self.logarithm(), exponent)
+    }
+
+    /// ln self, from which powers with many exponents are made at the price of an exponential each.
+    fn logarithm(self) -> Self::Logarithm;
+    /// x^exponent from the logarithm of x.
+    #[must_use]
+    fn power(logarithm: Self::Logarithm, exponent: Self) -> Self;
+    /// ln (a/b) from the logarithms of a and b, with a relative error of 2u unless a/b is within u² |ln a| of 1.
+    #[must_use]
+    fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self;
 
     /// |self|.
     #[must_use]
     fn abs(self) -> Self;
-    /// The larger of the two; the other one where one is NaN.
+    /// The larger of the two; the other one where self is NaN.
     #[must_use]
     fn max(self, other: Self) -> Self;
-    /// The smaller of the two; the other one where one is NaN.
+    /// The smaller of the two; the other one where self is NaN.
     #[must_use]
     fn min(self, other: Self) -> Self;
     /// |self| with the sign of `sign`, that of zeros included.
@@ -91,6 +138,30 @@ pub trait Real:
     ///
     /// (1, 1) for zero and for what is not finite; subnormal numbers are brought as far as s stays finite.
     fn power_of_two_scale(self) -> (Self, Self);
+}
+
+/// Several numbers side by side: a [`Real`] that is loaded from slices and stored to them.
+pub trait Lanes: Real {
+    /// What a lane holds.
+    type Element: Element;
+
+    /// How many lanes there are.
+    const LANES: usize;
+
+    /// The first [`LANES`](Self::LANES) entries of a slice.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn load(from: &[Self::Element]) -> Self;
+
+    /// Writes the lanes into the first entries of a slice.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn store(self, to: &mut [Self::Element]);
+
+    /// The lanes in which a mask is set, as bits: lane 0 is the lowest.
+    fn bits(mask: Self::Mask) -> u64;
 }
 
 /// The result of comparing [`Real`]s: one truth value for each number.

@@ -251,9 +251,14 @@ const fn negative_power_of_two(n: usize) -> f64 {
 
 impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
     type Mask = bool;
+    type Logarithm = Self;
 
     const UNIT_ROUNDOFF: f64 = negative_power_of_two(64 * LIMBS - 8);
     const MIN_POSITIVE: f64 = f64::MIN_POSITIVE;
+
+    fn from_fn(value: impl Fn(usize) -> f64) -> Self {
+        Self::splat(value(0))
+    }
 
     fn splat(value: f64) -> Self {
         if value == 0.0 {
@@ -293,8 +298,16 @@ impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
         self.exponential()
     }
 
-    fn powf(self, exponent: Self) -> Self {
-        (exponent * self.natural_logarithm()).exponential()
+    fn logarithm(self) -> Self {
+        self.natural_logarithm()
+    }
+
+    fn power(logarithm: Self, exponent: Self) -> Self {
+        (exponent * logarithm).exponential()
+    }
+
+    fn logarithm_of_ratio(a: Self, b: Self) -> Self {
+        a - b
     }
 
     fn abs(self) -> Self {

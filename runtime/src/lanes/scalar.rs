@@ -1,6 +1,31 @@
 //! One number at a time: `f64` and `f32`.
 
-use super::{Mask, Real};
+use std::fmt::Debug;
+
+use super::primitive::Primitive;
+use super::{Backend, Kernel, Mask};
+
+/// A format of floating-point numbers: `f64` or `f32`.
+pub trait Element:
+    Primitive<Format = Self, Choice = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
+{
+    /// Unit roundoff u.
+    const UNIT_ROUNDOFF: f64;
+    /// The smallest positive normal number.
+    const MIN_POSITIVE: f64;
+    /// The largest finite number.
+    const MAX: f64;
+    /// 2ˢ + 1, where s is half the number of bits rounded up.
+    const SPLITTER: f64;
+    /// Adding and subtracting it rounds |x| ≤ 2⁵⁰ (`f32`: 2²¹) to the nearest integer.
+    const ROUNDING: f64;
+
+    /// Numbers in a cache line of 64 bytes, the group in which blocks of numbers are laid out.
+    const LINE: usize;
+
+    /// Runs a kernel with the lanes of a back end.
+    fn run<K: Kernel<Self>>(backend: Backend, kernel: K) -> K::Output;
+}
 
 impl Mask for bool {
     #[inline(always)]
@@ -15,124 +40,154 @@ impl Mask for bool {
 }
 
 macro_rules! scalar {
-    ($Real:ident, $Bits:ident, mantissa: $mantissa:literal, bias: $bias:literal, splitter: $splitter:literal) => {
-        impl Real for $Real {
-            type Mask = bool;
-
-            const UNIT_ROUNDOFF: f64 = $Real::EPSILON as f64 / 2.0;
-            const MIN_POSITIVE: f64 = $Real::MIN_POSITIVE as f64;
+    (
+        $Number:ident, $Bits:ident, $Signed:ident,
+        mantissa: $mantissa:literal, bias: $bias:literal, half_bits: $half:literal, line: $line:literal,
+        run: $run:path
+    ) => {
+        impl Element for $Number {
+            const UNIT_ROUNDOFF: f64 = $Number::EPSILON as f64 / 2.0;
+            const MIN_POSITIVE: f64 = $Number::MIN_POSITIVE as f64;
+            const MAX: f64 = $Number::MAX as f64;
+            const SPLITTER: f64 = ((1u64 << $half) + 1) as f64;
+            const ROUNDING: f64 = (3u64 << ($mantissa - 1)) as f64;
+            const LINE: usize = $line;
 
             #[inline(always)]
-            fn splat(value: f64) -> Self {
-                value as $Real
+            fn run<K: Kernel<Self>>(backend: Backend, kernel: K) -> K::Output {
+                $run(backend, kernel)
+            }
+        }
+
+        impl Primitive for $Number {
+            type Choice = bool;
+            type Format = Self;
+            const COUNT: usize = 1;
+            const IS_FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
+            #[inline(always)]
+            fn fill(value: f64) -> Self {
+                value as $Number
             }
 
             #[inline(always)]
-            fn mul_add(self, factor: Self, addend: Self) -> Self {
-                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    $Real::mul_add(self, factor, addend)
-                } else {
-                    self * factor + addend
-                }
+            fn each(value: impl Fn(usize) -> f64) -> Self {
+                value(0) as $Number
             }
 
             #[inline(always)]
-            fn sqrt(self) -> Self {
-                $Real::sqrt(self)
+            fn read(from: &[Self]) -> Self {
+                from[0]
             }
 
             #[inline(always)]
-            fn cbrt(self) -> Self {
-                $Real::cbrt(self)
+            fn write(self, to: &mut [Self]) {
+                to[0] = self;
             }
 
             #[inline(always)]
-            fn ln(self) -> Self {
-                $Real::ln(self)
+            fn choice_bits(choice: bool) -> u64 {
+                u64::from(choice)
             }
 
             #[inline(always)]
-            fn exp(self) -> Self {
-                $Real::exp(self)
+            fn fused(self, factor: Self, addend: Self) -> Self {
+                $Number::mul_add(self, factor, addend)
             }
 
             #[inline(always)]
-            fn powf(self, exponent: Self) -> Self {
-                $Real::powf(self, exponent)
+            fn root(self) -> Self {
+                $Number::sqrt(self)
             }
 
             #[inline(always)]
-            fn abs(self) -> Self {
-                $Real::abs(self)
+            fn reciprocal_root(self) -> Self {
+                1.0 / $Number::sqrt(self)
             }
 
             #[inline(always)]
-            fn max(self, other: Self) -> Self {
-                $Real::max(self, other)
+            fn rough_root(self) -> Self {
+                $Number::sqrt(self)
             }
 
             #[inline(always)]
-            fn min(self, other: Self) -> Self {
-                $Real::min(self, other)
+            fn magnitude(self) -> Self {
+                $Number::abs(self)
             }
 
             #[inline(always)]
-            fn copysign(self, sign: Self) -> Self {
-                $Real::copysign(self, sign)
+            fn larger(self, other: Self) -> Self {
+                if self > other { self } else { other }
             }
 
             #[inline(always)]
-            fn less(self, other: Self) -> bool {
+            fn smaller(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+
+            #[inline(always)]
+            fn with_sign(self, sign: Self) -> Self {
+                $Number::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn is_less(self, other: Self) -> bool {
                 self < other
             }
 
             #[inline(always)]
-            fn is_finite(self) -> bool {
-                $Real::is_finite(self)
+            fn choose(choice: bool, yes: Self, no: Self) -> Self {
+                if choice { yes } else { no }
             }
 
             #[inline(always)]
-            fn select(mask: bool, yes: Self, no: Self) -> Self {
-                if mask { yes } else { no }
+            fn split(self) -> (Self, Self) {
+                const THREE_QUARTERS: $Signed = (0.75 as $Number).to_bits() as $Signed;
+                let bits = self.to_bits() as $Signed;
+                let exponent = bits.wrapping_sub(THREE_QUARTERS) >> $mantissa;
+                let m = $Number::from_bits(bits.wrapping_sub(exponent << $mantissa) as $Bits);
+                (m, exponent as $Number)
             }
 
             #[inline(always)]
-            fn two_product(self, other: Self) -> (Self, Self) {
-                let product = self * other;
-                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    return (product, $Real::mul_add(self, other, -product));
-                }
-                // Veltkamp's splitting and Dekker's product: each half has few enough bits for exact products.
-                let split = |x: $Real| {
-                    let big = $splitter * x;
-                    let high = big - (big - x);
-                    (high, x - high)
+            fn scale(self, exponent: Self) -> Self {
+                // Two factors, since 2ᵉ itself may be out of range; the first product is exact.
+                let first = (exponent * 0.5 + Self::ROUNDING as $Number) - Self::ROUNDING as $Number;
+                let power = |e: $Number| {
+                    let biased = (e + (Self::ROUNDING as $Number + $bias as $Number)).to_bits();
+                    $Number::from_bits(biased << $mantissa)
                 };
-                let ((ah, al), (bh, bl)) = (split(self), split(other));
-                (product, al * bl - (((product - ah * bh) - al * bh) - ah * bl))
+                self * power(first) * power(exponent - first)
             }
 
             #[inline(always)]
-            fn power_of_two_scale(self) -> (Self, Self) {
-                const EXPONENT: $Bits = 2 * $bias + 1;
-                let biased = (self.to_bits() >> $mantissa) & EXPONENT;
-                if self == 0.0 || biased == EXPONENT {
-                    return (1.0, 1.0);
-                }
-                // Both 2^−e and 2^e are normal numbers for |e| ≤ bias − 1.
-                let biased = biased.clamp(1, 2 * $bias - 1);
-                ($Real::from_bits((2 * $bias - biased) << $mantissa), $Real::from_bits(biased << $mantissa))
+            fn leading_power(self) -> Self {
+                $Number::from_bits(self.to_bits() & $Number::INFINITY.to_bits())
+            }
+
+            #[inline(always)]
+            fn reciprocal_of_power(self) -> Self {
+                const TWO_BIASES: $Bits = 2 * $bias << $mantissa;
+                $Number::from_bits(TWO_BIASES.wrapping_sub(self.to_bits()))
             }
         }
     };
 }
 
-scalar!(f64, u64, mantissa: 52, bias: 1023, splitter: 134_217_729.0); // 2²⁷ + 1
-scalar!(f32, u32, mantissa: 23, bias: 127, splitter: 4097.0); // 2¹² + 1
+scalar!(
+    f64, u64, i64,
+    mantissa: 52, bias: 1023, half_bits: 27, line: 8,
+    run: super::backend::run_f64
+);
+scalar!(
+    f32, u32, i32,
+    mantissa: 23, bias: 127, half_bits: 12, line: 16,
+    run: super::backend::run_f32
+);
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::lanes::Real;
 
     #[track_caller]
     fn check_scale(x: f64, scaled: f64) {

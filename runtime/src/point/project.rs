@@ -65,8 +65,8 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     }
     let (hessian, smallest) = project_symmetric(blocks.hessian, filter);
     let quotients = || blocks.flip.into_iter().chain(blocks.twist);
-    let smallest = quotients().fold(smallest, R::min);
-    let largest = blocks.hessian.into_iter().chain(quotients()).fold(R::splat(0.0), |m, x| m.max(x.abs()));
+    let smallest = quotients().fold(smallest, |smallest, x| x.min(smallest));
+    let largest = blocks.hessian.into_iter().chain(quotients()).fold(R::splat(0.0), |m, x| x.abs().max(m));
     let filtered = smallest.less(R::splat(-16.0 * R::UNIT_ROUNDOFF) * largest);
     let projected = Blocks {
         gradient: blocks.gradient,
@@ -81,7 +81,7 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
 /// positive beyond doubt, zero.
 #[inline(always)]
 fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
-    let largest = A.into_iter().fold(R::splat(0.0), |m, x| m.max(x.abs()));
+    let largest = A.into_iter().fold(R::splat(0.0), |m, x| x.abs().max(m));
     let (scale, back) = largest.power_of_two_scale();
     let scaled = A.map(|x| x * scale);
 
@@ -93,7 +93,7 @@ fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
     }
     let (eigenvalues, Q) = eigen(scaled);
     let zero = R::splat(0.0);
-    let smallest = eigenvalues.into_iter().fold(zero, R::min);
+    let smallest = eigenvalues.into_iter().fold(zero, |smallest, x| x.min(smallest));
     let indefinite = !definite & smallest.less(zero);
 
     // Σ f(e) q qᵀ and A + Σ (f(e) − e) q qᵀ are the same; the one with the smaller sum rounds less.

@@ -159,7 +159,7 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
     let twice_E = entries.map(|(i, j)| (H[i][j] + H[j][i]) + dot(column(H, i), column(H, j)));
 
     // A power of two, which is exact, keeps the squares of the rotations from underflow.
-    let largest = twice_E.into_iter().fold(R::splat(0.0), |largest, x| largest.max(x.abs()));
+    let largest = twice_E.into_iter().fold(R::splat(0.0), |largest, x| x.abs().max(largest));
     let (scale, back) = largest.power_of_two_scale();
     let (q, mut V) = eigen(twice_E.map(|x| x * scale));
     let mut strains = q.map(|q| {

@@ -84,10 +84,10 @@ struct Scaled<R: Real> {
 impl<R: Real> Scaled<R> {
     #[inline(always)]
     fn new(F: &Matrix3<R>) -> Self {
-        let largest = F.iter().flatten().fold(R::splat(0.0), |largest, x| largest.max(x.abs()));
+        let largest = F.iter().flatten().fold(R::splat(0.0), |largest, x| x.abs().max(largest));
         let (scale, back) = largest.power_of_two_scale();
         let F = F.map(|row| row.map(|x| x * scale));
-        // Finite entries are below 4 here, so their sum cannot overflow; `max` above has dropped NaNs, a sum keeps
+        // Finite entries are below 4 here, so their sum cannot overflow; `max` above drops NaNs, a sum keeps
         // them.
         let finite = F.iter().flatten().fold(R::splat(0.0), |sum, x| sum + x.abs()).is_finite();
         Self { F, back, finite }

@@ -1,0 +1,137 @@
+//! Which instructions a kernel runs with, decided at run time.
+
+#![cfg_attr(
+    target_arch = "x86_64",
+    expect(unsafe_code, reason = "calls of functions compiled for a processor that was asked for")
+)]
+
+use std::fmt;
+
+use super::{Array, Element, Lanes};
+
+/// A computation with lanes of any back end.
+///
+/// `run` must be `#[inline(always)]`, and so must everything it does arithmetic with, because only what is inlined
+/// into the function of the back end is compiled for its instructions.
+pub trait Kernel<E: Element> {
+    /// What it computes.
+    type Output;
+
+    /// Computes with lanes of type `R`.
+    fn run<R: Lanes<Element = E>>(self) -> Self::Output;
+}
+
+/// Instructions to compute with. A value of this type says that the processor has them.
+///
+/// ```
+/// use piola::lanes::Backend;
+///
+/// let fastest = Backend::best();
+/// assert!(Backend::available().any(|backend| backend == fastest));
+/// assert!(Backend::available().any(|backend| backend.name() == "portable"));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Backend(Instructions);
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Instructions {
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    Portable,
+}
+
+impl Backend {
+    /// The fastest back end of this processor.
+    #[must_use]
+    pub fn best() -> Self {
+        Self::available().next().unwrap_or(Self::portable())
+    }
+
+    /// What every processor has: arrays of numbers, vectorised as far as the compiler does for its target.
+    #[must_use]
+    pub const fn portable() -> Self {
+        Self(Instructions::Portable)
+    }
+
+    /// The back ends of this processor, the fastest first.
+    pub fn available() -> impl Iterator<Item = Self> {
+        #[cfg(target_arch = "x86_64")]
+        let vector = [
+            is_x86_feature_detected!("avx512f")
+                .then_some(Instructions::Avx512)
+                .filter(|_| is_x86_feature_detected!("avx512dq")),
+            is_x86_feature_detected!("avx2")
+                .then_some(Instructions::Avx2)
+                .filter(|_| is_x86_feature_detected!("fma")),
+        ];
+        #[cfg(not(target_arch = "x86_64"))]
+        let vector: [Option<Instructions>; 0] = [];
+        vector.into_iter().flatten().chain([Instructions::Portable]).map(Self)
+    }
+
+    /// `AVX-512`, `AVX2` or `portable`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => "AVX-512",
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => "AVX2",
+            Instructions::Portable => "portable",
+        }
+    }
+
+    /// Runs a kernel with the lanes of this back end.
+    #[inline]
+    pub fn run<E: Element, K: Kernel<E>>(self, kernel: K) -> K::Output {
+        E::run(self, kernel)
+    }
+}
+
+impl fmt::Debug for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+macro_rules! runners {
+    ($run:ident, $Number:ident, $F512:ident, $F256:ident, portable: $portable:literal) => {
+        #[inline]
+        pub(super) fn $run<K: Kernel<$Number>>(backend: Backend, kernel: K) -> K::Output {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+                fn with_avx512<K: Kernel<$Number>>(kernel: K) -> K::Output {
+                    kernel.run::<super::x86::$F512>()
+                }
+
+                #[target_feature(enable = "avx2,fma")]
+                fn with_avx2<K: Kernel<$Number>>(kernel: K) -> K::Output {
+                    kernel.run::<super::x86::$F256>()
+                }
+
+                match backend.0 {
+                    // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
+                    Instructions::Avx512 => return unsafe { with_avx512(kernel) },
+                    // SAFETY: as above.
+                    Instructions::Avx2 => return unsafe { with_avx2(kernel) },
+                    Instructions::Portable => {}
+                }
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            let Instructions::Portable = backend.0;
+            kernel.run::<Array<$Number, $portable>>()
+        }
+    };
+}
+
+runners!(run_f64, f64, F64x8, F64x4, portable: 4);
+runners!(run_f32, f32, F32x16, F32x8, portable: 8);
