@@ -47,6 +47,7 @@
 
 extern crate self as piola;
 
+pub mod batch;
 pub mod contract;
 #[cfg(test)]
 mod hand_written;

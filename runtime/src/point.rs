@@ -73,7 +73,7 @@ pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R,
     let svd = decompose(material, F);
     let energy = material.energy(svd.stretches);
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(stretches_in_range(svd.stretches) & energy.is_finite());
+    let nonfinite = !energy_is_finite(svd.stretches, energy);
     (energy, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
@@ -84,7 +84,7 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
     let svd = decompose(material, F);
     let P = stress(&svd, material.gradient(svd.stretches));
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !(stretches_in_range(svd.stretches) & finite(P.into_iter().flatten()));
+    let nonfinite = !stress_is_finite(&svd, &P);
     (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
@@ -97,24 +97,40 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
 #[must_use]
 pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
     let svd = decompose(material, F);
-    let blocks = material.blocks(svd.stretches);
-    let P = stress(&svd, blocks.gradient);
-    let refused = !material.admits(svd.stretches);
-    let nonfinite = !(stretches_in_range(svd.stretches)
-        & finite(P.into_iter().flatten())
-        & tangent_stays_finite(&blocks));
-    let bounded = if material.has_pole() {
+    let mut point = respond(&svd, &material.blocks(svd.stretches), material.has_pole(), filter);
+    point.status.refused = !material.admits(svd.stretches);
+    point
+}
+
+/// Stress and filtered tangent from what the energy says of the stretches; refused by nobody.
+#[inline(always)]
+pub(crate) fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool, filter: Filter) -> Point<R> {
+    let P = stress(svd, blocks.gradient);
+    let nonfinite = !(stress_is_finite(svd, &P) & tangent_stays_finite(blocks));
+    let bounded = if has_pole {
         (svd.stretches[1] + svd.stretches[2]).less(pole_floor(svd.stretches))
     } else {
         R::Mask::splat(false)
     };
-    let (blocks, filtered) = project(&blocks, filter);
+    let (blocks, filtered) = project(blocks, filter);
     Point {
         stress: P,
         tangent: Tangent { U: svd.U, V: svd.V, blocks },
         filtered,
-        status: Status { refused, bounded, nonfinite },
+        status: Status { refused: R::Mask::splat(false), bounded, nonfinite },
     }
+}
+
+/// Whether stretches and energy mean something.
+#[inline(always)]
+pub(crate) fn energy_is_finite<R: Real>(stretches: [R; 3], energy: R) -> R::Mask {
+    stretches_in_range(stretches) & energy.is_finite()
+}
+
+/// Whether stretches and stress mean something.
+#[inline(always)]
+pub(crate) fn stress_is_finite<R: Real>(svd: &Svd<R>, P: &Matrix3<R>) -> R::Mask {
+    stretches_in_range(svd.stretches) & finite(P.iter().flatten().copied())
 }
 
 /// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
@@ -123,9 +139,11 @@ pub(crate) fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Sv
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
+/// Whether all are finite: each times zero is zero then, else NaN, and one comparison asks for the sum.
 #[inline(always)]
 fn finite<R: Real>(values: impl IntoIterator<Item = R>) -> R::Mask {
-    values.into_iter().fold(R::Mask::splat(true), |all, value| all & value.is_finite())
+    let zero = R::splat(0.0);
+    values.into_iter().fold(zero, |sum, value| value.mul_add(zero, sum)).is_finite()
 }
 
 /// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of the largest

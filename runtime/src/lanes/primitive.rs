@@ -41,6 +41,20 @@ pub trait Primitive:
     fn read(from: &[Self::Format]) -> Self;
     /// Into the first [`COUNT`](Self::COUNT) numbers of a slice; panics where there are fewer.
     fn write(self, to: &mut [Self::Format]);
+    /// Past the caches where `to` is aligned to the register and there is such an instruction, else as `write`.
+    #[inline(always)]
+    fn write_past_caches(self, to: &mut [Self::Format]) {
+        self.write(to);
+    }
+    /// Entry (i, j) from `from[i from_stride + j]` to `to[j to_stride + i]`, i, j < COUNT.
+    #[inline(always)]
+    fn turn(from: &[Self::Format], from_stride: usize, to: &mut [Self::Format], to_stride: usize) {
+        for i in 0..Self::COUNT {
+            for j in 0..Self::COUNT {
+                to[j * to_stride + i] = from[i * from_stride + j];
+            }
+        }
+    }
     /// The lanes in which a choice is set, lane 0 being the lowest bit.
     fn choice_bits(choice: Self::Choice) -> u64;
 
@@ -225,6 +239,16 @@ impl<P: Primitive> Lanes for P {
     #[inline(always)]
     fn store(self, to: &mut [P::Format]) {
         self.write(to);
+    }
+
+    #[inline(always)]
+    fn stream(self, to: &mut [P::Format]) {
+        self.write_past_caches(to);
+    }
+
+    #[inline(always)]
+    fn transpose(from: &[P::Format], from_stride: usize, to: &mut [P::Format], to_stride: usize) {
+        P::turn(from, from_stride, to, to_stride);
     }
 
     #[inline(always)]

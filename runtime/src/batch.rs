@@ -1,0 +1,399 @@
+//! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
+//!
+//! This is the interface for finite-element codes that have their own elements: it knows points, not meshes. A [`Batch`] says
+//! of which material, with which filter, instructions and layout of the slices; its methods are the kernels. They
+//! allocate nothing. Points go through in tiles of 64: decomposition, energy, outputs, each stage with as many points
+//! side by side as the registers hold, and what lies between the stages stays in the innermost cache.
+//!
+//! ```
+//! use piola::batch::Batch;
+//! use piola::material;
+//! use piola::point::Filter;
+//!
+//! /// Rubber.
+//! #[material(domain(J > 0.0))]
+//! fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let rubber = Rubber::new(1e6, 4e6)?;
+//! let batch = Batch { filter: Filter::Clamp, ..Batch::new(&rubber) };
+//! // Nine numbers for each of a thousand points, row by row: a simple shear.
+//! let F: Vec<f64> = [1.0, 0.2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
+//! let (mut P, mut dP_dF) = (vec![0.0; 9 * 1000], vec![0.0; 81 * 1000]);
+//! let survey = batch.tangents(&F, &mut P, &mut dP_dF)?;
+//! assert!(survey.is_clean());
+//! assert!((P[9 * 999 + 1] - 0.2e6).abs() < 1e-3);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! **Bits.** Within a back end a point's numbers are the same whatever the other points, its place, the number of points and
+//! of threads. Two back ends differ by rounding.
+//!
+//! **Status.** A point that cannot be computed is no error of a call: its numbers mean nothing, and a [`Survey`] counts such
+//! points and names the first.
+//!
+//! This module knows no sparsity and no particular material.
+
+#![expect(non_snake_case, reason = "F, P, dF, dP as in the literature")]
+
+use std::fmt;
+
+use crate::lanes::{Backend, Element};
+use crate::point::Filter;
+
+mod energy;
+mod form;
+mod jobs;
+mod sink;
+mod stage;
+mod tile;
+
+pub use energy::{Energy, TileOf};
+pub use sink::Layout;
+pub use stage::{Points, Stages};
+pub use tile::Rows;
+
+use jobs::Work;
+use sink::{Sink, Source};
+use stage::{Decompose, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
+use tile::TILE;
+
+/// A material and how to compute with it.
+#[derive(Clone, Copy)]
+pub struct Batch<'a, E> {
+    /// The material, as every [`Material`](crate::Material) is one.
+    pub energy: &'a dyn Energy<E>,
+    /// What becomes of negative eigenvalues of dP/dF.
+    pub filter: Filter,
+    /// The instructions to compute with.
+    pub backend: Backend,
+    /// How the numbers of the points lie in every slice of a call.
+    pub layout: Layout,
+    /// Whether tangents are written past the caches: about twice as fast where they are larger than the last one, and
+    /// slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes, else it does nothing.
+    pub streams: bool,
+    /// Whether the points are shared among the threads of rayon's pool.
+    pub threads: bool,
+}
+
+impl<'a, E: Stages> Batch<'a, E> {
+    /// Unfiltered, with the best instructions of this processor, point by point, on one thread.
+    #[must_use]
+    pub fn new(energy: &'a dyn Energy<E>) -> Self {
+        Self {
+            energy,
+            filter: Filter::None,
+            backend: Backend::best(),
+            layout: Layout::Points,
+            streams: false,
+            threads: false,
+        }
+    }
+
+    /// ψ, Pa, of each F. Computes no derivative.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
+        let count = self.count(&[("F", F.len(), 9), ("energies", energies.len(), 1)])?;
+        let work = Work { inputs: [(F, 9)], outputs: [(energies, 1)] };
+        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
+            let ((rows, points, values), [F], [energies]) = (tile.scratch, tile.inputs, tile.outputs);
+            self.decompose(F, rows, tile.count, points);
+            let verdict = self.energy.energies(self.tile(points, tile.start, tile.count), values);
+            energies.copy_from_slice(&values.0[0][..tile.count]);
+            Marks { refused: verdict.refused, nonfinite: verdict.nonfinite, ..Marks::default() }
+        }))
+    }
+
+    /// P, Pa: nine numbers of each F. Computes no second derivative.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
+        let count = self.count(&[("F", F.len(), 9), ("P", P.len(), 9)])?;
+        let work = Work { inputs: [(F, 9)], outputs: [(P, 9)] };
+        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
+            let ((rows, points, gradients), [F], [P]) = (tile.scratch, tile.inputs, tile.outputs);
+            self.decompose(F, rows, tile.count, points);
+            let refused = self.energy.gradients(self.tile(points, tile.start, tile.count), gradients);
+            let kernel = Stress { points, gradients, count: tile.count, P: self.sink(P) };
+            Marks { refused, ..E::stress(self.backend, kernel) }
+        }))
+    }
+
+    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 numbers of each F, row 3i+j for entry (i, j) of P and column 3k+l
+    /// for entry (k, l) of F.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+        self.respond(TangentForm::Full, F, P, ("dP_dF", dP_dF, 81))
+    }
+
+    /// As [`Batch::tangents`], of dP/dF the 45 entries on and above the diagonal, row by row.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn packed_tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+        self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
+    }
+
+    /// P, Pa, and dP/dF, filtered, as the [`FACTORS`] numbers that [`Batch::products`] starts from.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn factored_tangents(&self, F: &[E], P: &mut [E], factors: &mut [E]) -> Result<Survey, LengthError> {
+        self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
+    }
+
+    /// dP = (dP/dF) dF of each point, from what [`Batch::factored_tangents`] has written.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn products(&self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
+        let lengths = [("factors", factors.len(), FACTORS), ("dF", dF.len(), 9), ("dP", dP.len(), 9)];
+        let count = self.count(&lengths)?;
+        let work = Work { inputs: [(factors, FACTORS), (dF, 9)], outputs: [(dP, 9)] };
+        let scratch = || (Rows::zero(), Rows::zero());
+        jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
+            let ((stored, increments), [factors, dF], [dP]) = (tile.scratch, tile.inputs, tile.outputs);
+            let kernel = Product {
+                stored: Source::new(self.backend, self.layout, factors, stored),
+                dF: Source::new(self.backend, self.layout, dF, increments),
+                count: tile.count,
+                dP: self.sink(dP),
+            };
+            E::product(self.backend, kernel);
+            Marks::default()
+        });
+        Ok(())
+    }
+
+    /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
+    ///
+    /// `rest` holds [`REST`] numbers of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in
+    /// [`RestShape`](crate::mesh::RestShape); F = Ds Dm⁻¹. Of the gradients there are 12 numbers, coordinate a of node n
+    /// at 3n+a; **forces are minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a.
+    ///
+    /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of the
+    /// tangent, it is cut there, because a factorisation could not resolve more.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn stiffnesses(
+        &self,
+        F: &[E],
+        rest: &[E],
+        gradients: &mut [E],
+        stiffnesses: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.respond_elements(StiffnessForm::Full, F, rest, gradients, (stiffnesses, 144))
+    }
+
+    /// As [`Batch::stiffnesses`], of each stiffness the 78 entries on and above the diagonal, row by row.
+    ///
+    /// # Errors
+    /// Where the lengths of the slices do not fit together.
+    pub fn packed_stiffnesses(
+        &self,
+        F: &[E],
+        rest: &[E],
+        gradients: &mut [E],
+        stiffnesses: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.respond_elements(StiffnessForm::Packed, F, rest, gradients, (stiffnesses, 78))
+    }
+
+    fn respond(
+        &self,
+        form: TangentForm,
+        F: &[E],
+        P: &mut [E],
+        (name, tangents, numbers): (&'static str, &mut [E], usize),
+    ) -> Result<Survey, LengthError> {
+        let lengths = [("F", F.len(), 9), ("P", P.len(), 9), (name, tangents.len(), numbers)];
+        let count = self.count(&lengths)?;
+        let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
+        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
+            let ((rows, points, blocks), [F], [P, tangents]) = (tile.scratch, tile.inputs, tile.outputs);
+            self.decompose(F, rows, tile.count, points);
+            let refused = self.energy.blocks(self.tile(points, tile.start, tile.count), blocks);
+            let kernel = Respond {
+                points,
+                blocks,
+                rest: Source::Rows(&Rows([])),
+                count: tile.count,
+                filter: self.filter,
+                has_pole: self.energy.has_pole(),
+                first: self.sink(P),
+                second: self.sink(tangents),
+            };
+            Marks { refused, ..E::tangent(self.backend, form, kernel) }
+        }))
+    }
+
+    fn respond_elements(
+        &self,
+        form: StiffnessForm,
+        F: &[E],
+        rest: &[E],
+        gradients: &mut [E],
+        (stiffnesses, numbers): (&mut [E], usize),
+    ) -> Result<Survey, LengthError> {
+        let count = self.count(&[
+            ("F", F.len(), 9),
+            ("rest", rest.len(), REST),
+            ("gradients", gradients.len(), 12),
+            ("stiffnesses", stiffnesses.len(), numbers),
+        ])?;
+        let work =
+            Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
+        let scratch = || (Rows::zero(), Rows::zero(), Points::new(), Rows::zero());
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
+            let (rows, shapes, points, blocks) = tile.scratch;
+            let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
+            self.decompose(F, rows, tile.count, points);
+            let refused = self.energy.blocks(self.tile(points, tile.start, tile.count), blocks);
+            let kernel = Respond {
+                points,
+                blocks,
+                rest: Source::new(self.backend, self.layout, rest, shapes),
+                count: tile.count,
+                filter: self.filter,
+                has_pole: self.energy.has_pole(),
+                first: self.sink(gradients),
+                second: self.sink(stiffnesses),
+            };
+            Marks { refused, ..E::stiffness(self.backend, form, kernel) }
+        }))
+    }
+
+    fn decompose(&self, F: &[E], rows: &mut Rows<E, 9>, count: usize, points: &mut Points<E>) {
+        let F = Source::new(self.backend, self.layout, F, rows);
+        let is_signed = self.energy.ends_at_zero_volume();
+        E::decompose(self.backend, Decompose { F, count, is_signed, points });
+    }
+
+    fn tile<'t>(&self, points: &'t Points<E>, start: usize, count: usize) -> TileOf<'t, E> {
+        TileOf { backend: self.backend, start, count, stretches: &points.stretches }
+    }
+
+    fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, stream: self.streams }
+    }
+
+    /// The number of points of slices that must all have as many.
+    fn count(&self, slices: &[(&'static str, usize, usize)]) -> Result<usize, LengthError> {
+        let (_, length, numbers) = slices[0];
+        let group = match self.layout {
+            Layout::Points => 1,
+            Layout::Lines => E::LINE,
+        };
+        let count = length / numbers / group * group;
+        let misfit = slices.iter().find(|(_, length, numbers)| *length != count * numbers);
+        match misfit {
+            None => Ok(count),
+            Some(&(slice, found, numbers)) => {
+                Err(LengthError { slice, found, numbers, points: count, group })
+            }
+        }
+    }
+}
+
+/// Numbers of a point that [`Batch::factored_tangents`] writes: U, V, the Hessian in the stretches, flips, twists.
+pub const FACTORS: usize = 30;
+
+/// Numbers of an element's rest shape: Dm⁻¹ row by row, the volume.
+pub const REST: usize = 10;
+
+/// What a call says of its points beside their numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// How many lie outside the domain of the energy.
+    pub refused: usize,
+    /// How many are at a pole of the tangent, which got a bounded value.
+    pub bounded: usize,
+    /// How many have an infinite or NaN deformation or result, or one within a factor 16 of it.
+    pub nonfinite: usize,
+    /// Of how many the filter changed the tangent.
+    pub filtered: usize,
+    /// The first that is refused or not finite.
+    pub first: Option<usize>,
+}
+
+impl Survey {
+    /// Of no points.
+    const NONE: Self = Self { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None };
+
+    /// Whether the numbers of every point mean something.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.refused == 0 && self.nonfinite == 0
+    }
+
+    /// Of the points of a tile, the first of which is number `start`.
+    fn of(marks: &Marks, start: usize) -> Self {
+        let count = |bits: u64| bits.count_ones() as usize;
+        let bad = marks.refused | marks.nonfinite;
+        Self {
+            refused: count(marks.refused),
+            bounded: count(marks.bounded),
+            nonfinite: count(marks.nonfinite),
+            filtered: count(marks.filtered),
+            first: (bad != 0).then(|| start + bad.trailing_zeros() as usize),
+        }
+    }
+
+    /// Of these points and those that follow them.
+    fn and(self, next: Self) -> Self {
+        Self {
+            refused: self.refused + next.refused,
+            bounded: self.bounded + next.bounded,
+            nonfinite: self.nonfinite + next.nonfinite,
+            filtered: self.filtered + next.filtered,
+            first: self.first.or(next.first),
+        }
+    }
+}
+
+/// Slices whose lengths do not fit together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthError {
+    /// The slice that does not fit, as the method calls it.
+    pub slice: &'static str,
+    /// Its length.
+    pub found: usize,
+    /// Numbers that it holds for each point.
+    pub numbers: usize,
+    /// How many points there are.
+    pub points: usize,
+    /// The layout wants a multiple of this many points.
+    pub group: usize,
+}
+
+impl fmt::Display for LengthError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { slice, found, numbers, points, group } = self;
+        write!(
+            f,
+            "`{slice}` has {found} numbers; {points} points of {numbers} numbers each would make {}",
+            points * numbers
+        )?;
+        if *group > 1 {
+            write!(f, ", and the layout in lines wants a multiple of {group} points")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for LengthError {}
+
+#[cfg(test)]
+mod tests;

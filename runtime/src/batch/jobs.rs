@@ -1,0 +1,88 @@
+//! The tiles of a call, one after the other or shared among threads.
+
+use super::Survey;
+use super::stage::Marks;
+use super::tile::TILE;
+use crate::lanes::Element;
+
+/// Tiles that one thread takes without a further division: enough to pay for handing them over.
+const GRAIN: usize = 8;
+
+/// Slices of a call, each with how many numbers it holds for a point.
+pub(super) struct Work<'a, E, const I: usize, const O: usize> {
+    pub(super) inputs: [(&'a [E], usize); I],
+    pub(super) outputs: [(&'a mut [E], usize); O],
+}
+
+impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
+    /// The first `tiles` tiles, and the rest.
+    fn split(self, tiles: usize) -> (Self, Self) {
+        let mut later_inputs = [(&[][..], 0); I];
+        let inputs = std::array::from_fn(|k| {
+            let (slice, numbers) = self.inputs[k];
+            let (first, later) = slice.split_at(slice.len().min(tiles * TILE * numbers));
+            later_inputs[k] = (later, numbers);
+            (first, numbers)
+        });
+        let mut later_outputs = std::array::from_fn(|_| (&mut [][..], 0));
+        let mut places = later_outputs.iter_mut();
+        let outputs = self.outputs.map(|(slice, numbers)| {
+            let length = slice.len().min(tiles * TILE * numbers);
+            let (first, later) = slice.split_at_mut(length);
+            if let Some(place) = places.next() {
+                *place = (later, numbers);
+            }
+            (first, numbers)
+        });
+        (Self { inputs, outputs }, Self { inputs: later_inputs, outputs: later_outputs })
+    }
+}
+
+/// A tile of a call.
+pub(super) struct Tile<'a, E, S, const I: usize, const O: usize> {
+    /// What lies between the stages, for any tile.
+    pub(super) scratch: &'a mut S,
+    /// Number of the first point.
+    pub(super) start: usize,
+    /// How many points.
+    pub(super) count: usize,
+    pub(super) inputs: [&'a [E]; I],
+    pub(super) outputs: [&'a mut [E]; O],
+}
+
+/// Runs `body` for each tile of `count` points and adds up what it says, in the order of the points.
+pub(super) fn for_each_tile<E: Element, S, const I: usize, const O: usize>(
+    work: Work<'_, E, I, O>,
+    points: std::ops::Range<usize>,
+    threads: bool,
+    scratch: &(impl Fn() -> S + Sync),
+    body: &(impl Fn(Tile<'_, E, S, I, O>) -> Marks + Sync),
+) -> Survey {
+    let tiles = points.len().div_ceil(TILE);
+    if threads && tiles > GRAIN {
+        let half = tiles / 2;
+        let middle = points.start + half * TILE;
+        let (first, later) = work.split(half);
+        let (first, later) = rayon::join(
+            || for_each_tile(first, points.start..middle, threads, scratch, body),
+            || for_each_tile(later, middle..points.end, threads, scratch, body),
+        );
+        return first.and(later);
+    }
+    let mut scratch = scratch();
+    let mut survey = Survey::NONE;
+    let mut rest = work;
+    for start in points.clone().step_by(TILE) {
+        let (tile, later) = rest.split(1);
+        rest = later;
+        let marks = body(Tile {
+            scratch: &mut scratch,
+            start,
+            count: TILE.min(points.end - start),
+            inputs: tile.inputs.map(|(slice, _)| slice),
+            outputs: tile.outputs.map(|(slice, _)| slice),
+        });
+        survey = survey.and(Survey::of(&marks, start));
+    }
+    survey
+}

@@ -1,0 +1,159 @@
+//! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
+
+use super::tile::{Rows, TILE};
+use crate::lanes::{Backend, Element, Kernel, Lanes};
+
+/// How N numbers of each of many points lie in a slice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Point by point: number k of point p at p N + k. Lanes are transposed in registers.
+    #[default]
+    Points,
+    /// In lines of [`LINE`](Element::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number k of point p
+    /// at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a multiple of L: fill the last
+    /// line up with identities.
+    Lines,
+}
+
+impl Layout {
+    /// Where number k of a point is.
+    #[must_use]
+    pub fn index<E: Element>(self, point: usize, numbers: usize, k: usize) -> usize {
+        match self {
+            Self::Points => point * numbers + k,
+            Self::Lines => (point / E::LINE * numbers + k) * E::LINE + point % E::LINE,
+        }
+    }
+}
+
+/// N numbers of each point of a tile, where lanes can load them.
+#[derive(Clone, Copy)]
+pub(super) enum Source<'a, E, const N: usize> {
+    /// As they lie in a slice of [`Layout::Lines`].
+    Lines(&'a [E]),
+    /// Turned by [`turn`].
+    Rows(&'a Rows<E, N>),
+}
+
+impl<'a, E: Element, const N: usize> Source<'a, E, N> {
+    /// From a tile's part of a slice; `rows` is where points are turned to.
+    pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], rows: &'a mut Rows<E, N>) -> Self {
+        match layout {
+            Layout::Lines => Self::Lines(from),
+            Layout::Points => {
+                backend.run(Turn { from, rows: &mut *rows });
+                Self::Rows(rows)
+            }
+        }
+    }
+
+    /// The numbers of the points from `at` on.
+    #[inline(always)]
+    pub(super) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
+        match self {
+            Self::Rows(rows) => rows.get_all(at),
+            Self::Lines(from) => {
+                let from = &from[at / E::LINE * N * E::LINE + at % E::LINE..];
+                std::array::from_fn(|k| R::load(&from[k * E::LINE..]))
+            }
+        }
+    }
+}
+
+/// Into the rows of a tile from a slice of points.
+struct Turn<'a, E, const N: usize> {
+    from: &'a [E],
+    rows: &'a mut Rows<E, N>,
+}
+
+impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) {
+        let Self { from, rows } = self;
+        let count = from.len() / N;
+        let whole = if N < R::LANES { 0 } else { count - count % R::LANES };
+        let mut at = 0;
+        while at < whole {
+            for k in starts::<R, N>() {
+                let to = &mut rows.0.as_flattened_mut()[k * TILE + at..];
+                R::transpose(&from[at * N + k..], N, to, TILE);
+            }
+            at += R::LANES;
+        }
+        for (point, numbers) in from.chunks_exact(N).enumerate().skip(whole) {
+            for (row, number) in rows.0.iter_mut().zip(numbers) {
+                row[point] = *number;
+            }
+        }
+    }
+}
+
+/// First numbers of the square tiles that cover N numbers: the last one overlaps where N is no multiple.
+#[inline(always)]
+fn starts<R: Lanes, const N: usize>() -> impl Iterator<Item = usize> {
+    (0..N.div_ceil(R::LANES)).map(|tile| (tile * R::LANES).min(N - R::LANES))
+}
+
+/// Where the numbers of a tile go.
+pub(super) struct Sink<'a, E> {
+    /// The part of the slice that belongs to the tile.
+    pub(super) to: &'a mut [E],
+    pub(super) layout: Layout,
+    /// Past the caches, with non-temporal stores.
+    pub(super) stream: bool,
+}
+
+/// Numbers of one line on their way to a slice that cannot take them as they come.
+#[repr(C, align(64))]
+pub(super) struct Scratch<E, const N: usize>([[E; 16]; N]);
+
+impl<E: Element, const N: usize> Scratch<E, N> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self([[E::default(); 16]; N])
+    }
+}
+
+impl<E: Element> Sink<'_, E> {
+    /// Runs `body` with the place for the N numbers of the points from `at` on: number k belongs at k LINE.
+    ///
+    /// `count` is how many points the tile has.
+    #[inline(always)]
+    pub(super) fn put<R: Lanes<Element = E>, const N: usize>(
+        &mut self,
+        scratch: &mut Scratch<E, N>,
+        at: usize,
+        count: usize,
+        body: impl FnOnce(&mut [E]),
+    ) {
+        let offset = at % E::LINE;
+        let line = at / E::LINE;
+        if self.layout == Layout::Lines && !self.stream {
+            return body(&mut self.to[line * N * E::LINE + offset..]);
+        }
+        let scratch = scratch.0.as_flattened_mut();
+        body(&mut scratch[offset..]);
+        if self.layout == Layout::Lines {
+            let to = &mut self.to[line * N * E::LINE..];
+            for k in 0..N {
+                let start = k * E::LINE + offset;
+                R::load(&scratch[start..]).stream(&mut to[start..]);
+            }
+            return;
+        }
+        let to = &mut self.to[at * N..];
+        if N >= R::LANES && at + R::LANES <= count {
+            for k in starts::<R, N>() {
+                R::transpose(&scratch[k * E::LINE + offset..], E::LINE, &mut to[k..], N);
+            }
+        } else {
+            for (lane, numbers) in to.chunks_exact_mut(N).take(R::LANES).enumerate() {
+                for (k, number) in numbers.iter_mut().enumerate() {
+                    *number = scratch[k * E::LINE + offset + lane];
+                }
+            }
+        }
+    }
+}

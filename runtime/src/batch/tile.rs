@@ -1,0 +1,63 @@
+//! Tiles: the numbers of 64 points, number by number, small enough to stay in the innermost cache.
+//!
+//! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as it is. A tile
+//! that is not full is padded with copies of nothing in particular: no lane looks at another.
+
+use crate::lanes::{Element, Lanes};
+
+/// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
+pub(crate) const TILE: usize = 64;
+
+/// N numbers of each point of a tile.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Rows<E, const N: usize>(pub(crate) [[E; TILE]; N]);
+
+impl<E: Element, const N: usize> Rows<E, N> {
+    pub(crate) fn zero() -> Self {
+        Self([[E::default(); TILE]; N])
+    }
+
+    /// Number k of the points from `at` on.
+    #[inline(always)]
+    pub(crate) fn get<R: Lanes<Element = E>>(&self, k: usize, at: usize) -> R {
+        R::load(&self.0[k][at..])
+    }
+
+    /// All numbers of the points from `at` on.
+    #[inline(always)]
+    pub(crate) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
+        std::array::from_fn(|k| self.get(k, at))
+    }
+
+    #[inline(always)]
+    pub(crate) fn set<R: Lanes<Element = E>>(&mut self, k: usize, at: usize, value: R) {
+        value.store(&mut self.0[k][at..]);
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_all<R: Lanes<Element = E>>(&mut self, at: usize, values: [R; N]) {
+        for (k, value) in values.into_iter().enumerate() {
+            self.set(k, at, value);
+        }
+    }
+}
+
+/// Calls `body(at)` for each group of LANES points of a tile that holds one of the first `count`.
+#[inline(always)]
+pub(crate) fn for_each_group<R: Lanes>(count: usize, mut body: impl FnMut(usize)) {
+    let mut at = 0;
+    while at < count {
+        // Always true, since the lanes of every back end divide the tile; said for the bounds checks' sake.
+        if at + R::LANES <= TILE {
+            body(at);
+        }
+        at += R::LANES;
+    }
+}
+
+/// The lowest `count` bits.
+#[inline]
+pub(crate) fn first_bits(count: usize) -> u64 {
+    if count >= 64 { u64::MAX } else { (1 << count) - 1 }
+}
