@@ -56,6 +56,8 @@ pub fn to_nalgebra<R: Real + nalgebra::Scalar>(matrix: &Matrix3<R>) -> nalgebra:
 /// Stress and tangent at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point<R: Real> {
+    /// The principal stretches λ1 ≥ λ2 ≥ |λ3| of F.
+    pub stretches: [R; 3],
     /// First Piola stress P, Pa.
     pub stress: Matrix3<R>,
     /// dP/dF, filtered as asked, Pa.
@@ -64,6 +66,15 @@ pub struct Point<R: Real> {
     pub filtered: R::Mask,
     /// Whether the numbers mean anything.
     pub status: Status<R::Mask>,
+}
+
+impl<R: Real> Point<R> {
+    /// The decomposition of F that stress and tangent were made with.
+    #[inline(always)]
+    #[must_use]
+    pub fn decomposition(&self) -> Svd<R> {
+        Svd { U: self.tangent.U, stretches: self.stretches, V: self.tangent.V }
+    }
 }
 
 /// The energy density ψ(F), Pa, and its status. Computes no derivative.
@@ -114,6 +125,7 @@ pub(crate) fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool,
     };
     let (blocks, filtered) = project(blocks, filter);
     Point {
+        stretches: svd.stretches,
         stress: P,
         tangent: Tangent { U: svd.U, V: svd.V, blocks },
         filtered,
