@@ -36,7 +36,7 @@
 //! * [`lanes`]: the real numbers everything is generic over;
 //! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
 //! * [`univariate`]: curves as parameters of an energy;
-//! * [`point`]: F to P and dP/dF through a signed singular value decomposition;
+//! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
 //! * [`mesh`]: tetrahedra, their files, embedded surfaces;
 //! * [`system`]: forces, stiffness and their sparse assembly, pins, factorisation;

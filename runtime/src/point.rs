@@ -3,8 +3,9 @@
 //! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames
 //! carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames
 //! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly deform start
-//! from the displacement gradient F − I instead ([`small_strain`]). Everything is generic over the real type, and what
-//! cannot be computed is said in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! from the displacement gradient F − I instead ([`small_strain`]), and codes that have their own elements find other
+//! [`measures`] of stress here, with their tangents. Everything is generic over the real type, and what cannot be
+//! computed is said in a [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
 //! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a
@@ -20,6 +21,7 @@ use crate::quotient::pole_floor;
 
 pub mod gradient;
 pub(crate) mod matrix;
+pub mod measures;
 pub mod project;
 pub mod small_strain;
 pub mod stress;

@@ -159,7 +159,7 @@ impl<R: Real> Blocks<R> {
 
     /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 of a pair.
     #[inline(always)]
-    fn straight_and_crossed(&self, pair: usize) -> (R, R) {
+    pub(super) fn straight_and_crossed(&self, pair: usize) -> (R, R) {
         let half = R::splat(0.5);
         let (flip, twist) = (half * self.flip[pair], half * self.twist[pair]);
         (flip + twist, flip - twist)

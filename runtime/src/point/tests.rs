@@ -8,6 +8,7 @@ use crate::random::Random;
 mod differences;
 mod filters;
 mod lanes;
+mod measures;
 mod small_strain;
 mod statuses;
 
@@ -83,7 +84,7 @@ fn in_the_world(U: &Matrix3<f64>, W: &Matrix3<f64>, A: &[[f64; 9]; 9]) -> [[f64;
     })
 }
 
-fn difference(A: &[[f64; 9]; 9], B: &[[f64; 9]; 9]) -> f64 {
+fn difference<const N: usize>(A: &[[f64; N]; N], B: &[[f64; N]; N]) -> f64 {
     norm(A.iter().flatten().zip(B.iter().flatten()).map(|(a, b)| a - b).collect::<Vec<_>>().iter())
 }
 

@@ -5,7 +5,12 @@ use super::*;
 /// Checks that (f(h) − f(−h))/2h tends to `derivative` as h² does, with a floor of `rounding`/h from the rounding
 /// of f.
 #[track_caller]
-fn check_slope<const N: usize>(f: impl Fn(f64) -> [f64; N], derivative: [f64; N], rounding: f64, what: &str) {
+pub(super) fn check_slope<const N: usize>(
+    f: impl Fn(f64) -> [f64; N],
+    derivative: [f64; N],
+    rounding: f64,
+    what: &str,
+) {
     let error = |h: f64| {
         let (ahead, behind) = (f(h), f(-h));
         let errors: [f64; N] = std::array::from_fn(|k| (ahead[k] - behind[k]) / (2.0 * h) - derivative[k]);
@@ -22,7 +27,7 @@ fn check_slope<const N: usize>(f: impl Fn(f64) -> [f64; N], derivative: [f64; N]
     }
 }
 
-fn flat(A: &Matrix3<f64>) -> [f64; 9] {
+pub(super) fn flat(A: &Matrix3<f64>) -> [f64; 9] {
     std::array::from_fn(|k| A[k / 3][k % 3])
 }
 

@@ -1,5 +1,6 @@
 //! Two numbers side by side: the kernels compile over them, and give each the bits it would get alone.
 
+use super::measures::every_number;
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
 use crate::lanes::{Array, Lanes};
@@ -32,14 +33,18 @@ fn check(material: &impl Material, pair: [&Matrix3<f64>; 2], filter: Filter) {
 #[track_caller]
 fn compare(alone: [Point<f64>; 2], both: &Point<Two>) {
     let both_dP_dF = both.tangent.to_matrix();
+    let both_numbers = every_number(both);
     for (k, alone) in alone.into_iter().enumerate() {
         let stress = alone.stress.iter().flatten().zip(both.stress.iter().flatten());
         let dP_dF = alone.tangent.to_matrix();
         let tangent = dP_dF.iter().flatten().zip(both_dP_dF.iter().flatten());
-        for (alone, both) in stress.chain(tangent) {
-            let same =
-                alone.to_bits() == parts(*both)[k].to_bits() || (alone.is_nan() && parts(*both)[k].is_nan());
-            assert!(same, "{alone:e} became {:e} in {both:?}", parts(*both)[k]);
+        let stretches = alone.stretches.iter().zip(&both.stretches);
+        let numbers = every_number(&alone);
+        let measures = numbers.iter().zip(&both_numbers);
+        for (alone, both) in stress.chain(tangent).chain(stretches).chain(measures) {
+            let both = parts(*both)[k];
+            let same = alone.to_bits() == both.to_bits() || (alone.is_nan() && both.is_nan());
+            assert!(same, "{alone:e} became {both:e}");
         }
         assert_eq!(alone.filtered, is_set(both.filtered, k));
         assert_eq!(alone.status.bounded, is_set(both.status.bounded, k));

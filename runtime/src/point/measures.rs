@@ -1,0 +1,254 @@
+//! Stresses and tangents as engineering codes want them: S and dS/dE, τ, σ and the spatial tangents.
+//!
+//! A code that has its own elements seldom asks for P and dP/dF. A total Lagrangian one wants the second
+//! Piola–Kirchhoff stress S = F⁻¹P and the material tangent dS/dE, an updated one the Cauchy stress σ and a spatial
+//! tangent. They are made here from what a point knows already, its decomposition F = U diag(λ) Vᵀ and the
+//! [`Blocks`] of its energy: F is never inverted, and no tensor pushed forward by four sums. Tangents are 6×6, in
+//! the notation of [`voigt`].
+//!
+//! ```
+//! use piola::point::measures::{cauchy, jaumann_tangent, material_tangent, second_piola, spatial_tangent, voigt};
+//! use piola::point::{Filter, evaluate};
+//!
+//! /// Rubber.
+//! #[piola::material(domain(J > 0.0))]
+//! fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let (mu, lambda) = (1e6, 4e6);
+//! let rubber = Rubber::new(mu, lambda)?;
+//! // Simple shear by 0.5 leaves the volume: J = 1.
+//! let F: [[f64; 3]; 3] = [[1.0, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let point = evaluate(&rubber, &F, Filter::None);
+//! let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
+//! let check = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9 * lambda);
+//!
+//! // On paper σ = (μ (FFᵀ − I) + λ ln J I)/J.
+//! let stress = voigt::from_stress(&cauchy(&svd, blocks.gradient));
+//! for (found, expected) in stress.into_iter().zip([0.25 * mu, 0.0, 0.0, 0.0, 0.0, 0.5 * mu]) {
+//!     check(found, expected);
+//! }
+//!
+//! // On paper c is Hooke's law with λ/J and (μ − λ ln J)/J.
+//! let c = spatial_tangent(&svd, blocks);
+//! check(c[0][0], lambda + 2.0 * mu);
+//! check(c[0][1], lambda);
+//! check(c[5][5], mu);
+//! // DDSDDE of Abaqus has half of σ11 + σ22 in addition.
+//! check(jaumann_tangent(&svd, blocks)[5][5], mu + 0.125 * mu);
+//!
+//! // A little more shear, dF = 10⁻⁶ e1 ⊗ e2, is dE = (Fᵀ dF + dFᵀ F)/2 and changes S by dS/dE times that.
+//! let more = [[1.0, 0.5 + 1e-6, 0.0], F[1], F[2]];
+//! let S = |F| {
+//!     let point = evaluate(&rubber, F, Filter::None);
+//!     voigt::from_stress(&second_piola(&point.decomposition(), point.tangent.blocks.gradient))
+//! };
+//! let dE = voigt::from_strain(&[[0.0, 0.5e-6, 0.0], [0.5e-6, 0.5e-6, 0.0], [0.0; 3]]);
+//! let dS_dE = material_tangent(&svd, blocks);
+//! for (row, (after, before)) in dS_dE.iter().zip(S(&more).into_iter().zip(S(&F))) {
+//!     let change: f64 = row.iter().zip(dE).map(|(C, e)| C * e).sum();
+//!     assert!((after - before - change).abs() < 1e-11 * lambda);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # What each of them is
+//!
+//! With J = det F, the Green strain E = (FᵀF − I)/2, and L = dF F⁻¹ = ε + ω, its symmetric and antisymmetric parts:
+//!
+//! ```text
+//! S = F⁻¹P = ∂ψ/∂E            dS = dS/dE : dE
+//! τ = P Fᵀ = F S Fᵀ           dτ − L τ − τ Lᵀ = J c : ε
+//! σ = τ/J                     dτ − ω τ + τ ω  = J c° : ε
+//! ```
+//!
+//! All of them are symmetric and in Pa. The *spatial tangent* c is the push-forward of dS/dE, by deformed volume:
+//!
+//! ```text
+//! c_ijkl = 1/J F_ip F_jq F_kr F_ls (dS/dE)_pqrs
+//! ```
+//!
+//! It belongs to the Lie derivative of τ, which is J times the Truesdell rate of σ. To the Jaumann rate of τ belongs
+//!
+//! ```text
+//! c°_ijkl = c_ijkl + ½ (δik σjl + δil σjk + δjk σil + δjl σik)
+//! ```
+//!
+//! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material under
+//! the name DDSDDE. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I, which is not symmetric.)
+//!
+//! # In the principal frames
+//!
+//! [`tangent`](super::tangent) derives how F and P change there: with dF̂ = Uᵀ dF V, the Hessian ψij takes the
+//! diagonal entries of dF̂ to those of Uᵀ dP V, and a, b do it for each pair. S is Vᵀ S V = diag(si) with si = ψi/λi,
+//! and dE is, with Λ = diag(λ),
+//!
+//! ```text
+//! dÊ = Vᵀ dE V = (Λ dF̂ + dF̂ᵀ Λ)/2:      dÊii = λi dF̂ii,      2 dÊij = λi dF̂ij + λj dF̂ji.
+//! ```
+//!
+//! From P = F S comes Uᵀ dP V = dF̂ diag(s) + Λ dŜ, where dŜ = Vᵀ dS V.
+//!
+//! **The diagonal.** Σj ψij dF̂jj = si dF̂ii + λi dŜii, therefore
+//!
+//! ```text
+//! dŜii = Σj (ψij − δij si)/(λi λj) dÊjj.
+//! ```
+//!
+//! **A pair.** a dF̂ij + b dF̂ji = sj dF̂ij + λi dŜij. By definition a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 satisfy ψj =
+//! a λj − b λi, hence a − sj = b λi/λj, and
+//!
+//! ```text
+//! dŜij = b/(λi λj) (λi dF̂ij + λj dF̂ji) = b/(λi λj) 2 dÊij.
+//! ```
+//!
+//! Textbooks give this modulus as (si − sj)/(λi² − λj²), with a limit for equal stretches \[Hol00\]. It is the same
+//! number, but here without the gap, since flip and twist come without one.
+//!
+//! **Together.** Pushing forward multiplies by one stretch for each index and puts U in the place of V; most of the
+//! division by J = λi λj λk then cancels. For i, j, k all different:
+//!
+//! ```text
+//!            stress       iiii                     iijj           ijij                             frame
+//! S, dS/dE   ψi/λi        (ψii − ψi/λi)/λi²        ψij/(λi λj)    bij/(λi λj)                      V
+//! σ, c       ψi/(λj λk)   (λi ψii − ψi)/(λj λk)    ψij/λk         bij/λk                           U
+//! σ, c°      ψi/(λj λk)   (λi ψii + ψi)/(λj λk)    ψij/λk         aij (λi/λj + λj/λi)/(2 λk)       U
+//! ```
+//!
+//! Components that the symmetries don't give are zero. The last shear is bij/λk + (σi + σj)/2.
+//!
+//! # What floating point does here
+//!
+//! Stresses and tangents are exactly symmetric: each number is computed once. Nothing cancels in a stress, however
+//! near or far apart the stretches are. In the tangents ψii ∓ ψi/λi and D⁻ ± D⁺ may cancel; of either remains an
+//! error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as the table says and
+//! turned into the world, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c and c°.
+//!
+//! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters, τ = P +
+//! P Hᵀ keeps the digits of [`evaluate_stress_from_displacement`](super::evaluate_stress_from_displacement).
+//!
+//! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the range, the
+//! results are what division gives, infinity and NaN included; the status of the point does not speak for them.
+//! Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
+//!
+//! **Filters.** The tangents are derivatives if the blocks are: those of [`Filter::None`](super::Filter::None). A
+//! filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is no longer the sum of a part with S and one that
+//! E alone decides, and behind it is no dS/dE. Of filtered blocks these functions make symmetric matrices that are
+//! no derivative and need not be semidefinite; for a semidefinite element stiffness, [`contract`](super::contract)
+//! the filtered blocks instead.
+//!
+//! This module knows no particular material and no mesh.
+//!
+//! \[Hol00\] Holzapfel, *Nonlinear Solid Mechanics*, 2000.
+
+#![expect(non_snake_case, reason = "Q, and F, S, E, U, V as in the essay above")]
+
+use super::Matrix3;
+use super::matrix::dot;
+use super::svd::Svd;
+use crate::lanes::Real;
+use crate::material::{Blocks, PAIRS};
+
+pub mod voigt;
+
+use voigt::{Matrix6, ORDER, Principal};
+
+/// The second Piola–Kirchhoff stress S = F⁻¹P = V diag(ψi/λi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
+#[inline(always)]
+#[must_use]
+pub fn second_piola<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
+    symmetric(&svd.V, std::array::from_fn(|i| gradient[i] / svd.stretches[i]))
+}
+
+/// The Kirchhoff stress τ = P Fᵀ = U diag(λi ψi) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
+///
+/// Divides by nothing: finite also where F is singular.
+#[inline(always)]
+#[must_use]
+pub fn kirchhoff<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
+    symmetric(&svd.U, std::array::from_fn(|i| gradient[i] * svd.stretches[i]))
+}
+
+/// The Cauchy stress σ = P Fᵀ/J = U diag(ψi/(λj λk)) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
+#[inline(always)]
+#[must_use]
+pub fn cauchy<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
+    let areas = areas(svd.stretches);
+    symmetric(&svd.U, std::array::from_fn(|i| gradient[i] / areas[i]))
+}
+
+/// The material tangent dS/dE, Pa, for unfiltered blocks.
+///
+/// Exactly symmetric. Takes an increment of E, as [`voigt::from_strain`] stores it, to one of S.
+#[inline(always)]
+#[must_use]
+pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let l = svd.stretches;
+    let products = PAIRS.map(|(i, j)| l[i] * l[j]);
+    let principal = Principal {
+        diagonal: std::array::from_fn(|i| (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
+        mixed: std::array::from_fn(|pair| hessian[3 + pair] / products[pair]),
+        shear: std::array::from_fn(|pair| blocks.straight_and_crossed(pair).1 / products[pair]),
+    };
+    principal.to_world(&svd.V)
+}
+
+/// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed volume.
+///
+/// Exactly symmetric. Takes ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as seen by an
+/// observer that deforms with the body.
+#[inline(always)]
+#[must_use]
+pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let (l, areas) = (svd.stretches, areas(svd.stretches));
+    let principal = Principal {
+        diagonal: std::array::from_fn(|i| l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
+        mixed: std::array::from_fn(|pair| hessian[3 + pair] / l[third(pair)]),
+        shear: std::array::from_fn(|pair| blocks.straight_and_crossed(pair).1 / l[third(pair)]),
+    };
+    principal.to_world(&svd.U)
+}
+
+/// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of Abaqus.
+///
+/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the body.
+/// The order of Abaqus is told in [`voigt`].
+#[inline(always)]
+#[must_use]
+pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let (l, areas) = (svd.stretches, areas(svd.stretches));
+    let principal = Principal {
+        diagonal: std::array::from_fn(|i| l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
+        mixed: std::array::from_fn(|pair| hessian[3 + pair] / l[third(pair)]),
+        shear: std::array::from_fn(|pair| {
+            let (i, j) = PAIRS[pair];
+            let ratios = R::splat(0.5) * (l[i] / l[j] + l[j] / l[i]);
+            blocks.straight_and_crossed(pair).0 * ratios / l[third(pair)]
+        }),
+    };
+    principal.to_world(&svd.U)
+}
+
+/// λj λk: what a unit area normal to direction i becomes.
+#[inline(always)]
+fn areas<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
+    [l2 * l3, l1 * l3, l1 * l2]
+}
+
+/// The direction that a pair lacks.
+#[inline(always)]
+fn third(pair: usize) -> usize {
+    2 - pair
+}
+
+/// Q diag(d) Qᵀ, exactly symmetric.
+#[inline(always)]
+fn symmetric<R: Real>(Q: &Matrix3<R>, d: [R; 3]) -> Matrix3<R> {
+    voigt::to_stress(&ORDER.map(|(i, j)| dot(std::array::from_fn(|k| Q[i][k] * Q[j][k]), d)))
+}

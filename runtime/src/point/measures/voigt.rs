@@ -1,0 +1,103 @@
+//! Voigt's notation: symmetric tensors as six numbers, tangents between them as 6×6 matrices.
+//!
+//! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction that they
+//! lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22, 33, 12, 13, 23: its
+//! number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and columns of a tangent too.
+//!
+//! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components: 11, 22,
+//! 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work, and a tangent
+//! that is stored by its components takes strains to stresses.
+//!
+//! This module knows no stretches and no blocks.
+
+#![expect(non_snake_case, reason = "C, Q as in the literature")]
+
+use crate::lanes::Real;
+use crate::material::PAIRS;
+use crate::point::Matrix3;
+
+/// A tangent as its rows: `C[I][J]` takes number J of a strain to number I of a stress.
+pub type Matrix6<R> = [[R; 6]; 6];
+
+/// Row and column, counted from zero, of each of the six numbers: 11, 22, 33, 23, 13, 12.
+pub const ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+
+/// The place of entry (i, j) in the [`ORDER`]: component ijkl of a tangent C is `C[INDEX[i][j]][INDEX[k][l]]`.
+pub const INDEX: [[usize; 3]; 3] = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
+
+/// The six numbers of a stress; where the matrix is not quite symmetric, of its symmetric part.
+#[inline(always)]
+#[must_use]
+pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
+    ORDER.map(|(i, j)| R::splat(0.5) * (stress[i][j] + stress[j][i]))
+}
+
+/// The stress of six numbers.
+#[inline(always)]
+#[must_use]
+pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
+    INDEX.map(|row| row.map(|index| numbers[index]))
+}
+
+/// The six numbers of a strain, shears doubled; where the matrix is not quite symmetric, of its symmetric part.
+#[inline(always)]
+#[must_use]
+pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
+    let [e11, e22, e33, e23, e13, e12] = from_stress(strain);
+    [e11, e22, e33, e23 + e23, e13 + e13, e12 + e12]
+}
+
+/// The strain of six numbers, shears halved.
+#[inline(always)]
+#[must_use]
+pub fn to_strain<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
+    let [e11, e22, e33, e23, e13, e12] = *numbers;
+    let half = R::splat(0.5);
+    to_stress(&[e11, e22, e33, half * e23, half * e13, half * e12])
+}
+
+/// A tangent in the principal frame of an isotropic body: what is not listed is zero or follows by symmetry.
+#[derive(Clone, Copy)]
+pub(super) struct Principal<R> {
+    /// Components iiii.
+    pub(super) diagonal: [R; 3],
+    /// Components iijj of the [`PAIRS`].
+    pub(super) mixed: [R; 3],
+    /// Components ijij of the [`PAIRS`].
+    pub(super) shear: [R; 3],
+}
+
+impl<R: Real> Principal<R> {
+    /// The tangent in the world, for a frame whose directions are the columns of Q; exactly symmetric.
+    ///
+    /// With mi = qi qiᵀ and nij = qi qjᵀ + qj qiᵀ as six numbers each, stored as stresses, it is
+    /// Σ_ij C_iijj mi mjᵀ + Σ_i<j C_ijij nij nijᵀ. About 400 multiplications and additions.
+    #[inline(always)]
+    pub(super) fn to_world(self, Q: &Matrix3<R>) -> Matrix6<R> {
+        let dyads: [[R; 6]; 6] = ORDER.map(|(x, y)| {
+            let m: [R; 3] = std::array::from_fn(|k| Q[x][k] * Q[y][k]);
+            let n = PAIRS.map(|(i, j)| Q[x][i].mul_add(Q[y][j], Q[x][j] * Q[y][i]));
+            [m[0], m[1], m[2], n[0], n[1], n[2]]
+        });
+        let ([c11, c22, c33], [c12, c13, c23]) = (self.diagonal, self.mixed);
+        let mut C = [[R::splat(0.0); 6]; 6];
+        for row in 0..6 {
+            let [m1, m2, m3, n12, n13, n23] = dyads[row];
+            let weighted = [
+                c11.mul_add(m1, c12.mul_add(m2, c13 * m3)),
+                c12.mul_add(m1, c22.mul_add(m2, c23 * m3)),
+                c13.mul_add(m1, c23.mul_add(m2, c33 * m3)),
+                self.shear[0] * n12,
+                self.shear[1] * n13,
+                self.shear[2] * n23,
+            ];
+            for column in row..6 {
+                let dyad = dyads[column];
+                let sum = (1..6).fold(weighted[0] * dyad[0], |sum, k| weighted[k].mul_add(dyad[k], sum));
+                C[row][column] = sum;
+                C[column][row] = sum;
+            }
+        }
+        C
+    }
+}

@@ -1,0 +1,431 @@
+//! Measures of stress and tangent against their definitions in F, P and dP/dF, written out over indices.
+
+use super::differences::{check_slope, flat};
+use super::*;
+use crate::hand_written::ExtendedNeoHookean;
+use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};
+use crate::point::measures::{
+    cauchy, jaumann_tangent, kirchhoff, material_tangent, second_piola, spatial_tangent, voigt,
+};
+
+const MU: f64 = 1.0;
+const LAMBDA: f64 = 1.5;
+
+/// Deformations whose stretches are far apart, equal, and nearly equal, two of them inverted.
+const MODERATE: [[f64; 3]; 7] = [
+    [1.7, 1.1, 0.6],
+    [1.3, 1.3, 0.8],
+    [1.0, 1.0, 1.0],
+    [1.2, 1.2 - 1e-9, 0.8],
+    [1.0 + 1e-7, 1.0, 1.0 - 1e-13],
+    [1.2, 0.9, -0.5],
+    [0.5, 0.5, -0.2],
+];
+
+/// Squashed, drawn out to a thread, and close to the pole where two stretches are opposite.
+const EXTREME: [[f64; 3]; 3] = [[3.0, 0.5, 0.01], [1.0, 0.02, 0.02 - 1e-12], [1.1, 0.6, -0.6 + 1e-6]];
+
+/// Error of a stress in units of u M times the stretches that a test names.
+///
+/// The decomposition is exact for an F that differs by 20 u λ1, and three principal values up to M have the norm √3 M;
+/// the definition rounds a few times in addition.
+const STRESS: f64 = 40.0;
+
+/// The same of a tangent: four factors from U or V, which are orthogonal to 20 u, and sums of 9 and 81 products.
+const TANGENT: f64 = 100.0;
+
+/// The same of a tangent known on paper: half a dozen roundings for each principal component, ten for the sums of
+/// them, and what a frame really lacks in orthogonality, a few u.
+const ISOTROPY: f64 = 20.0;
+
+/// All measures of a point.
+struct Measures<R> {
+    S: Matrix3<R>,
+    tau: Matrix3<R>,
+    sigma: Matrix3<R>,
+    dS_dE: Matrix6<R>,
+    c: Matrix6<R>,
+    c_jaumann: Matrix6<R>,
+}
+
+impl<R: Real> Measures<R> {
+    fn new(svd: &Svd<R>, blocks: &Blocks<R>) -> Self {
+        Self {
+            S: second_piola(svd, blocks.gradient),
+            tau: kirchhoff(svd, blocks.gradient),
+            sigma: cauchy(svd, blocks.gradient),
+            dS_dE: material_tangent(svd, blocks),
+            c: spatial_tangent(svd, blocks),
+            c_jaumann: jaumann_tangent(svd, blocks),
+        }
+    }
+
+    fn of(point: &Point<R>) -> Self {
+        Self::new(&point.decomposition(), &point.tangent.blocks)
+    }
+}
+
+/// All numbers of all measures, for comparisons bit by bit.
+pub(super) fn every_number<R: Real>(point: &Point<R>) -> Vec<R> {
+    let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(point);
+    let stresses = [S, tau, sigma].into_iter().flatten().flatten();
+    stresses.chain([dS_dE, c, c_jaumann].into_iter().flatten().flatten()).collect()
+}
+
+/// A point in double precision, and its measures in precision R from the same decomposition and blocks.
+///
+/// So the measures are judged and not the decomposition, whose error they would magnify.
+struct Sample {
+    F: Matrix3<f64>,
+    point: Point<f64>,
+    measures: Measures<f64>,
+    /// u of R times the largest of |ψij|, |ψi/λi|, |D⁻| and |D⁺|.
+    uM: f64,
+    /// λ1.
+    largest: f64,
+    /// |λ3|.
+    smallest: f64,
+    /// λ1 λ2 λ3: the determinant of F would cancel.
+    J: f64,
+}
+
+impl Sample {
+    fn new<R: Real + Into<f64>>(material: &impl Material, F: Matrix3<f64>) -> Self {
+        let point = evaluate(material, &F, Filter::None);
+        let Svd { U, stretches, V } = point.decomposition();
+        let Blocks { gradient, hessian, flip, twist } = point.tangent.blocks;
+
+        let narrow = |A: Matrix3<f64>| A.map(|row| row.map(R::splat));
+        let svd = Svd { U: narrow(U), stretches: stretches.map(R::splat), V: narrow(V) };
+        let blocks = Blocks {
+            gradient: gradient.map(R::splat),
+            hessian: hessian.map(R::splat),
+            flip: flip.map(R::splat),
+            twist: twist.map(R::splat),
+        };
+        let found = Measures::new(&svd, &blocks);
+        let stress = |A: Matrix3<R>| A.map(|row| row.map(Into::into));
+        let tangent = |A: Matrix6<R>| A.map(|row| row.map(Into::into));
+
+        let quotients = gradient.into_iter().zip(stretches).map(|(g, l)| g / l);
+        let all = hessian.into_iter().chain(flip).chain(twist).chain(quotients);
+        Self {
+            F,
+            point,
+            measures: Measures {
+                S: stress(found.S),
+                tau: stress(found.tau),
+                sigma: stress(found.sigma),
+                dS_dE: tangent(found.dS_dE),
+                c: tangent(found.c),
+                c_jaumann: tangent(found.c_jaumann),
+            },
+            uM: R::UNIT_ROUNDOFF * all.fold(0.0, |largest: f64, x| largest.max(x.abs())),
+            largest: stretches[0],
+            smallest: stretches[2].abs(),
+            J: stretches[0] * stretches[1] * stretches[2],
+        }
+    }
+}
+
+/// Runs a check on samples of all materials, wherever each is defined, in both precisions.
+fn everywhere(check: impl Fn(&Sample)) {
+    fn of<R: Real + Into<f64>>(material: &impl Material, check: impl Fn(&Sample)) {
+        let mut random = Random::new(71);
+        for _ in 0..20 {
+            for stretches in MODERATE.into_iter().chain(EXTREME) {
+                if material.admits(stretches) {
+                    check(&Sample::new::<R>(material, with_stretches(&mut random, stretches)));
+                }
+            }
+        }
+    }
+    fn both(material: &impl Material, check: impl Fn(&Sample)) {
+        of::<f64>(material, &check);
+        of::<f32>(material, &check);
+    }
+    both(&SaintVenantKirchhoff, &check);
+    both(&NeoHookean, &check);
+    both(&RotatedLinear, &check);
+    both(&ExtendedNeoHookean { epsilon: 0.3 }, &check);
+}
+
+#[track_caller]
+fn check<const N: usize>(
+    found: &[[f64; N]; N],
+    expected: &[[f64; N]; N],
+    limit: f64,
+    what: &str,
+    F: &Matrix3<f64>,
+) {
+    let error = difference(found, expected);
+    assert!(error <= limit, "{what}: error {error:e}, expected at most {limit:e} at {F:?}");
+}
+
+fn delta(i: usize, j: usize) -> f64 {
+    f64::from(u8::from(i == j))
+}
+
+/// The 6×6 matrix of a tensor given by its components.
+fn tangent_of(component: impl Fn([usize; 4]) -> f64) -> Matrix6<f64> {
+    ORDER.map(|(i, j)| ORDER.map(|(k, l)| component([i, j, k, l])))
+}
+
+fn component(C: &Matrix6<f64>, [i, j, k, l]: [usize; 4]) -> f64 {
+    C[INDEX[i][j]][INDEX[k][l]]
+}
+
+/// f summed over two indices.
+fn sum(f: impl Fn(usize, usize) -> f64) -> f64 {
+    (0..9).map(|n| f(n / 3, n % 3)).sum()
+}
+
+/// A tangent applied to a symmetric strain.
+fn times(C: &Matrix6<f64>, strain: &Matrix3<f64>) -> Matrix3<f64> {
+    let strain = voigt::from_strain(strain);
+    voigt::to_stress(&C.map(|row| row.iter().zip(strain).map(|(c, e)| c * e).sum()))
+}
+
+/// The symmetric part.
+fn symmetric(A: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (A[i][j] + A[j][i])))
+}
+
+#[test]
+fn stresses_are_F_inverse_P_and_P_F_transposed() {
+    everywhere(|Sample { F, point, measures, uM, largest, smallest, J }| {
+        let P = &point.stress;
+        let S = to_nalgebra(F).lu().solve(&to_nalgebra(P)).expect("F has volume");
+        check(&measures.S, &from_nalgebra(&S), STRESS * uM * largest / smallest, "S", F);
+        let tau = product(P, &transposed(F));
+        check(&measures.tau, &tau, STRESS * uM * largest * largest, "τ", F);
+        let sigma = tau.map(|row| row.map(|x| x / J));
+        check(&measures.sigma, &sigma, STRESS * uM * largest * largest / J.abs(), "σ", F);
+    });
+}
+
+/// dP = dF S + F (dS/dE : sym Fᵀ dF), index by index.
+fn geometric_and_material(F: &Matrix3<f64>, S: &Matrix3<f64>, dS_dE: &Matrix6<f64>) -> [[f64; 9]; 9] {
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            let ([i, q], [k, s]) = ([row / 3, row % 3], [column / 3, column % 3]);
+            delta(i, k) * S[q][s] + sum(|p, r| F[i][p] * F[k][r] * component(dS_dE, [p, q, r, s]))
+        })
+    })
+}
+
+#[test]
+fn S_and_its_tangent_give_dP_dF_back() {
+    everywhere(|Sample { F, point, measures, uM, largest, smallest, .. }| {
+        let dP_dF = geometric_and_material(F, &measures.S, &measures.dS_dE);
+        let limit = TANGENT * uM * (largest / smallest).powi(2);
+        check(&dP_dF, &point.tangent.to_matrix(), limit, "dP/dF", F);
+    });
+}
+
+#[test]
+fn the_spatial_tangent_is_that_of_the_material_pushed_forward() {
+    everywhere(|Sample { F, measures, uM, largest, smallest, J, .. }| {
+        let pushed = tangent_of(|[i, j, k, l]| {
+            let inner = |p, q| sum(|r, s| F[k][r] * F[l][s] * component(&measures.dS_dE, [p, q, r, s]));
+            sum(|p, q| F[i][p] * F[j][q] * inner(p, q)) / J
+        });
+        // The sums magnify the error of dS/dE, u M/λ3², by λ1⁴/J.
+        let limit = TANGENT * uM * (largest / smallest).powi(2) * largest * largest / J.abs();
+        check(&measures.c, &pushed, limit, "c", F);
+    });
+}
+
+#[test]
+fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
+    everywhere(|Sample { F, point, measures, uM, largest, J, .. }| {
+        let dP_dF = point.tangent.to_matrix();
+        let sigma = product(&point.stress, &transposed(F)).map(|row| row.map(|x| x / J));
+        // The product rule for τ = P Fᵀ along dF = L F: F F dP/dF = J c + δ τ.
+        let c = |[i, j, k, l]: [usize; 4]| {
+            sum(|q, s| F[j][q] * F[l][s] * dP_dF[3 * i + q][3 * k + s]) / J - delta(i, k) * sigma[j][l]
+        };
+        let limit = TANGENT * uM * largest * largest / J.abs();
+        check(&measures.c, &tangent_of(c), limit, "c", F);
+        let c_jaumann = tangent_of(|[i, j, k, l]| {
+            let turning = delta(i, k) * sigma[j][l]
+                + delta(i, l) * sigma[j][k]
+                + delta(j, k) * sigma[i][l]
+                + delta(j, l) * sigma[i][k];
+            c([i, j, k, l]) + 0.5 * turning
+        });
+        check(&measures.c_jaumann, &c_jaumann, limit, "c°", F);
+    });
+}
+
+fn check_slopes(material: &impl Material, stretches: [f64; 3], random: &mut Random) {
+    let F = with_stretches(random, stretches);
+    let measures = Measures::of(&evaluate(material, &F, Filter::None));
+    let along =
+        |dF: &Matrix3<f64>, h: f64| Measures::of(&evaluate(material, &moved(&F, h, dF), Filter::None));
+    let what = |measure: &str| format!("{measure} at {stretches:?}");
+    // S and τ are those of an F known to 20 u, and change there by up to ten times ‖dS/dE‖.
+    let rounding = 200.0 * f64::EPSILON * norm(measures.dS_dE.iter().flatten());
+
+    // Fᵀ dF = dE is symmetric.
+    let dE = symmetric(&random.matrix());
+    let inverse = to_nalgebra(&F).try_inverse().expect("F has volume");
+    let dF = product(&from_nalgebra(&inverse.transpose()), &dE);
+    check_slope(|h| flat(&along(&dF, h).S), flat(&times(&measures.dS_dE, &dE)), rounding, &what("dS/dE"));
+
+    let L = random.matrix();
+    let strain = symmetric(&L);
+    let spin = moved(&L, -1.0, &strain);
+    let (tau, J) = (&measures.tau, stretches.iter().product());
+    // What an observer who deforms by A with the body does not see: A τ + τ Aᵀ.
+    let carried = |A: &Matrix3<f64>| moved(&product(A, tau), 1.0, &product(tau, &transposed(A)));
+    let lie = moved(&carried(&L), J, &times(&measures.c, &strain));
+    let jaumann = moved(&carried(&spin), J, &times(&measures.c_jaumann, &strain));
+    let tau = |h: f64| flat(&along(&product(&L, &F), h).tau);
+    check_slope(tau, flat(&lie), rounding, &what("Lie derivative of τ"));
+    check_slope(tau, flat(&jaumann), rounding, &what("Jaumann rate of τ"));
+}
+
+#[test]
+fn the_tangents_are_slopes_of_the_stresses() {
+    let mut random = Random::new(72);
+    for _ in 0..10 {
+        for stretches in MODERATE {
+            check_slopes(&SaintVenantKirchhoff, stretches, &mut random);
+            check_slopes(&RotatedLinear, stretches, &mut random);
+            check_slopes(&ExtendedNeoHookean { epsilon: 0.3 }, stretches, &mut random);
+        }
+        for stretches in MODERATE.into_iter().filter(|&l| NeoHookean.admits(l)) {
+            check_slopes(&NeoHookean, stretches, &mut random);
+        }
+    }
+}
+
+/// Hooke's law.
+fn isotropic(lambda: f64, mu: f64) -> Matrix6<f64> {
+    tangent_of(|[i, j, k, l]| {
+        lambda * delta(i, j) * delta(k, l) + mu * (delta(i, k) * delta(j, l) + delta(i, l) * delta(j, k))
+    })
+}
+
+#[test]
+fn two_energies_have_tangents_by_Hooke() {
+    fn of<R: Real + Into<f64>>() {
+        let mut random = Random::new(73);
+        for stretches in MODERATE.into_iter().chain(EXTREME) {
+            let F = with_stretches(&mut random, stretches);
+            // S = 2μ E + λ tr E.
+            let Sample { measures, uM, smallest, .. } = Sample::new::<R>(&SaintVenantKirchhoff, F);
+            let limit = ISOTROPY * uM / (smallest * smallest);
+            check(&measures.dS_dE, &isotropic(LAMBDA, MU), limit, "StVK", &F);
+            // From the decomposition on in R: where the stretches are wrong, so are both sides of the division.
+            let narrow: Matrix3<R> = F.map(|row| row.map(R::splat));
+            let point = evaluate(&SaintVenantKirchhoff, &narrow, Filter::None);
+            let dS_dE = Measures::of(&point).dS_dE.map(|row| row.map(Into::into));
+            check(&dS_dE, &isotropic(LAMBDA, MU), limit, "StVK", &F);
+        }
+        for stretches in MODERATE.into_iter().chain(EXTREME).filter(|&l| NeoHookean.admits(l)) {
+            let F = with_stretches(&mut random, stretches);
+            // τ = μ (FFᵀ − I) + λ ln J I.
+            let Sample { measures, uM, largest, J, .. } = Sample::new::<R>(&NeoHookean, F);
+            let expected = isotropic(LAMBDA / J, (MU - LAMBDA * J.ln()) / J);
+            check(&measures.c, &expected, ISOTROPY * uM * largest * largest / J, "neo-Hookean", &F);
+        }
+    }
+    of::<f64>();
+    of::<f32>();
+}
+
+#[test]
+fn all_are_exactly_symmetric() {
+    fn check<const N: usize>(A: &[[f64; N]; N]) {
+        for i in 0..N {
+            for j in 0..N {
+                assert_eq!(A[i][j].to_bits(), A[j][i].to_bits(), "{A:?}");
+            }
+        }
+    }
+    everywhere(|Sample { measures: Measures { S, tau, sigma, dS_dE, c, c_jaumann }, .. }| {
+        for stress in [S, tau, sigma] {
+            check(stress);
+        }
+        for tangent in [dS_dE, c, c_jaumann] {
+            check(tangent);
+        }
+    });
+}
+
+#[test]
+fn the_point_decomposes_its_deformation() {
+    let mut random = Random::new(74);
+    for stretches in STRETCHES {
+        let F = with_stretches(&mut random, stretches);
+        let found = evaluate(&SaintVenantKirchhoff, &F, Filter::Clamp).decomposition();
+        assert_eq!(found, svd(&F));
+        let H = moved(&F, -1.0, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let Svd { stretches: found, .. } =
+            evaluate_from_displacement(&SaintVenantKirchhoff, &H, Filter::None).decomposition();
+        // Two decompositions to 20 u λ1 each, of matrices that differ by two roundings.
+        for (found, expected) in found.into_iter().zip(svd(&F).stretches) {
+            assert!((found - expected).abs() < 25.0 * f64::EPSILON * stretches[0]);
+        }
+    }
+}
+
+#[test]
+fn without_volume_only_the_Kirchhoff_stress_is_finite() {
+    for stretches in [[1.1, 0.7, 0.0], [1.1, 0.0, 0.0], [0.0; 3]] {
+        let F: Matrix3<f64> = std::array::from_fn(|i| std::array::from_fn(|j| stretches[i] * delta(i, j)));
+        let point = evaluate(&RotatedLinear, &F, Filter::None);
+        let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(&point);
+        assert!(tau.iter().flatten().all(|x| x.is_finite()), "{tau:?}");
+        for stress in [S, sigma] {
+            assert!(!stress.iter().flatten().all(|x| x.is_finite()), "{stress:?}");
+        }
+        for tangent in [dS_dE, c, c_jaumann] {
+            assert!(!tangent.iter().flatten().all(|x| x.is_finite()), "{tangent:?}");
+        }
+    }
+    let numbers = every_number(&evaluate(&RotatedLinear, &[[f64::NAN; 3]; 3], Filter::None));
+    assert!(numbers.into_iter().all(f64::is_nan));
+}
+
+/// What the essay says of filters: behind a filtered dP/dF there is no dS/dE, behind an unfiltered one there is.
+#[test]
+fn a_filtered_tangent_has_no_material_part() {
+    let mut random = Random::new(75);
+    let F = with_stretches(&mut random, [0.8, 0.7, 0.6]);
+    let error = |filter: Filter| {
+        let point = evaluate(&SaintVenantKirchhoff, &F, filter);
+        let Measures { S, dS_dE, .. } = Measures::of(&point);
+        let found = geometric_and_material(&F, &S, &dS_dE);
+        difference(&found, &point.tangent.to_matrix()) / norm(found.iter().flatten())
+    };
+    assert!(error(Filter::None) < 100.0 * f64::EPSILON);
+    assert!(error(Filter::Clamp) > 0.1 && error(Filter::Absolute) > 0.1);
+}
+
+#[test]
+fn six_numbers_are_in_the_order_of_Voigt_with_shears_of_strains_doubled() {
+    let A = [[11.0, 12.0, 13.0], [12.0, 22.0, 23.0], [13.0, 23.0, 33.0]];
+    assert_eq!(voigt::from_stress(&A), [11.0, 22.0, 33.0, 23.0, 13.0, 12.0]);
+    assert_eq!(voigt::from_strain(&A), [11.0, 22.0, 33.0, 46.0, 26.0, 24.0]);
+    assert_eq!(voigt::to_stress(&voigt::from_stress(&A)), A);
+    assert_eq!(voigt::to_strain(&voigt::from_strain(&A)), A);
+    for i in 0..3 {
+        for j in 0..3 {
+            assert_eq!(ORDER[INDEX[i][j]], (i.min(j), i.max(j)));
+        }
+    }
+    // Work: 11² + 22² + 33² + 2 (23² + 13² + 12²).
+    let work: f64 = voigt::from_stress(&A).iter().zip(voigt::from_strain(&A)).map(|(s, e)| s * e).sum();
+    assert_eq!(work, sum(|i, j| A[i][j] * A[i][j]));
+    let skewed = [[1.0, 3.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(voigt::from_stress(&skewed)[5], 2.0);
+}
+
+#[test]
+fn Abaqus_has_its_shears_the_other_way_round() {
+    let ours = ORDER.map(|(i, j)| 10 * (i + 1) + j + 1);
+    assert_eq!([0, 1, 2, 5, 4, 3].map(|index: usize| ours[index]), [11, 22, 33, 12, 13, 23]);
+}
