@@ -1,0 +1,126 @@
+//! What lies below a node: reading it, rewriting it, putting it in order.
+
+use super::{Exponent, Extended, Graph, Id, Node};
+
+impl Graph {
+    /// Direct subexpressions, exponents included.
+    #[must_use]
+    pub fn children(&self, id: Id) -> Vec<Id> {
+        let with_exponent = |base: Id, exponent: &Exponent| [Some(base), exponent.real].into_iter().flatten();
+        match self.node(id) {
+            Node::Linear { terms, .. } => terms.iter().map(|&(term, _)| term).collect(),
+            Node::Product(factors) => factors.iter().flat_map(|(base, e)| with_exponent(*base, e)).collect(),
+            Node::Ln(a) | Node::Exp(a) | Node::Function(.., a) | Node::Sum(_, a) => vec![*a],
+            Node::WhereNegative(a, b, c) => vec![*a, *b, *c],
+            Node::LnQuotient(a, b)
+            | Node::ExpQuotient(a, b)
+            | Node::FunctionQuotient(.., a, b)
+            | Node::PoleQuotient(a, b) => vec![*a, *b],
+            Node::PowerQuotient(a, b, exponent) => [*a, *b].into_iter().chain(exponent.real).collect(),
+            Node::Extended(Extended::Power(exponent), ..) => exponent.real.into_iter().collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The same node over other subexpressions, in normal form.
+    ///
+    /// Leaves are returned as they are: who rewrites leaves treats them before calling this.
+    pub fn map_children(&mut self, id: Id, map: &mut impl FnMut(&mut Self, Id) -> Id) -> Id {
+        let exponent = |graph: &mut Self, e: Exponent, map: &mut dyn FnMut(&mut Self, Id) -> Id| match e.real
+        {
+            Some(real) => {
+                let real = map(graph, real);
+                let shift = graph.exponent(real);
+                graph.add_exponents(Exponent::rational(e.rational), shift)
+            }
+            None => e,
+        };
+        match self.node(id).clone() {
+            Node::Linear { constant, terms } => {
+                let terms: Vec<_> = terms.into_iter().map(|(term, c)| (map(self, term), c)).collect();
+                self.linear(constant, &terms)
+            }
+            Node::Product(factors) => {
+                let factors: Vec<_> =
+                    factors.into_iter().map(|(base, e)| (map(self, base), exponent(self, e, map))).collect();
+                self.product(&factors)
+            }
+            Node::Ln(a) => {
+                let a = map(self, a);
+                self.ln(a)
+            }
+            Node::Exp(a) => {
+                let a = map(self, a);
+                self.exp(a)
+            }
+            Node::Function(f, order, a) => {
+                let a = map(self, a);
+                self.leaf(Node::Function(f, order, a))
+            }
+            Node::FunctionQuotient(f, order, a, b) => {
+                let node = Node::FunctionQuotient(f, order, map(self, a), map(self, b));
+                self.leaf(node)
+            }
+            Node::Sum(length, body) => {
+                let body = map(self, body);
+                self.sum(length, body)
+            }
+            Node::WhereNegative(condition, a, b) => {
+                let node = Node::WhereNegative(map(self, condition), map(self, a), map(self, b));
+                self.leaf(node)
+            }
+            Node::LnQuotient(a, b) => {
+                let node = Node::LnQuotient(map(self, a), map(self, b));
+                self.leaf(node)
+            }
+            Node::ExpQuotient(a, b) => {
+                let node = Node::ExpQuotient(map(self, a), map(self, b));
+                self.leaf(node)
+            }
+            Node::PowerQuotient(a, b, e) => {
+                let node = Node::PowerQuotient(map(self, a), map(self, b), exponent(self, e, map));
+                self.leaf(node)
+            }
+            Node::PoleQuotient(a, b) => {
+                let node = Node::PoleQuotient(map(self, a), map(self, b));
+                self.leaf(node)
+            }
+            _ => id,
+        }
+    }
+
+    /// The expression with every stretch replaced.
+    pub fn substitute(&mut self, id: Id, stretches: [Id; 3]) -> Id {
+        if let Some(&done) = self.substitutions.get(&(id, stretches)) {
+            return done;
+        }
+        let result = match *self.node(id) {
+            Node::Stretch(i) => stretches[i],
+            Node::Extended(function, order, i) => match *self.node(stretches[i]) {
+                Node::Stretch(j) => self.leaf(Node::Extended(function, order, j)),
+                // Extended functions are functions of a stretch and of nothing else; NaN would not go unnoticed.
+                _ => self.leaf(Node::Float(f64::NAN.to_bits())),
+            },
+            _ => self.map_children(id, &mut |graph, child| graph.substitute(child, stretches)),
+        };
+        self.substitutions.insert((id, stretches), result);
+        result
+    }
+
+    /// All nodes below the roots, roots included, children before parents.
+    #[must_use]
+    pub fn reachable(&self, roots: &[Id]) -> Vec<Id> {
+        let mut order = Vec::new();
+        let mut seen = vec![false; self.nodes.len()];
+        let mut stack: Vec<(Id, bool)> = roots.iter().rev().map(|&root| (root, false)).collect();
+        while let Some((id, expanded)) = stack.pop() {
+            if expanded {
+                order.push(id);
+            } else if !std::mem::replace(&mut seen[id.0 as usize], true) {
+                stack.push((id, true));
+                stack.extend(self.children(id).into_iter().rev().map(|child| (child, false)));
+            }
+        }
+        order
+    }
+}
