@@ -1,0 +1,179 @@
+//! How a material comes to be: `new`, which checks its parameters, what chooses the way of inversion, and what reads the
+//! parameters back.
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+use syn::{Expr, Ident};
+
+use super::{condition_text, generics};
+use crate::model::indexed_lists;
+use crate::parse::{Declaration, Parameter};
+
+/// The inherent methods.
+pub(super) fn constructor(declaration: &Declaration) -> TokenStream {
+    let name = &declaration.name;
+    let (bounds, arguments) = generics(declaration);
+    let new = new(declaration);
+    let conditions = declaration.options.extend.as_ref();
+    let with_inversion = conditions.map(|conditions| with_inversion(declaration, conditions));
+    let getters = declaration.parameters.iter().map(|parameter| getter(declaration, parameter));
+    quote! {
+        impl #bounds #name #arguments {
+            #new
+
+            #with_inversion
+
+            #(#getters)*
+        }
+    }
+}
+
+fn new(declaration: &Declaration) -> TokenStream {
+    let Declaration { visibility, options, .. } = declaration;
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
+    let documented =
+        declaration.parameters.iter().map(|parameter| format!("* `{}`: {}", parameter.name, parameter.doc));
+    let new_doc = format!(
+        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible.",
+        documented.collect::<Vec<_>>().join("\n")
+    );
+    let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
+    let finite = numbers.map(|parameter| {
+        let (name, text) = (&parameter.name, parameter.name.to_string());
+        let values = if parameter.length().is_some() { quote!(#name) } else { quote!([#name]) };
+        quote! {
+            for value in #values {
+                if !value.is_finite() {
+                    return Err(::piola::material::Inadmissible::NotFinite { parameter: #text, value });
+                }
+            }
+        }
+    });
+    let admissible =
+        options.admissible.iter().map(|condition| check(declaration, condition, &quote!(Violated)));
+    let inversion = options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion::Refuse,));
+    let stable_rest = (!options.prestressed).then(|| {
+        quote! {
+            let moduli = ::piola::material::Declared::moduli(&material);
+            if !(moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite()) {
+                return Err(::piola::material::Inadmissible::UnstableRest { moduli });
+            }
+        }
+    });
+    let stress_free_rest = (declaration.has_functions() && !options.prestressed).then(|| {
+        quote! {
+            let [stress, ..] = ::piola::Material::gradient(&material, [1.0f64; 3]);
+            if !(stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs())) {
+                return Err(::piola::material::Inadmissible::StressedRest { stress });
+            }
+        }
+    });
+    quote! {
+        #[doc = #new_doc]
+        #[allow(clippy::too_many_arguments)]
+        #visibility fn new(#(#names: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            #(#finite)*
+            #(#admissible)*
+            let material = Self { #(#names,)* #inversion };
+            #stable_rest
+            #stress_free_rest
+            Ok(material)
+        }
+    }
+}
+
+/// The choice of an extension, which restores only under the given conditions.
+fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream {
+    let visibility = &declaration.visibility;
+    let names = declaration.parameters.iter().map(|parameter| &parameter.name);
+    let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(DoesNotRestore)));
+    quote! {
+        /// The same material with another way to meet what lies outside its domain.
+        ///
+        /// # Errors
+        /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
+        #visibility fn with_inversion(
+            mut self,
+            inversion: ::piola::Inversion,
+        ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            if let ::piola::Inversion::Extend { epsilon } = inversion {
+                if !(epsilon > 0.0 && epsilon < 1.0) {
+                    return Err(::piola::material::Inadmissible::Threshold { epsilon });
+                }
+                #[allow(unused_variables)]
+                let Self { #(#names,)* .. } = self;
+                #(#restores)*
+            }
+            self.inversion = inversion;
+            Ok(self)
+        }
+    }
+}
+
+fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
+    let visibility = &declaration.visibility;
+    let ty = declaration.parameter_type(parameter);
+    let (name, attributes) = (&parameter.name, &parameter.attributes);
+    let is_documented = !parameter.doc.is_empty();
+    let doc = (!is_documented).then(|| quote!(#[doc = "A parameter."]));
+    let (ty, value) = if parameter.is_function() {
+        (quote!(&#ty), quote!(&self.#name))
+    } else {
+        (quote!(#ty), quote!(self.#name))
+    };
+    quote! {
+        #(#attributes)*
+        #doc
+        #[must_use]
+        #visibility fn #name(&self) -> #ty {
+            #value
+        }
+    }
+}
+
+/// Returns an error unless a condition holds, for every entry if it is written for one.
+fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> TokenStream {
+    let text = condition_text(condition);
+    let lists = indexed_lists(condition);
+    let index = lists.first().map(|(_, index)| index.clone());
+    let given = declaration.parameters.iter().filter(|parameter| mentions(condition, &parameter.name)).map(
+        |parameter| {
+            let name = &parameter.name;
+            match &index {
+                Some(index) if parameter.length().is_some() => {
+                    let format = format!("{name}[{{}}] = {{}}");
+                    quote!(::std::format!(#format, #index, #name[#index]))
+                }
+                _ => {
+                    let format = format!("{name} = {{}}");
+                    quote!(::std::format!(#format, #name))
+                }
+            }
+        },
+    );
+    let test = quote! {
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+        if !(#condition) {
+            return Err(::piola::material::Inadmissible::#error {
+                condition: #text,
+                given: [#(#given),*].join(", "),
+            });
+        }
+    };
+    match lists.first() {
+        Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
+        None => test,
+    }
+}
+
+fn mentions(expression: &Expr, name: &Ident) -> bool {
+    fn search(tokens: TokenStream, name: &Ident) -> bool {
+        tokens.into_iter().any(|token| match token {
+            proc_macro2::TokenTree::Ident(ident) => ident == *name,
+            proc_macro2::TokenTree::Group(group) => search(group.stream(), name),
+            _ => false,
+        })
+    }
+    search(expression.to_token_stream(), name)
+}

@@ -1,0 +1,115 @@
+//! The implementation of `Declared`: the description of a material, its construction from plain values and its moduli.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::writer::Writer;
+use super::{Texts, condition_text, generics};
+use crate::model::Model;
+use crate::parse::{Declaration, Kind};
+use crate::schedule::schedule;
+
+/// `impl Declared`.
+pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {
+    let name = &declaration.name;
+    let (bounds, arguments) = generics(declaration);
+    let Texts { formula, domain, moduli, summary } = texts;
+    let type_name = name.to_string();
+    let parameters = declaration.parameters.iter().map(|parameter| {
+        let (name, doc) = (parameter.name.to_string(), &parameter.doc);
+        let is_list = !matches!(parameter.kind, Kind::Number);
+        quote!(::piola::material::Parameter { name: #name, doc: #doc, is_list: #is_list })
+    });
+    let extends = declaration.options.extend.is_some();
+    let refusal = match &declaration.options.refuse {
+        Some(reason) => quote!(::core::option::Option::Some(#reason)),
+        None if declaration.options.domain.is_empty() => {
+            quote!(::core::option::Option::Some("it is defined for every deformation gradient already"))
+        }
+        None => quote!(::core::option::Option::None),
+    };
+    let admissible = declaration.options.admissible.iter().map(condition_text);
+
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let expected = format!(
+        "{} parameters are expected: {}",
+        names.len(),
+        names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    );
+    let conversions = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        let (pattern, length, shape) = match &parameter.kind {
+            Kind::Number => {
+                let message = format!("`{name}` must be one number");
+                (quote!([#name]), quote!(1), quote!(#message.to_owned()))
+            }
+            Kind::List(length) => {
+                let length = &declaration.lengths[*length];
+                let format = format!("`{name}` must have {{}} entries");
+                (quote!(#name), quote!(#length), quote!(::std::format!(#format, #length)))
+            }
+            Kind::Function(ty) => {
+                return quote!(let #name = <#ty as ::piola::Univariate>::from_values(#name)?;);
+            }
+        };
+        quote! {
+            let Ok(#pattern) = <[f64; #length]>::try_from(#name) else {
+                return Err(::piola::material::Inadmissible::Shape { expected: #shape });
+            };
+        }
+    });
+    let finish = if extends {
+        quote!(Self::new(#(#names),*)?.with_inversion(inversion))
+    } else {
+        quote! {
+            let material = Self::new(#(#names),*)?;
+            match inversion {
+                ::piola::Inversion::Refuse => Ok(material),
+                ::piola::Inversion::Extend { .. } => {
+                    Err(::piola::material::Inadmissible::NoExtension {
+                        material: #type_name,
+                        reason: <Self as ::piola::material::Declared>::DESCRIPTION.refusal,
+                    })
+                }
+            }
+        }
+    };
+
+    let program = schedule(&mut model.graph, &model.moduli);
+    let (statements, outputs) = Writer::new(declaration).program(&program);
+    let (mu, lambda) = (&outputs[0], &outputs[1]);
+    quote! {
+        impl #bounds ::piola::material::Declared for #name #arguments {
+            const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+                name: #type_name,
+                summary: #summary,
+                formula: #formula,
+                parameters: &[#(#parameters),*],
+                domain: #domain,
+                extends: #extends,
+                refusal: #refusal,
+                admissible: &[#(#admissible),*],
+                moduli: [#(#moduli),*],
+            };
+
+            fn from_values(
+                values: &[&[f64]],
+                inversion: ::piola::Inversion,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                let &[#(#names),*] = values else {
+                    return Err(::piola::material::Inadmissible::Shape { expected: #expected.to_owned() });
+                };
+                #(#conversions)*
+                #finish
+            }
+
+            #[allow(unused_imports, clippy::all)]
+            fn moduli(&self) -> ::piola::material::Moduli {
+                use ::piola::Real;
+                type R = f64;
+                #(#statements)*
+                ::piola::material::Moduli { mu: #mu, lambda: #lambda }
+            }
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! The implementation of `Material`: energy, gradient and blocks as straight-line programs.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Ident;
+
+use super::generics;
+use super::writer::Writer;
+use crate::expr::{Graph, Id};
+use crate::model::{Model, Variant, Volume};
+use crate::parse::Declaration;
+use crate::schedule::schedule;
+
+/// `impl Material`.
+pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
+    let name = &declaration.name;
+    let (bounds, arguments) = generics(declaration);
+    let writer = Writer::new(declaration);
+    let stretches = &declaration.stretches;
+    let threshold = &writer.threshold;
+
+    let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
+                      result: &dyn Fn(&[TokenStream]) -> TokenStream| {
+        let body = |graph: &mut Graph, variant: &Variant| {
+            let program = schedule(graph, &select(variant));
+            let (statements, outputs) = writer.program(&program);
+            let result = result(&outputs);
+            quote!(#(#statements)* #result)
+        };
+        let plain = body(&mut model.graph, &model.plain);
+        match &model.extended {
+            None => plain,
+            Some(extended) => {
+                let extended = body(&mut model.graph, extended);
+                quote! {
+                    match self.inversion {
+                        ::piola::Inversion::Refuse => { #plain }
+                        ::piola::Inversion::Extend { epsilon: #threshold } => {
+                            let #threshold = R::splat(#threshold);
+                            #extended
+                        }
+                    }
+                }
+            }
+        }
+    };
+    let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
+    let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
+    let blocks = bodies(
+        &|variant| [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat(),
+        &|outputs| {
+            let (gradient, hessian, flip, twist) =
+                (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
+            quote! {
+                ::piola::material::Blocks {
+                    gradient: [#(#gradient),*],
+                    hessian: [#(#hessian),*],
+                    flip: [#(#flip),*],
+                    twist: [#(#twist),*],
+                }
+            }
+        },
+    );
+
+    let at_strains = at_strains(model, &writer, stretches);
+    let admits = admits(model, &writer, stretches);
+    let is_positive = model.volume == Volume::Positive;
+    let plain_pole = model.plain.has_pole;
+    let (has_pole, ends) = match &model.extended {
+        None => (quote!(#plain_pole), quote!(#is_positive)),
+        Some(extended) => {
+            let extended_pole = extended.has_pole;
+            let pole = if plain_pole == extended_pole {
+                quote!(#plain_pole)
+            } else {
+                quote! {
+                    match self.inversion {
+                        ::piola::Inversion::Refuse => #plain_pole,
+                        ::piola::Inversion::Extend { .. } => #extended_pole,
+                    }
+                }
+            };
+            let refuses = quote!(::core::matches!(self.inversion, ::piola::Inversion::Refuse));
+            (pole, if is_positive { refuses } else { quote!(false) })
+        }
+    };
+    let [l1, l2, l3] = stretches;
+    let strains = &writer.strains;
+    quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl #bounds ::piola::Material for #name #arguments {
+            #[inline]
+            fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
+                #energy
+            }
+
+            #[inline]
+            fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
+                #gradient
+            }
+
+            #[inline]
+            fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
+                #blocks
+            }
+
+            #[inline]
+            fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
+                #at_strains
+            }
+
+            #[inline]
+            fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
+                #admits
+            }
+
+            #[inline]
+            fn has_pole(&self) -> bool {
+                #has_pole
+            }
+
+            #[inline]
+            fn ends_at_zero_volume(&self) -> bool {
+                #ends
+            }
+        }
+    }
+}
+
+/// Below the threshold of an extension strains are not small, and the gradient by stretches is as good.
+fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3]) -> TokenStream {
+    let program = schedule(&mut model.graph, &model.at_strains);
+    let (statements, outputs) = writer.program(&program);
+    let (strains, threshold) = (&writer.strains, &writer.threshold);
+    let stretches = quote!(#strains.map(|strain| R::splat(1.0) + strain));
+    let inside = quote! {
+        let [#l1, #l2, #l3] = #stretches;
+        #(#statements)*
+    };
+    if model.extended.is_none() {
+        return quote!(#inside [#(#outputs),*]);
+    }
+    quote! {
+        #inside
+        let inside = [#(#outputs),*];
+        if let ::piola::Inversion::Extend { epsilon: #threshold } = self.inversion {
+            let below = #strains[2].less(R::splat(#threshold - 1.0));
+            if ::piola::lanes::Mask::any(below) {
+                let extended = self.gradient(#stretches);
+                return ::core::array::from_fn(|k| R::select(below, extended[k], inside[k]));
+            }
+        }
+        inside
+    }
+}
+
+/// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the other bounds are
+/// positive expressions.
+fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
+    let program = schedule(&mut model.graph, &model.bounds);
+    let (statements, outputs) = writer.program(&program);
+    let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
+    let mut conditions: Vec<TokenStream> = bounds.collect();
+    let smallest = &stretches[2];
+    let inside = match model.volume {
+        Volume::Any => None,
+        Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
+        Volume::Nonzero => Some(quote!(R::splat(0.0).less(#smallest.abs()))),
+    };
+    conditions.extend(inside.map(|inside| match &model.extended {
+        None => inside,
+        Some(_) => quote! {
+            match self.inversion {
+                ::piola::Inversion::Refuse => #inside,
+                ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
+            }
+        },
+    }));
+    let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
+    let all = all.unwrap_or_else(|| quote!(<R::Mask as ::piola::lanes::Mask>::splat(true)));
+    quote!(#(#statements)* #all)
+}
