@@ -25,6 +25,8 @@ pub mod rational;
 pub mod resolve;
 pub mod schedule;
 pub mod simplify;
+#[cfg(test)]
+mod testing;
 pub mod volume;
 
 use proc_macro2::TokenStream;
