@@ -2,26 +2,21 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::{
-    Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, samples, stiffness, stress_scale,
-};
+use super::samples::at_samples;
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
 use crate::material::{Material, PAIRS};
 use crate::point::matrix::multiply;
 use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
-use crate::random::Random;
 
 /// ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
 ///
 /// # Errors
 /// The first violation.
 pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Objectivity);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
+    at_samples(Rule::Objectivity, material, settings, |judge, stretches, random| {
         let Q = random.rotation();
-        rotated(&mut judge, material, stretches, &Q, &diagonal([1.0; 3]))?;
-    }
-    judge.finding()
+        rotated(judge, material, stretches, &Q, &diagonal([1.0; 3]))
+    })
 }
 
 /// ψ(F W) = ψ(F) and P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj, ψi = ψj and ψii = ψjj.
@@ -29,19 +24,17 @@ pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Find
 /// # Errors
 /// The first violation.
 pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Isotropy);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
+    at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
         let W = random.rotation();
-        rotated(&mut judge, material, stretches, &diagonal([1.0; 3]), &W)?;
+        rotated(judge, material, stretches, &diagonal([1.0; 3]), &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
             if material.admits(equal) {
-                interchangeable(&mut judge, material, equal)?;
+                interchangeable(judge, material, equal)?;
             }
         }
-    }
-    judge.finding()
+        Ok(())
+    })
 }
 
 /// A : (dP/dF) B = B : (dP/dF) A for random A, B.
@@ -49,9 +42,7 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
 /// # Errors
 /// The first violation.
 pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::SymmetricTangent);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
+    at_samples(Rule::SymmetricTangent, material, settings, |judge, stretches, random| {
         let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
         let point = evaluate(material, &F, Filter::None);
         let (A, B) = (random.matrix(), random.matrix());
@@ -60,9 +51,8 @@ pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Resul
         let (one, other) = (inner(&A, &point.tangent.apply(&B)), inner(&B, &point.tangent.apply(&A)));
         // Sums of some 200 products of the tangent with ‖A‖‖B‖ ≤ 9.
         let tolerance = 500.0 * UNIT * 9.0 * stiffness(&point.tangent.blocks);
-        judge.compare(|| "tangent between two random increments".into(), stretches, one, other, tolerance)?;
-    }
-    judge.finding()
+        judge.compare(|| "tangent between two random increments".into(), stretches, one, other, tolerance)
+    })
 }
 
 /// Energy and stress at Q diag(λ) W against those at diag(λ), which need no decomposition.

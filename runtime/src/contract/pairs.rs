@@ -13,26 +13,24 @@
 //! extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing cancels and the quotients
 //! are what their definition says.
 
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, samples, stiffness};
+use super::samples::at_samples;
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
 use crate::material::{Blocks, Material, PAIRS};
-use crate::random::Random;
 
 /// Flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all other samples.
 ///
 /// # Errors
 /// The first violation.
 pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Quotients);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
-        by_definition(&mut judge, material, stretches)?;
+    at_samples(Rule::Quotients, material, settings, |judge, stretches, _| {
+        by_definition(judge, material, stretches)?;
         for exponent in 1..=17 {
             let gap = if exponent == 17 { 0.0 } else { 10f64.powi(-exponent) };
-            close(&mut judge, material, stretches, gap)?;
-            opposite(&mut judge, material, stretches, gap)?;
+            close(judge, material, stretches, gap)?;
+            opposite(judge, material, stretches, gap)?;
         }
-    }
-    judge.finding()
+        Ok(())
+    })
 }
 
 /// The quotients against (ψi ∓ ψj)/(λi ∓ λj), as exactly as that is known.

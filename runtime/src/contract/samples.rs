@@ -1,13 +1,28 @@
 //! Where the contract looks: stretches in descending order, of which the material admits all.
 
-use super::Settings;
+use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::material::Material;
 use crate::random::Random;
+
+/// Judges a rule at every sample, with random numbers to draw further choices from.
+pub(super) fn at_samples(
+    rule: Rule,
+    material: &impl Material,
+    settings: &Settings,
+    mut look: impl FnMut(&mut Judge, [f64; 3], &mut Random) -> Result<(), Violation>,
+) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(rule);
+    let mut random = Random::new(settings.seed);
+    for stretches in stretches(material, settings, &mut random) {
+        look(&mut judge, stretches, &mut random)?;
+    }
+    judge.finding()
+}
 
 /// Random descending stretches within the range, plus inverted ones, as far as the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-pub(super) fn stretches(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+fn stretches(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
     (0..settings.points)
         .map(|k| {

@@ -7,7 +7,8 @@
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
 use super::frames::diagonal;
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, samples, stiffness, stress_scale};
+use super::samples::at_samples;
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
 use crate::material::Material;
 use crate::point::matrix::multiply;
 use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
@@ -18,12 +19,9 @@ use crate::random::Random;
 /// # Errors
 /// The first violation.
 pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::StressSlope);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
-        energy_at(&mut judge, material, stretches, &Approach::smooth(stretches), &mut random)?;
-    }
-    judge.finding()
+    at_samples(Rule::StressSlope, material, settings, |judge, stretches, random| {
+        energy_at(judge, material, stretches, &Approach::smooth(stretches), random)
+    })
 }
 
 /// (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
@@ -31,12 +29,9 @@ pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Fin
 /// # Errors
 /// The first violation.
 pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::TangentSlope);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples::stretches(material, settings, &mut random) {
-        stress_at(&mut judge, material, stretches, &Approach::smooth(stretches), &mut random)?;
-    }
-    judge.finding()
+    at_samples(Rule::TangentSlope, material, settings, |judge, stretches, random| {
+        stress_at(judge, material, stretches, &Approach::smooth(stretches), random)
+    })
 }
 
 /// How difference quotients approach a derivative.
