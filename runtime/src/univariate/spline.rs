@@ -107,6 +107,15 @@ impl Piece {
         Self { anchor: x, coefficients: [value, slope, bend / 2.0, 0.0, 0.0] }
     }
 
+    /// The coefficients, and what divided differences of powers are made of: a + b = (a² − b²)/(a − b), a² + b², and
+    /// a² + ab + b² = (a³ − b³)/(a − b), of the distances from the anchor.
+    #[inline]
+    fn between<R: Real>(&self, a: R, b: R) -> ([R; 5], [R; 3]) {
+        let [a, b] = [a, b].map(|x| x - R::splat(self.anchor));
+        let squares = a.mul_add(a, b * b);
+        (self.coefficients.map(R::splat), [a + b, squares, a.mul_add(b, squares)])
+    }
+
     /// φ, φ′ and φ″.
     fn taylor(&self, x: f64) -> [f64; 3] {
         let [c0, c1, c2, c3, c4] = self.coefficients;
@@ -165,23 +174,16 @@ impl Univariate for Spline {
     #[inline]
     fn quotient<R: Real>(&self, a: R, b: R) -> R {
         by_pieces(a, b, &self.knots, |k, a, b| {
-            let Piece { anchor, coefficients } = self.pieces[k];
-            let [_, c1, c2, c3, c4] = coefficients.map(R::splat);
-            let [a, b] = [a, b].map(|x| x - R::splat(anchor));
-            let (sum, squares) = (a + b, a.mul_add(a, b * b));
-            (c4 * squares + c2).mul_add(sum, c3.mul_add(a.mul_add(b, squares), c1))
+            let ([_, c1, c2, c3, c4], [sum, squares, cubic]) = self.pieces[k].between(a, b);
+            (c4 * squares + c2).mul_add(sum, c3.mul_add(cubic, c1))
         })
     }
 
     #[inline]
     fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
         by_pieces(a, b, &self.knots, |k, a, b| {
-            let Piece { anchor, coefficients } = self.pieces[k];
-            let [_, _, c2, c3, c4] = coefficients.map(R::splat);
-            let [a, b] = [a, b].map(|x| x - R::splat(anchor));
-            let (sum, squares) = (a + b, a.mul_add(a, b * b));
-            let quadratic = (R::splat(4.0) * c4) * a.mul_add(b, squares);
-            (R::splat(3.0) * c3).mul_add(sum, quadratic) + (c2 + c2)
+            let ([_, _, c2, c3, c4], [sum, _, cubic]) = self.pieces[k].between(a, b);
+            (R::splat(3.0) * c3).mul_add(sum, (R::splat(4.0) * c4) * cubic) + (c2 + c2)
         })
     }
 
