@@ -14,9 +14,7 @@ pub(crate) struct SaintVenantKirchhoff;
 
 impl Material for SaintVenantKirchhoff {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
-        let [e1, e2, e3] = stretches.map(|l| (l * l - R::splat(1.0)) * R::splat(0.5));
-        let trace = e1 + e2 + e3;
-        R::splat(MU) * (e1 * e1 + e2 * e2 + e3 * e3) + R::splat(LAMBDA / 2.0) * trace * trace
+        quadratic(stretches.map(|l| (l * l - R::splat(1.0)) * R::splat(0.5)))
     }
 
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
@@ -65,9 +63,7 @@ pub(crate) struct NeoHookean;
 
 impl Material for NeoHookean {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        let log = (l[0] * l[1] * l[2]).ln();
-        let shear = R::splat(MU / 2.0) * (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] - R::splat(3.0));
-        shear + (R::splat(LAMBDA / 2.0) * log - R::splat(MU)) * log
+        logarithmic(l, (l[0] * l[1] * l[2]).ln())
     }
 
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
@@ -114,9 +110,7 @@ pub(crate) struct RotatedLinear;
 
 impl Material for RotatedLinear {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        let [e1, e2, e3] = l.map(|l| l - R::splat(1.0));
-        let trace = e1 + e2 + e3;
-        R::splat(MU) * (e1 * e1 + e2 * e2 + e3 * e3) + R::splat(LAMBDA / 2.0) * trace * trace
+        quadratic(l.map(|l| l - R::splat(1.0)))
     }
 
     fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
@@ -186,9 +180,7 @@ impl ExtendedNeoHookean {
 impl Material for ExtendedNeoHookean {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         let log = l.map(|l| self.log(l)[0]);
-        let log = log[0] + log[1] + log[2];
-        let shear = R::splat(MU / 2.0) * (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] - R::splat(3.0));
-        shear + (R::splat(LAMBDA / 2.0) * log - R::splat(MU)) * log
+        logarithmic(l, log[0] + log[1] + log[2])
     }
 
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
@@ -222,4 +214,16 @@ impl Material for ExtendedNeoHookean {
     fn ends_at_zero_volume(&self) -> bool {
         false
     }
+}
+
+/// μ Σe² + λ/2 (Σe)² of strains e.
+fn quadratic<R: Real>([e1, e2, e3]: [R; 3]) -> R {
+    let trace = e1 + e2 + e3;
+    R::splat(MU) * (e1 * e1 + e2 * e2 + e3 * e3) + R::splat(LAMBDA / 2.0) * trace * trace
+}
+
+/// μ/2 (Σλ² − 3) − μ ln J + λ/2 (ln J)², given ln J.
+fn logarithmic<R: Real>(l: [R; 3], log: R) -> R {
+    let shear = R::splat(MU / 2.0) * (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] - R::splat(3.0));
+    shear + (R::splat(LAMBDA / 2.0) * log - R::splat(MU)) * log
 }

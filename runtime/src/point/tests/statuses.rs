@@ -106,14 +106,14 @@ fn the_last_octaves_before_overflow_are_said_and_no_others() {
                 twist: twist.map(|x| x * factor),
             }
         }
-        fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-            R::Mask::splat(true)
+        fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+            RotatedLinear.admits(stretches)
         }
         fn has_pole(&self) -> bool {
-            true
+            RotatedLinear.has_pole()
         }
         fn ends_at_zero_volume(&self) -> bool {
-            false
+            RotatedLinear.ends_at_zero_volume()
         }
     }
     let identity = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
