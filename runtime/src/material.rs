@@ -39,6 +39,8 @@ pub struct Blocks<R> {
 ///
 /// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
 /// ([`Material::admits`]) results are meaningless and may be NaN.
+///
+/// Methods that compute should be `#[inline(always)]`, and what they call: see [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
     /// ψ, J/m³ of rest volume.
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R;
@@ -50,9 +52,10 @@ pub trait Material: Send + Sync {
     ///
     /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate relative to the
     /// strains, however small. As given here it is as accurate as 1 + si.
-    #[inline]
-    fn gradient_at_strains<R: Real>(&self, strains: [R; 3]) -> [R; 3] {
-        self.gradient(strains.map(|strain| R::splat(1.0) + strain))
+    #[inline(always)]
+    fn gradient_at_strains<R: Real>(&self, [s1, s2, s3]: [R; 3]) -> [R; 3] {
+        let one = R::splat(1.0);
+        self.gradient([one + s1, one + s2, one + s3])
     }
 
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.

@@ -12,7 +12,7 @@ use crate::lanes::{Mask, Real};
 /// With w = (a − b)/(a + b), ln(a/b) = 2 artanh w: the series 2/(a + b) (1 + w²/3 + w⁴/5 + …) for w² < 1/16, where its
 /// tail is below u, else the logarithm of the quotient, which is at least ½ in magnitude and so keeps its relative
 /// accuracy.
-#[inline]
+#[inline(always)]
 pub fn ln_quotient<R: Real>(a: R, b: R) -> R {
     // w^2k/(2k + 1) < u/2 from k = 13 on: 16⁻¹³ < 2⁻⁵².
     const TERMS: u32 = 13;
@@ -33,7 +33,7 @@ pub fn ln_quotient<R: Real>(a: R, b: R) -> R {
 ///
 /// e^((a+b)/2) sinhc((a − b)/2) for |a − b| < 1, else the plain quotient, which loses less than two bits and cannot
 /// overflow where the result does not.
-#[inline]
+#[inline(always)]
 pub fn exp_quotient<R: Real>(a: R, b: R) -> R {
     let half = R::splat(0.5);
     let v = (a - b) * half;
@@ -47,7 +47,7 @@ pub fn exp_quotient<R: Real>(a: R, b: R) -> R {
 ///
 /// With v = ½ r ln(a/b) it is √(aʳ) √(bʳ) sinhc(v) r ln[a, b] for |v| < ½, else the plain quotient, whose numerator then
 /// loses less than two bits.
-#[inline]
+#[inline(always)]
 pub fn power_quotient<R: Real>([a, a_power]: [R; 2], [b, b_power]: [R; 2], exponent: R, ln_quotient: R) -> R {
     let slope = exponent * ln_quotient;
     let v = slope * (a - b) * R::splat(0.5);
@@ -77,7 +77,7 @@ fn sinhc<R: Real>(v: R) -> R {
 ///
 /// The logarithm of the product, in which stretches near one cancel exactly as far as they do; where the product or a part
 /// of it overflows or loses digits to underflow, the sum of logarithms.
-#[inline]
+#[inline(always)]
 pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     let extremes = l1 * l3;
     let product = extremes * l2;
@@ -94,7 +94,7 @@ pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
 /// The fraction of the interval from a to b that lies above ε; a point counts as above from ε on.
 ///
 /// Differences of the arguments themselves, so every digit is kept.
-#[inline]
+#[inline(always)]
 pub fn share_above<R: Real>(a: R, b: R, epsilon: R) -> R {
     let inside = (a.max(epsilon) - b.max(epsilon)) / (a - b);
     let zero_length = R::select(a.less(epsilon), R::splat(0.0), R::splat(1.0));
@@ -102,7 +102,7 @@ pub fn share_above<R: Real>(a: R, b: R, epsilon: R) -> R {
 }
 
 /// The fraction of the interval from a to b that lies below ε: 1 − [`share_above`] without the subtraction.
-#[inline]
+#[inline(always)]
 pub fn share_below<R: Real>(a: R, b: R, epsilon: R) -> R {
     let inside = (a.min(epsilon) - b.min(epsilon)) / (a - b);
     let zero_length = R::select(a.less(epsilon), R::splat(1.0), R::splat(0.0));

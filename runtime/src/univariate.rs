@@ -17,6 +17,8 @@ pub use spline::Spline;
 
 /// A function φ of one variable, twice continuously differentiable.
 ///
+/// What computes should be `#[inline(always)]`, so that it is compiled for the instructions of every back end.
+///
 /// ```
 /// use piola::{Real, Univariate, material};
 ///
@@ -25,13 +27,16 @@ pub use spline::Spline;
 /// struct Parabola(f64);
 ///
 /// impl Univariate for Parabola {
+///     #[inline(always)]
 ///     fn value<R: Real>(&self, x: R) -> R {
 ///         let d = x - R::splat(1.0);
 ///         R::splat(self.0) * d * d
 ///     }
+///     #[inline(always)]
 ///     fn derivative<R: Real>(&self, x: R) -> R {
 ///         R::splat(2.0 * self.0) * (x - R::splat(1.0))
 ///     }
+///     #[inline(always)]
 ///     fn second_derivative<R: Real>(&self, _: R) -> R {
 ///         R::splat(2.0 * self.0)
 ///     }
@@ -69,17 +74,15 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The default is the plain quotient for |a − b| > ¼ max(|a|, |b|), which loses about two digits at most, else the mean
     /// of φ′ over each smooth piece between b and a, by Gauss's rule with eight points. That is within rounding
     /// where φ is analytic up to zero; in general its error is below h¹⁶ max|φ⁽¹⁷⁾| / 10²⁴ for a piece of length h.
-    #[inline]
+    #[inline(always)]
     fn quotient<R: Real>(&self, a: R, b: R) -> R {
-        let mean = |a, b| gauss(a, b, |x| self.derivative(x));
-        quotient_by_pieces(a, b, self.breakpoints(), |x| self.value(x), mean)
+        quotient_by_pieces(&Derivative::<_, 0>(self), a, b)
     }
 
     /// φ′\[a, b\] = (φ′(a) − φ′(b))/(a − b), φ″(a) where both are equal; by default as [`Univariate::quotient`].
-    #[inline]
+    #[inline(always)]
     fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
-        let mean = |a, b| gauss(a, b, |x| self.second_derivative(x));
-        quotient_by_pieces(a, b, self.breakpoints(), |x| self.derivative(x), mean)
+        quotient_by_pieces(&Derivative::<_, 1>(self), a, b)
     }
 
     /// The function that these numbers stand for, where a material is chosen by name.
@@ -95,46 +98,77 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     }
 }
 
-#[inline]
-fn quotient_by_pieces<R: Real>(
-    a: R,
-    b: R,
-    breakpoints: &[f64],
-    function: impl Fn(R) -> R,
-    mean: impl Fn(R, R) -> R,
-) -> R {
+/// The derivative of order N of a function, 0 … 2.
+struct Derivative<'a, F, const N: u8>(&'a F);
+
+impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
+    #[inline(always)]
+    fn at<R: Real>(&self, x: R) -> R {
+        match N {
+            0 => self.0.value(x),
+            1 => self.0.derivative(x),
+            _ => self.0.second_derivative(x),
+        }
+    }
+}
+
+impl<F: Univariate, const N: u8> Piecewise for Derivative<'_, F, N> {
+    #[inline(always)]
+    fn breakpoints(&self) -> &[f64] {
+        self.0.breakpoints()
+    }
+
+    #[inline(always)]
+    fn quotient_within<R: Real>(&self, _: usize, a: R, b: R) -> R {
+        match N {
+            0 => gauss(&Derivative::<F, 1>(self.0), a, b),
+            _ => gauss(&Derivative::<F, 2>(self.0), a, b),
+        }
+    }
+}
+
+#[inline(always)]
+fn quotient_by_pieces<F: Univariate, R: Real, const N: u8>(function: &Derivative<'_, F, N>, a: R, b: R) -> R {
     let gap = a - b;
     let is_wide = (R::splat(0.25) * a.abs().max(b.abs())).less(gap.abs());
-    let plain = (function(a) - function(b)) / gap;
+    let plain = (function.at(a) - function.at(b)) / gap;
     if !(!is_wide).any() {
         return plain;
     }
-    R::select(is_wide, plain, by_pieces(a, b, breakpoints, |_, a, b| mean(a, b)))
+    R::select(is_wide, plain, by_pieces(function, a, b))
+}
+
+/// A function whose divided differences are known within each of its smooth pieces.
+trait Piecewise {
+    /// The ends of the pieces, in increasing order.
+    fn breakpoints(&self) -> &[f64];
+
+    /// The divided difference between two points of piece k, which ends at breakpoint k.
+    fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R;
 }
 
 /// A divided difference from those of the smooth pieces: their mean, weighted with the length of each.
-///
-/// `piece(k, a, b)` is asked for the part of the interval in piece k, which ends at breakpoint k.
-#[inline]
-fn by_pieces<R: Real>(a: R, b: R, breakpoints: &[f64], piece: impl Fn(usize, R, R) -> R) -> R {
+#[inline(always)]
+fn by_pieces<R: Real>(function: &impl Piecewise, a: R, b: R) -> R {
+    let breakpoints = function.breakpoints();
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let gap = a - b;
     let is_point = !zero.less(gap.abs());
     let mut sum = zero;
     for k in 0..=breakpoints.len() {
         let start = R::splat(if k == 0 { f64::NEG_INFINITY } else { breakpoints[k - 1] });
-        let end = R::splat(breakpoints.get(k).copied().unwrap_or(f64::INFINITY));
-        let [from, to] = [b, a].map(|x| x.max(start).min(end));
+        let end = R::splat(if k < breakpoints.len() { breakpoints[k] } else { f64::INFINITY });
+        let (from, to) = (b.max(start).min(end), a.max(start).min(end));
         let is_inside = !a.less(start) & a.less(end);
         let share = R::select(is_point, R::select(is_inside, one, zero), (to - from) / gap);
-        sum = share.mul_add(piece(k, to, from), sum);
+        sum = share.mul_add(function.quotient_within(k, to, from), sum);
     }
     sum
 }
 
 /// The mean of a function between b and a, exact for polynomials of degree 15.
-#[inline]
-fn gauss<R: Real>(a: R, b: R, function: impl Fn(R) -> R) -> R {
+#[inline(always)]
+fn gauss<F: Univariate, R: Real, const N: u8>(function: &Derivative<'_, F, N>, a: R, b: R) -> R {
     /// Abscissae and weights of Gauss's rule with eight points on −1 … 1, by symmetry the positive half.
     const RULE: [[f64; 2]; 4] = [
         [0.183_434_642_495_649_8, 0.362_683_783_378_362],
@@ -144,10 +178,13 @@ fn gauss<R: Real>(a: R, b: R, function: impl Fn(R) -> R) -> R {
     ];
     let half = R::splat(0.5);
     let (middle, reach) = (a.mul_add(half, b * half), (a - b) * half);
-    RULE.into_iter().fold(R::splat(0.0), |sum, [x, weight]| {
+    let mut sum = R::splat(0.0);
+    for [x, weight] in RULE {
         let offset = reach * R::splat(x);
-        (function(middle + offset) + function(middle - offset)).mul_add(R::splat(0.5 * weight), sum)
-    })
+        let both = function.at(middle + offset) + function.at(middle - offset);
+        sum = both.mul_add(R::splat(0.5 * weight), sum);
+    }
+    sum
 }
 
 #[cfg(test)]

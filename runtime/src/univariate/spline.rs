@@ -1,6 +1,6 @@
 //! A force curve through control points, and the energy that it is the derivative of.
 
-use super::{Univariate, by_pieces};
+use super::{Piecewise, Univariate, by_pieces};
 use crate::lanes::Real;
 use crate::material::Inadmissible;
 
@@ -85,14 +85,15 @@ impl Spline {
     }
 
     /// The coefficients of the piece that x lies in, each number of R by itself, and the distance from its anchor.
-    #[inline]
+    #[inline(always)]
     fn piece<R: Real>(&self, x: R) -> ([R; 5], R) {
-        let mut coefficients = self.pieces[0].coefficients.map(R::splat);
+        let mut coefficients = self.pieces[0].coefficients_for();
         let mut anchor = R::splat(self.pieces[0].anchor);
         for (knot, piece) in self.knots.iter().zip(&self.pieces[1..]) {
             let is_before = x.less(R::splat(*knot));
-            for (current, next) in coefficients.iter_mut().zip(piece.coefficients) {
-                *current = R::select(is_before, *current, R::splat(next));
+            let next: [R; 5] = piece.coefficients_for();
+            for k in 0..5 {
+                coefficients[k] = R::select(is_before, coefficients[k], next[k]);
             }
             anchor = R::select(is_before, anchor, R::splat(piece.anchor));
         }
@@ -101,6 +102,12 @@ impl Spline {
 }
 
 impl Piece {
+    #[inline(always)]
+    fn coefficients_for<R: Real>(&self) -> [R; 5] {
+        let [c0, c1, c2, c3, c4] = self.coefficients;
+        [R::splat(c0), R::splat(c1), R::splat(c2), R::splat(c3), R::splat(c4)]
+    }
+
     /// Goes on from x with the same φ, φ′ and φ″.
     fn straight_from(&self, x: f64) -> Self {
         let [value, slope, bend] = self.taylor(x);
@@ -109,11 +116,12 @@ impl Piece {
 
     /// The coefficients, and what divided differences of powers are made of: a + b = (a² − b²)/(a − b), a² + b², and
     /// a² + ab + b² = (a³ − b³)/(a − b), of the distances from the anchor.
-    #[inline]
+    #[inline(always)]
     fn between<R: Real>(&self, a: R, b: R) -> ([R; 5], [R; 3]) {
-        let [a, b] = [a, b].map(|x| x - R::splat(self.anchor));
+        let anchor = R::splat(self.anchor);
+        let (a, b) = (a - anchor, b - anchor);
         let squares = a.mul_add(a, b * b);
-        (self.coefficients.map(R::splat), [a + b, squares, a.mul_add(b, squares)])
+        (self.coefficients_for(), [a + b, squares, a.mul_add(b, squares)])
     }
 
     /// φ, φ′ and φ″.
@@ -148,20 +156,20 @@ fn bends(points: &[[f64; 2]]) -> Vec<f64> {
 }
 
 impl Univariate for Spline {
-    #[inline]
+    #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         let ([c0, c1, c2, c3, c4], d) = self.piece(x);
         c4.mul_add(d, c3).mul_add(d, c2).mul_add(d, c1).mul_add(d, c0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn derivative<R: Real>(&self, x: R) -> R {
         let ([_, c1, c2, c3, c4], d) = self.piece(x);
         let (twice, thrice, four) = (c2 + c2, R::splat(3.0) * c3, R::splat(4.0) * c4);
         four.mul_add(d, thrice).mul_add(d, twice).mul_add(d, c1)
     }
 
-    #[inline]
+    #[inline(always)]
     fn second_derivative<R: Real>(&self, x: R) -> R {
         let ([_, _, c2, c3, c4], d) = self.piece(x);
         (R::splat(12.0) * c4).mul_add(d, R::splat(6.0) * c3).mul_add(d, c2 + c2)
@@ -171,20 +179,14 @@ impl Univariate for Spline {
         &self.knots
     }
 
-    #[inline]
+    #[inline(always)]
     fn quotient<R: Real>(&self, a: R, b: R) -> R {
-        by_pieces(a, b, &self.knots, |k, a, b| {
-            let ([_, c1, c2, c3, c4], [sum, squares, cubic]) = self.pieces[k].between(a, b);
-            (c4 * squares + c2).mul_add(sum, c3.mul_add(cubic, c1))
-        })
+        by_pieces(&Energies(self), a, b)
     }
 
-    #[inline]
+    #[inline(always)]
     fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
-        by_pieces(a, b, &self.knots, |k, a, b| {
-            let ([_, _, c2, c3, c4], [sum, _, cubic]) = self.pieces[k].between(a, b);
-            (R::splat(3.0) * c3).mul_add(sum, (R::splat(4.0) * c4) * cubic) + (c2 + c2)
-        })
+        by_pieces(&Forces(self), a, b)
     }
 
     /// Control points x, φ′, x, φ′, …
@@ -196,6 +198,38 @@ impl Univariate for Spline {
             });
         }
         Self::through(points)
+    }
+}
+
+/// The quotients of φ, piece by piece.
+struct Energies<'a>(&'a Spline);
+
+impl Piecewise for Energies<'_> {
+    #[inline(always)]
+    fn breakpoints(&self) -> &[f64] {
+        &self.0.knots
+    }
+
+    #[inline(always)]
+    fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R {
+        let ([_, c1, c2, c3, c4], [sum, squares, cubic]) = self.0.pieces[k].between(a, b);
+        (c4 * squares + c2).mul_add(sum, c3.mul_add(cubic, c1))
+    }
+}
+
+/// The quotients of φ′, piece by piece.
+struct Forces<'a>(&'a Spline);
+
+impl Piecewise for Forces<'_> {
+    #[inline(always)]
+    fn breakpoints(&self) -> &[f64] {
+        &self.0.knots
+    }
+
+    #[inline(always)]
+    fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R {
+        let ([_, _, c2, c3, c4], [sum, _, cubic]) = self.0.pieces[k].between(a, b);
+        (R::splat(3.0) * c3).mul_add(sum, (R::splat(4.0) * c4) * cubic) + (c2 + c2)
     }
 }
 

@@ -86,30 +86,31 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     };
     let [l1, l2, l3] = stretches;
     let strains = &writer.strains;
+    // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
         #[allow(unused_variables, clippy::all)]
         impl #bounds ::piola::Material for #name #arguments {
-            #[inline]
+            #[inline(always)]
             fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
                 #energy
             }
 
-            #[inline]
+            #[inline(always)]
             fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
                 #gradient
             }
 
-            #[inline]
+            #[inline(always)]
             fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
                 #blocks
             }
 
-            #[inline]
+            #[inline(always)]
             fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
                 #at_strains
             }
 
-            #[inline]
+            #[inline(always)]
             fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
                 #admits
             }
@@ -132,7 +133,8 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     let program = schedule(&mut model.graph, &model.at_strains);
     let (statements, outputs) = writer.program(&program);
     let (strains, threshold) = (&writer.strains, &writer.threshold);
-    let stretches = quote!(#strains.map(|strain| R::splat(1.0) + strain));
+    let one = quote!(R::splat(1.0));
+    let stretches = quote!([#one + #strains[0], #one + #strains[1], #one + #strains[2]]);
     let inside = quote! {
         let [#l1, #l2, #l3] = #stretches;
         #(#statements)*
@@ -147,7 +149,11 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
             let below = #strains[2].less(R::splat(#threshold - 1.0));
             if ::piola::lanes::Mask::any(below) {
                 let extended = self.gradient(#stretches);
-                return ::core::array::from_fn(|k| R::select(below, extended[k], inside[k]));
+                return [
+                    R::select(below, extended[0], inside[0]),
+                    R::select(below, extended[1], inside[1]),
+                    R::select(below, extended[2], inside[2]),
+                ];
             }
         }
         inside
