@@ -1,8 +1,8 @@
 //! The energies by name, for programs that choose a material at run time.
 
 use piola::Inversion;
+use piola::batch::Energy;
 use piola::material::{Declared, Description, Inadmissible, Moduli};
-use piola::system::element::ElementEnergy;
 
 use crate::{
     AnssariBenamBucchi, Arap, ArrudaBoyce, BlatzKo, Carroll, CiarletGeymonat, CiarletNeoHookean,
@@ -148,10 +148,10 @@ impl Entry {
         &self,
         values: &[&[f64]],
         inversion: Inversion,
-    ) -> Result<Box<dyn ElementEnergy>, Inadmissible> {
+    ) -> Result<Box<dyn Energy<f64>>, Inadmissible> {
         struct Boxed;
         impl Visitor for Boxed {
-            type Output = Box<dyn ElementEnergy>;
+            type Output = Box<dyn Energy<f64>>;
             fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
                 Box::new(material)
             }

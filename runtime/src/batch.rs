@@ -41,9 +41,10 @@
 
 use std::fmt;
 
-use crate::lanes::{Backend, Element};
+use crate::lanes::{Backend, PastCaches};
 use crate::point::Filter;
 
+pub(crate) mod element;
 mod energy;
 mod form;
 mod jobs;
@@ -51,15 +52,16 @@ mod sink;
 mod stage;
 mod tile;
 
-pub use energy::{Energy, TileOf};
+pub use energy::{Energy, TileOf, Verdict};
 pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
+#[cfg(test)]
+pub(crate) use form::STIFFEST;
 use jobs::Work;
 use sink::{Sink, Source};
-use stage::{Decompose, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
-use tile::TILE;
+use stage::{Decompose, Judge, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
 
 /// A material and how to compute with it.
 #[derive(Clone, Copy)]
@@ -220,22 +222,22 @@ impl<'a, E: Stages> Batch<'a, E> {
         let lengths = [("F", F.len(), 9), ("P", P.len(), 9), (name, tangents.len(), numbers)];
         let count = self.count(&lengths)?;
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
-        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
+        let scratch = || (Rows::zero(), Points::new(), Rows::zero(), PastCaches::new());
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let ((rows, points, blocks), [F], [P, tangents]) = (tile.scratch, tile.inputs, tile.outputs);
+            let (rows, points, blocks, order) = tile.scratch;
+            let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
-            let refused = self.energy.blocks(self.tile(points, tile.start, tile.count), blocks);
+            let judged = self.blocks(points, tile.start, tile.count, blocks);
             let kernel = Respond {
                 points,
                 blocks,
                 rest: Source::Rows(&Rows([])),
                 count: tile.count,
-                filter: self.filter,
                 has_pole: self.energy.has_pole(),
                 first: self.sink(P),
-                second: self.sink(tangents),
+                second: self.large_sink(tangents, order),
             };
-            Marks { refused, ..E::tangent(self.backend, form, kernel) }
+            E::tangent(self.backend, form, kernel).or(judged)
         }))
     }
 
@@ -255,23 +257,22 @@ impl<'a, E: Stages> Batch<'a, E> {
         ])?;
         let work =
             Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
-        let scratch = || (Rows::zero(), Rows::zero(), Points::new(), Rows::zero());
+        let scratch = || (Rows::zero(), Rows::zero(), Points::new(), Rows::zero(), PastCaches::new());
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let (rows, shapes, points, blocks) = tile.scratch;
+            let (rows, shapes, points, blocks, order) = tile.scratch;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
-            let refused = self.energy.blocks(self.tile(points, tile.start, tile.count), blocks);
+            let judged = self.blocks(points, tile.start, tile.count, blocks);
             let kernel = Respond {
                 points,
                 blocks,
                 rest: Source::new(self.backend, self.layout, rest, shapes),
                 count: tile.count,
-                filter: self.filter,
                 has_pole: self.energy.has_pole(),
                 first: self.sink(gradients),
-                second: self.sink(stiffnesses),
+                second: self.large_sink(stiffnesses, order),
             };
-            Marks { refused, ..E::stiffness(self.backend, form, kernel) }
+            E::stiffness(self.backend, form, kernel).or(judged)
         }))
     }
 
@@ -281,12 +282,25 @@ impl<'a, E: Stages> Batch<'a, E> {
         E::decompose(self.backend, Decompose { F, count, is_signed, points });
     }
 
+    /// The filtered blocks of a tile.
+    fn blocks(&self, points: &Points<E>, start: usize, count: usize, blocks: &mut Rows<E, 15>) -> Marks {
+        let refused = self.energy.blocks(self.tile(points, start, count), blocks);
+        let has_pole = self.energy.has_pole();
+        let kernel = Judge { points, blocks, count, filter: self.filter, has_pole };
+        Marks { refused, ..E::judge(self.backend, kernel) }
+    }
+
     fn tile<'t>(&self, points: &'t Points<E>, start: usize, count: usize) -> TileOf<'t, E> {
         TileOf { backend: self.backend, start, count, stretches: &points.stretches }
     }
 
     fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, stream: self.streams }
+        Sink { to, layout: self.layout, past_caches: None }
+    }
+
+    /// For what may be larger than the caches.
+    fn large_sink<'t>(&self, to: &'t mut [E], order: &'t PastCaches) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, past_caches: self.streams.then_some(order) }
     }
 
     /// The number of points of slices that must all have as many.

@@ -164,7 +164,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// Where there are fewer.
-    fn stream(self, to: &mut [Self::Element]);
+    fn stream(self, to: &mut [Self::Element], order: &PastCaches);
 
     /// Transposes a square: entry (i, j), i, j < LANES, from `from[i from_stride + j]` to `to[j to_stride + i]`.
     ///
@@ -174,6 +174,26 @@ pub trait Lanes: Real {
 
     /// The lanes in which a mask is set, as bits: lane 0 is the lowest.
     fn bits(mask: Self::Mask) -> u64;
+}
+
+/// Keeps stores past the caches in order: when it is dropped, whatever is written afterwards is seen after them.
+///
+/// Only this crate makes one, and keeps what was written from others until it is dropped: such stores are not ordered with
+/// the ordinary ones by which threads tell each other of their work.
+#[derive(Debug)]
+pub struct PastCaches(());
+
+impl PastCaches {
+    pub(crate) fn new() -> Self {
+        Self(())
+    }
+}
+
+impl Drop for PastCaches {
+    fn drop(&mut self) {
+        #[cfg(target_arch = "x86_64")]
+        x86::order_stores();
+    }
 }
 
 /// The result of comparing [`Real`]s: one truth value for each number.

@@ -34,11 +34,12 @@ mod tests;
 mod twice;
 
 pub use gradient::{SvdGradient, svd_gradient};
+pub(crate) use matrix::multiply;
 pub use project::{Filter, project};
 pub use small_strain::{evaluate_from_displacement, evaluate_stress_from_displacement};
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
-pub use tangent::{Tangent, contract};
+pub use tangent::{Assemble, Tangent, contract};
 
 /// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix3<R> = [[R; 3]; 3];
@@ -97,7 +98,7 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
     let svd = decompose(material, F);
     let P = stress(&svd, material.gradient(svd.stretches));
     let refused = !material.admits(svd.stretches);
-    let nonfinite = !stress_is_finite(&svd, &P);
+    let nonfinite = !stress_is_finite(svd.stretches, &P);
     (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 
@@ -117,22 +118,46 @@ pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filte
 
 /// Stress and filtered tangent from what the energy says of the stretches; refused by nobody.
 #[inline(always)]
-pub(crate) fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool, filter: Filter) -> Point<R> {
+fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool, filter: Filter) -> Point<R> {
     let P = stress(svd, blocks.gradient);
-    let nonfinite = !(stress_is_finite(svd, &P) & tangent_stays_finite(blocks));
+    let is_finite = stress_is_finite(svd.stretches, &P);
+    let judged = judge(svd.stretches, blocks, has_pole, filter);
+    Point {
+        stretches: svd.stretches,
+        stress: P,
+        tangent: Tangent { U: svd.U, V: svd.V, blocks: judged.blocks },
+        filtered: judged.filtered,
+        status: Status {
+            refused: R::Mask::splat(false),
+            bounded: judged.bounded,
+            nonfinite: !is_finite | judged.nonfinite,
+        },
+    }
+}
+
+/// Filtered blocks, and what there is to say of them.
+pub(crate) struct Judged<R: Real> {
+    pub(crate) blocks: Blocks<R>,
+    pub(crate) filtered: R::Mask,
+    pub(crate) bounded: R::Mask,
+    pub(crate) nonfinite: R::Mask,
+}
+
+#[inline(always)]
+pub(crate) fn judge<R: Real>(
+    stretches: [R; 3],
+    blocks: &Blocks<R>,
+    has_pole: bool,
+    filter: Filter,
+) -> Judged<R> {
+    let nonfinite = !tangent_stays_finite(blocks);
     let bounded = if has_pole {
-        (svd.stretches[1] + svd.stretches[2]).less(pole_floor(svd.stretches))
+        (stretches[1] + stretches[2]).less(pole_floor(stretches))
     } else {
         R::Mask::splat(false)
     };
     let (blocks, filtered) = project(blocks, filter);
-    Point {
-        stretches: svd.stretches,
-        stress: P,
-        tangent: Tangent { U: svd.U, V: svd.V, blocks },
-        filtered,
-        status: Status { refused: R::Mask::splat(false), bounded, nonfinite },
-    }
+    Judged { blocks, filtered, bounded, nonfinite }
 }
 
 /// Whether stretches and energy mean something.
@@ -143,8 +168,9 @@ pub(crate) fn energy_is_finite<R: Real>(stretches: [R; 3], energy: R) -> R::Mask
 
 /// Whether stretches and stress mean something.
 #[inline(always)]
-pub(crate) fn stress_is_finite<R: Real>(svd: &Svd<R>, P: &Matrix3<R>) -> R::Mask {
-    stretches_in_range(svd.stretches) & finite(P.iter().flatten().copied())
+pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R::Mask {
+    let sum = none_infinite([none_infinite(P[0]), none_infinite(P[1]), none_infinite(P[2])]);
+    stretches_in_range(stretches) & sum.is_finite()
 }
 
 /// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
@@ -153,18 +179,31 @@ pub(crate) fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Sv
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
-/// Whether all are finite: each times zero is zero then, else NaN, and one comparison asks for the sum.
+/// Zero if all are finite, else NaN: one comparison asks for many.
 #[inline(always)]
-fn finite<R: Real>(values: impl IntoIterator<Item = R>) -> R::Mask {
+fn none_infinite<R: Real, const N: usize>(numbers: [R; N]) -> R {
     let zero = R::splat(0.0);
-    values.into_iter().fold(zero, |sum, value| value.mul_add(zero, sum)).is_finite()
+    let mut sum = zero;
+    for number in numbers {
+        sum = number.mul_add(zero, sum);
+    }
+    sum
+}
+
+/// Zero if none comes within a factor 16 of the largest finite number, else NaN.
+#[inline(always)]
+fn none_large<R: Real, const N: usize>(mut numbers: [R; N]) -> R {
+    for number in &mut numbers {
+        *number = *number * R::splat(16.0);
+    }
+    none_infinite(numbers)
 }
 
 /// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of the largest
 /// finite number.
 #[inline(always)]
 pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
-    finite(stretches.map(|stretch| stretch * R::splat(16.0)))
+    none_large(stretches).is_finite()
 }
 
 /// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest finite one.
@@ -173,6 +212,5 @@ pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
 /// leaves; and the partial sums of [`contract`] between rotations stay below four times that.
 #[inline(always)]
 fn tangent_stays_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
-    let all = blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist);
-    finite(all.map(|x| x * R::splat(16.0)))
+    (none_large(blocks.hessian) + none_large(blocks.flip) + none_large(blocks.twist)).is_finite()
 }

@@ -5,6 +5,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::batch::Energy;
+use crate::batch::element::TILE;
 use crate::mesh::tet::lumped_masses;
 use crate::mesh::{MeshError, TetMesh};
 
@@ -16,7 +18,7 @@ pub mod pins;
 #[cfg(test)]
 pub(crate) mod testing;
 
-pub use element::{Element, ElementEnergy, ElementStiffness, Survey};
+pub use element::{Element, Survey};
 pub use pins::{PinError, Pins};
 
 /// A material and a density for a part of a mesh.
@@ -24,7 +26,7 @@ pub struct Part {
     /// Name of the group of tetrahedra; `None` for those that no other part names.
     pub group: Option<String>,
     /// Anything that implements [`Material`](crate::Material).
-    pub material: Box<dyn ElementEnergy>,
+    pub material: Box<dyn Energy<f64>>,
     /// Mass density at rest, kg/m³.
     pub density: f64,
 }
@@ -40,7 +42,7 @@ pub struct Body {
 
 /// Contiguous elements of one material.
 struct Run {
-    material: Box<dyn ElementEnergy>,
+    material: Box<dyn Energy<f64>>,
     end: usize,
 }
 
@@ -58,7 +60,7 @@ impl Body {
     /// Where the mesh is not a body or the density is not positive.
     pub fn new(
         mesh: &TetMesh,
-        material: impl ElementEnergy + 'static,
+        material: impl Energy<f64> + 'static,
         density: f64,
     ) -> Result<Self, BodyError> {
         Self::from_parts(mesh, vec![Part { group: None, material: Box::new(material), density }])
@@ -108,15 +110,21 @@ impl Body {
         &self.elements
     }
 
-    /// The materials of `count` elements from `start` on, each with the range of its elements among these.
-    fn pieces(&self, start: usize, count: usize) -> impl Iterator<Item = (&dyn ElementEnergy, Range<usize>)> {
-        let first = self.runs.partition_point(|run| run.end <= start);
-        let mut from = start;
-        self.runs[first..].iter().take_while(move |_| from < start + count).map(move |run| {
-            let to = run.end.min(start + count);
-            let piece = from - start..to - start;
-            from = to;
-            (run.material.as_ref(), piece)
+    /// The material of an element.
+    fn material(&self, element: usize) -> &dyn Energy<f64> {
+        self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
+    }
+
+    /// The materials, each with the range of its elements.
+    fn materials(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
+        let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
+        self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
+    }
+
+    /// The elements in groups of one material that fill a tile, but for the last of a material.
+    fn groups(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
+        self.materials().flat_map(|(material, run)| {
+            run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
         })
     }
 }

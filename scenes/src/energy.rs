@@ -3,8 +3,8 @@
 use std::fmt;
 
 use piola::Inversion;
+use piola::batch::Energy;
 use piola::material::{Description, Moduli};
-use piola::system::ElementEnergy;
 use piola_materials::{CATALOGUE, Entry};
 
 use crate::error::Error;
@@ -98,7 +98,7 @@ pub struct Substance {
     /// Its name in the catalogue.
     pub name: &'static str,
     /// What elements see of it.
-    pub elements: Box<dyn ElementEnergy>,
+    pub elements: Box<dyn Energy<f64>>,
     /// Its small-strain moduli.
     pub moduli: Moduli,
 }

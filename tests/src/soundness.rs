@@ -13,10 +13,9 @@
 use std::fmt;
 
 use piola::Material;
+use piola::batch::Batch;
 use piola::material::Blocks;
-use piola::mesh::RestShape;
-use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
-use piola::system::element::{Element, ElementEnergy, ElementStiffness};
+use piola::point::{Filter, Matrix3, svd, svd_signed_by_determinant};
 
 use crate::bits::{Precision, widen};
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
@@ -172,30 +171,29 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
     H.symmetric_eigenvalues().min() >= -64.0 * R::UNIT_ROUNDOFF - 64.0 * underflow
 }
 
-/// The same of a tetrahedron with the corner shape as rest shape, whose deformation gradient is exactly F: where no count
-/// of its surveys is other than zero, energy, forces and stiffness are finite.
+/// The same of a batch of one: a tetrahedron with the corner shape as rest shape. Where no count of its surveys is other than
+/// zero, energy, stress, forces and stiffness are finite.
 ///
 /// # Errors
 /// The first fault found.
 pub fn check_element(material: &impl Material, F: &Matrix3<f64>) -> Result<(), Fault> {
-    let shape = RestShape { inverse: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], volume: 1.0 / 6.0 };
-    let elements = [Element { nodes: [0, 1, 2, 3], shape, tag: 0 }];
-    let corner = |n: usize| [F[0][n], F[1][n], F[2][n]];
-    let positions = [[0.0; 3], corner(0), corner(1), corner(2)];
-    let mut points = [Svd { U: [[0.0; 3]; 3], stretches: [0.0; 3], V: [[0.0; 3]; 3] }];
-    let mut energies = [0.0];
-    let survey = ElementEnergy::evaluate(material, &elements, &positions, &mut points, &mut energies);
-    if !survey.is_admissible() {
-        return Ok(());
-    }
-    finite(Quantity::Energy, &energies)?;
-    let mut gradients = [[[0.0; 3]; 4]];
-    let mut stiffnesses = [ElementStiffness::ZERO];
+    const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
+    const FITS: &str = "the lengths are those of one point";
+    let F = F.as_flattened();
     for filter in FILTERS {
-        let survey = material.stiffnesses(&elements, &points, filter, &mut gradients, &mut stiffnesses);
-        if survey.is_admissible() {
-            finite(Quantity::Forces, gradients.iter().flatten().flatten())?;
-            finite(Quantity::Stiffness, stiffnesses[0].blocks.iter().flatten().flatten())?;
+        let batch = Batch { filter, ..Batch::new(material) };
+        let (mut energy, mut stress) = ([0.0], [0.0; 9]);
+        if batch.energies(F, &mut energy).expect(FITS).is_clean() {
+            finite(Quantity::Energy, &energy)?;
+        }
+        if batch.stresses(F, &mut stress).expect(FITS).is_clean() {
+            finite(Quantity::StressAlone, &stress)?;
+        }
+        let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 78]);
+        let survey = batch.packed_stiffnesses(F, &REST, &mut gradient, &mut stiffness).expect(FITS);
+        if survey.is_clean() {
+            finite(Quantity::Forces, &gradient)?;
+            finite(Quantity::Stiffness, &stiffness)?;
         }
     }
     Ok(())

@@ -58,14 +58,16 @@ impl<E: Element, M: Material> Energy<E> for M {
             #[inline(always)]
             fn run<R: Lanes<Element = E>>(self) -> Verdict {
                 let Self(material, tile, energies) = self;
-                let mut finite = 0;
-                let refused = each_group::<R>(tile, |at, stretches| {
+                let (mut admitted, mut finite) = (0, 0);
+                for_each_group!(R, tile.count, |at| {
+                    let stretches = tile.stretches.get_all::<R>(at);
                     let energy = material.energy(stretches);
                     energies.set(0, at, energy);
                     finite |= R::bits(energy_is_finite(stretches, energy)) << at;
-                    material.admits(stretches)
+                    admitted |= R::bits(material.admits(stretches)) << at;
                 });
-                Verdict { refused, nonfinite: !finite & first_bits(tile.count) }
+                let points = first_bits(tile.count);
+                Verdict { refused: !admitted & points, nonfinite: !finite & points }
             }
         }
         tile.backend.run(Energies(self, tile, energies))
@@ -78,10 +80,13 @@ impl<E: Element, M: Material> Energy<E> for M {
             #[inline(always)]
             fn run<R: Lanes<Element = E>>(self) -> u64 {
                 let Self(material, tile, gradients) = self;
-                each_group::<R>(tile, |at, stretches| {
+                let mut admitted = 0;
+                for_each_group!(R, tile.count, |at| {
+                    let stretches = tile.stretches.get_all::<R>(at);
                     gradients.set_all(at, material.gradient(stretches));
-                    material.admits(stretches)
-                })
+                    admitted |= R::bits(material.admits(stretches)) << at;
+                });
+                !admitted & first_bits(tile.count)
             }
         }
         tile.backend.run(Gradients(self, tile, gradients))
@@ -94,10 +99,13 @@ impl<E: Element, M: Material> Energy<E> for M {
             #[inline(always)]
             fn run<R: Lanes<Element = E>>(self) -> u64 {
                 let Self(material, tile, blocks) = self;
-                each_group::<R>(tile, |at, stretches| {
+                let mut admitted = 0;
+                for_each_group!(R, tile.count, |at| {
+                    let stretches = tile.stretches.get_all::<R>(at);
                     blocks.set_all(at, to_numbers(&material.blocks(stretches)));
-                    material.admits(stretches)
-                })
+                    admitted |= R::bits(material.admits(stretches)) << at;
+                });
+                !admitted & first_bits(tile.count)
             }
         }
         tile.backend.run(All(self, tile, blocks))
@@ -116,19 +124,8 @@ impl<E: Element, M: Material> Energy<E> for M {
     }
 }
 
-/// Calls `body(at, stretches)` for each group of points and collects where it does not admit them.
 #[inline(always)]
-fn each_group<R: Lanes>(tile: TileOf<'_, R::Element>, mut body: impl FnMut(usize, [R; 3]) -> R::Mask) -> u64 {
-    let mut admitted = 0;
-    for_each_group::<R>(tile.count, |at| {
-        let mask = body(at, tile.stretches.get_all::<R>(at));
-        admitted |= R::bits(mask) << at;
-    });
-    !admitted & first_bits(tile.count)
-}
-
-#[inline(always)]
-fn to_numbers<R: Copy>(blocks: &Blocks<R>) -> [R; 15] {
+pub(super) fn to_numbers<R: Copy>(blocks: &Blocks<R>) -> [R; 15] {
     let [p1, p2, p3] = blocks.gradient;
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
     let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);

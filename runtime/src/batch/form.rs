@@ -2,78 +2,105 @@
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
-use super::stage::{to_matrix, to_numbers};
-use crate::lanes::Real;
+use super::stage::to_numbers;
+use crate::lanes::{Element, Lanes, Real};
 use crate::material::Blocks;
-use crate::point::{Point, Tangent, contract};
+use crate::point::{Assemble, Matrix3, Tangent, contract};
+
+/// A point's stress and judged tangent.
+pub(super) struct Response<R: Real> {
+    pub(super) stress: Matrix3<R>,
+    pub(super) tangent: Tangent<R>,
+    pub(super) bounded: R::Mask,
+    pub(super) nonfinite: R::Mask,
+}
 
 /// Two outputs of FIRST and SECOND numbers, from a point and REST numbers of its rest shape.
 pub(super) trait Form<const REST: usize, const FIRST: usize, const SECOND: usize> {
-    /// Completes the point's status, and its blocks where the form asks for more than the filter does.
+    /// Completes what there is to say of the point, and its blocks where the form asks for more than the filter does.
     #[inline(always)]
-    fn prepare<R: Real>(point: &mut Point<R>, rest: &[R; REST], has_pole: bool) {
-        let _ = (point, rest, has_pole);
+    fn prepare<R: Real>(response: &mut Response<R>, rest: &[R; REST], has_pole: bool) {
+        let _ = (response, rest, has_pole);
     }
 
-    /// Hands out the numbers of the first output.
-    fn first<R: Real>(point: &Point<R>, rest: &[R; REST], put: impl FnMut(usize, R));
+    /// Puts number k of the first output at k LINE.
+    fn first<R: Lanes>(response: &Response<R>, rest: &[R; REST], to: &mut [R::Element]);
 
-    /// Hands out the numbers of the second output.
-    fn second<R: Real>(point: &Point<R>, rest: &[R; REST], put: impl FnMut(usize, R));
+    /// Puts number k of the second output at k LINE.
+    fn second<R: Lanes>(response: &Response<R>, rest: &[R; REST], to: &mut [R::Element]);
+}
+
+/// Puts number k at k LINE.
+#[inline(always)]
+fn put<R: Lanes>(to: &mut [R::Element], k: usize, number: R) {
+    number.store(&mut to[k * <R::Element as Element>::LINE..]);
 }
 
 #[inline(always)]
-fn put_stress<R: Real>(point: &Point<R>, mut put: impl FnMut(usize, R)) {
-    for (k, number) in to_numbers(point.stress).into_iter().enumerate() {
-        put(k, number);
+pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Element]) {
+    for (k, number) in numbers.into_iter().enumerate() {
+        put(to, k, number);
     }
 }
+
+/// A place that takes the blocks of [`contract`]; F says where.
+struct Blocks3<'a, F, E>(F, &'a mut [E]);
 
 /// P and all 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
 pub(super) struct FullTangent;
 
+impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
+    #[inline(always)]
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
+        for x in 0..3 {
+            for y in 0..3 {
+                let (row, column) = (3 * a + x, 3 * c + y);
+                put(self.1, 9 * row + column, block[x][y]);
+                if a != c {
+                    put(self.1, 9 * column + row, block[x][y]);
+                }
+            }
+        }
+    }
+}
+
 impl Form<0, 9, 81> for FullTangent {
     #[inline(always)]
-    fn first<R: Real>(point: &Point<R>, _: &[R; 0], put: impl FnMut(usize, R)) {
-        put_stress(point, put);
+    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        put_all(to_numbers(response.stress), to);
     }
 
     #[inline(always)]
-    fn second<R: Real>(point: &Point<R>, _: &[R; 0], mut put: impl FnMut(usize, R)) {
-        let Tangent { U, V, blocks } = &point.tangent;
-        contract(U, V, blocks, |a, c, block| {
-            for x in 0..3 {
-                for y in 0..3 {
-                    let (row, column) = (3 * a + x, 3 * c + y);
-                    put(9 * row + column, block[x][y]);
-                    if a != c {
-                        put(9 * column + row, block[x][y]);
-                    }
-                }
-            }
-        });
+    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        let Tangent { U, V, blocks } = &response.tangent;
+        contract(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
 /// P and the 45 entries of dP/dF on and above the diagonal, row by row.
 pub(super) struct PackedTangent;
 
+impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
+    #[inline(always)]
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
+        for x in 0..3 {
+            for y in if a == c { x } else { 0 }..3 {
+                put(self.1, packed(9, 3 * a + x, 3 * c + y), block[x][y]);
+            }
+        }
+    }
+}
+
 impl Form<0, 9, 45> for PackedTangent {
     #[inline(always)]
-    fn first<R: Real>(point: &Point<R>, _: &[R; 0], put: impl FnMut(usize, R)) {
-        put_stress(point, put);
+    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        put_all(to_numbers(response.stress), to);
     }
 
     #[inline(always)]
-    fn second<R: Real>(point: &Point<R>, _: &[R; 0], mut put: impl FnMut(usize, R)) {
-        let Tangent { U, V, blocks } = &point.tangent;
-        contract(U, V, blocks, |a, c, block| {
-            for x in 0..3 {
-                for y in if a == c { x } else { 0 }..3 {
-                    put(packed(9, 3 * a + x, 3 * c + y), block[x][y]);
-                }
-            }
-        });
+    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        let Tangent { U, V, blocks } = &response.tangent;
+        contract(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
@@ -90,31 +117,37 @@ impl Factored {
     /// The tangent from its numbers.
     #[inline(always)]
     pub(super) fn restore<R: Real>(numbers: [R; 30]) -> Tangent<R> {
-        let nine = |start: usize| to_matrix(std::array::from_fn(|k| numbers[start + k]));
+        let [u1, u2, u3, u4, u5, u6, u7, u8, u9, v1, v2, v3, v4, v5, v6, v7, v8, v9, rest @ ..] = numbers;
+        let [h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23] = rest;
         let blocks = Blocks {
             gradient: [R::splat(0.0); 3],
-            hessian: std::array::from_fn(|k| numbers[18 + k]),
-            flip: std::array::from_fn(|k| numbers[24 + k]),
-            twist: std::array::from_fn(|k| numbers[27 + k]),
+            hessian: [h11, h22, h33, h12, h13, h23],
+            flip: [f12, f13, f23],
+            twist: [t12, t13, t23],
         };
-        Tangent { U: nine(0), V: nine(9), blocks }
+        Tangent {
+            U: [[u1, u2, u3], [u4, u5, u6], [u7, u8, u9]],
+            V: [[v1, v2, v3], [v4, v5, v6], [v7, v8, v9]],
+            blocks,
+        }
     }
 }
 
 impl Form<0, 9, 30> for Factored {
     #[inline(always)]
-    fn first<R: Real>(point: &Point<R>, _: &[R; 0], put: impl FnMut(usize, R)) {
-        put_stress(point, put);
+    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        put_all(to_numbers(response.stress), to);
     }
 
     #[inline(always)]
-    fn second<R: Real>(point: &Point<R>, _: &[R; 0], mut put: impl FnMut(usize, R)) {
-        let Tangent { U, V, blocks } = &point.tangent;
-        let frames = to_numbers(*U).into_iter().chain(to_numbers(*V));
-        let all = frames.chain(blocks.hessian).chain(blocks.flip).chain(blocks.twist);
-        for (k, number) in all.enumerate() {
-            put(k, number);
-        }
+    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+        let line = <R::Element as Element>::LINE;
+        let Tangent { U, V, blocks } = &response.tangent;
+        put_all(to_numbers(*U), to);
+        put_all(to_numbers(*V), &mut to[9 * line..]);
+        put_all(blocks.hessian, &mut to[18 * line..]);
+        put_all(blocks.flip, &mut to[24 * line..]);
+        put_all(blocks.twist, &mut to[27 * line..]);
     }
 }
 
@@ -135,23 +168,29 @@ impl<R: Real> Rest<R> {
     #[inline(always)]
     fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         let factor = self.volume.sqrt();
-        self.inverse.map(|row| {
-            let scaled = row.map(|entry| factor * entry);
-            std::array::from_fn(|l| {
-                scaled[0].mul_add(V[0][l], scaled[1].mul_add(V[1][l], scaled[2] * V[2][l]))
-            })
-        })
+        let mut W = self.inverse;
+        for row in &mut W {
+            let [a, b, c] = [factor * row[0], factor * row[1], factor * row[2]];
+            for l in 0..3 {
+                row[l] = a.mul_add(V[0][l], b.mul_add(V[1][l], c * V[2][l]));
+            }
+        }
+        W
     }
 }
 
 #[inline(always)]
-fn largest<R: Real>(numbers: impl IntoIterator<Item = R>) -> R {
-    numbers.into_iter().fold(R::splat(0.0), |largest, x| x.abs().max(largest))
+fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
+    let mut largest = R::splat(0.0);
+    for number in numbers {
+        largest = number.abs().max(largest);
+    }
+    largest
 }
 
 /// The largest twist in an element's stiffness, relative to the rest of its tangent: far above what is ordinary, far below
 /// 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
-const STIFFEST: f64 = 1e6;
+pub(crate) const STIFFEST: f64 = 1e6;
 
 /// Cuts off what a factorisation cannot resolve, and says so.
 ///
@@ -159,105 +198,135 @@ const STIFFEST: f64 = 1e6;
 /// has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the factors of a matrix that
 /// holds it beside ordinary entries lose all digits of those. A stiffness [`STIFFEST`] times the others is rigid enough.
 #[inline(always)]
-fn blunt<R: Real>(point: &mut Point<R>) {
-    let blocks = &mut point.tangent.blocks;
-    let limit = R::splat(STIFFEST) * largest(blocks.hessian.into_iter().chain(blocks.flip));
+fn blunt<R: Real>(response: &mut Response<R>) {
+    let blocks = &mut response.tangent.blocks;
+    let limit = R::splat(STIFFEST) * largest([largest(blocks.hessian), largest(blocks.flip)]);
     for twist in &mut blocks.twist {
         // Not `min`, which would turn NaN into a plausible number.
         let is_blunted = limit.less(*twist);
         *twist = R::select(is_blunted, limit, *twist);
-        point.status.bounded = point.status.bounded | is_blunted;
+        response.bounded = response.bounded | is_blunted;
     }
 }
 
-/// Marks as not finite what may overflow on the way from the tangent to the stiffness or from stress to forces.
-///
-/// An entry of the stiffness is a sum of at most 27 products of an entry of the tangent and two of W, or minus a sum of
-/// nine entries; one of the gradient is a sum of nine products of the stress, Dm⁻¹ and the volume.
+/// Marks as not finite what may overflow on the way from the tangent to the stiffness: its entries are sums of at most 27
+/// products of an entry of the tangent and two of W, or sums of nine such entries.
 #[inline(always)]
-fn mark_overflow<R: Real>(point: &mut Point<R>, rest: &Rest<R>) {
-    let blocks = &point.tangent.blocks;
-    let tangent = largest(blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist));
-    let stress = largest(to_numbers(point.stress));
-    let shape = largest(rest.inverse.into_iter().flatten());
-    let force = shape * rest.volume * R::splat(16.0) * stress;
+fn mark_overflow<R: Real>(response: &mut Response<R>, rest: &Rest<R>) {
+    let blocks = &response.tangent.blocks;
+    let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
+    let shape = largest(to_numbers(rest.inverse));
     let stiffness = (shape * rest.volume) * R::splat(1024.0) * (shape * tangent);
-    point.status.nonfinite = point.status.nonfinite | !(force.is_finite() & stiffness.is_finite());
+    response.nonfinite = response.nonfinite | !stiffness.is_finite();
+}
+
+/// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the stress, Dm⁻¹ and
+/// the volume.
+#[inline(always)]
+pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
+    let Rest { inverse, volume } = Rest::new(*rest);
+    (largest(to_numbers(inverse)) * volume * R::splat(16.0) * largest(to_numbers(*stress))).is_finite()
 }
 
 /// The gradient of an element's energy in its nodal positions: entry a of node n at 3n+a.
 ///
 /// v P Dm⁻ᵀ; its column n belongs to node n + 1, and node 0 takes minus their sum.
 #[inline(always)]
-fn put_gradient<R: Real>(point: &Point<R>, rest: &[R; 10], mut put: impl FnMut(usize, R)) {
+pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Element]) {
     let rest = Rest::new(*rest);
     for a in 0..3 {
-        let row = point.stress[a].map(|entry| rest.volume * entry);
-        let gradients =
-            rest.inverse.map(|node| row[0].mul_add(node[0], row[1].mul_add(node[1], row[2] * node[2])));
-        put(a, -(gradients[0] + gradients[1] + gradients[2]));
-        for (n, gradient) in gradients.into_iter().enumerate() {
-            put(3 * (n + 1) + a, gradient);
+        let row = stress[a];
+        let row = [row[0] * rest.volume, row[1] * rest.volume, row[2] * rest.volume];
+        let mut sum = R::splat(0.0);
+        for n in 0..3 {
+            let node = rest.inverse[n];
+            let gradient = row[0].mul_add(node[0], row[1].mul_add(node[1], row[2] * node[2]));
+            put(to, 3 * (n + 1) + a, gradient);
+            sum = sum + gradient;
         }
+        put(to, a, -sum);
     }
+}
+
+/// Where the entries of an element's stiffness go.
+trait Places {
+    /// The one or two places of the entry between coordinate a of node i and c of node j, i ≥ j.
+    fn places(i: usize, a: usize, j: usize, c: usize) -> [usize; 2];
 }
 
 /// The stiffness from the blocks of the tangent: [`contract`] with W in place of V, with no 9×12 product.
 ///
-/// Calls `put(i, j, a, c, value)` for coordinate a of node i and c of node j, once for each pair i > j, and for i = j with
-/// a ≤ c. Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
-#[inline(always)]
-fn stiffness<R: Real>(point: &Point<R>, rest: &[R; 10], mut put: impl FnMut(usize, usize, usize, usize, R)) {
-    let Tangent { U, V, blocks } = &point.tangent;
-    let W = Rest::new(*rest).shape_gradients(V);
-    contract(U, &W, blocks, |a, c, block| {
+/// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
+struct Stiffness<'a, F, E>(F, &'a mut [E]);
+
+impl<F: Places, E: Element> Stiffness<'_, F, E> {
+    #[inline(always)]
+    fn put<R: Lanes<Element = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
+        let [place, mirrored] = F::places(i, a, j, c);
+        put(self.1, place, entry);
+        if mirrored != place {
+            put(self.1, mirrored, entry);
+        }
+    }
+}
+
+impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Element> {
+    #[inline(always)]
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1; for a ≠ c it stands for
         // its mirror image too.
-        let rows = block.map(|row| row[0] + row[1] + row[2]);
-        let columns: [R; 3] = std::array::from_fn(|y| block[0][y] + block[1][y] + block[2][y]);
-        put(0, 0, a, c, rows[0] + rows[1] + rows[2]);
+        let mut all = R::splat(0.0);
         for x in 0..3 {
-            put(x + 1, x + 1, a, c, block[x][x]);
-            put(x + 1, 0, a, c, -rows[x]);
+            let row = block[x][0] + block[x][1] + block[x][2];
+            all = all + row;
+            self.put([x + 1, a], [0, c], -row);
+            self.put([x + 1, a], [x + 1, c], block[x][x]);
             for y in 0..x {
-                put(x + 1, y + 1, a, c, block[x][y]);
-            }
-            if a != c {
-                put(x + 1, 0, c, a, -columns[x]);
-                for y in 0..x {
-                    put(x + 1, y + 1, c, a, block[y][x]);
+                self.put([x + 1, a], [y + 1, c], block[x][y]);
+                if a != c {
+                    self.put([x + 1, c], [y + 1, a], block[y][x]);
                 }
             }
+            if a != c {
+                self.put([x + 1, c], [0, a], -(block[0][x] + block[1][x] + block[2][x]));
+            }
         }
-    });
+        self.put([0, a], [0, c], all);
+    }
 }
 
 macro_rules! stiffness_form {
-    ($(#[$doc:meta])* $Form:ident of $numbers:literal, |$i:ident, $j:ident, $a:ident, $c:ident| $places:expr) => {
+    ($(#[$doc:meta])* $Form:ident of $numbers:literal, |$i:ident, $a:ident, $j:ident, $c:ident| $places:expr) => {
         $(#[$doc])*
         pub(super) struct $Form;
 
+        impl Places for $Form {
+            #[inline(always)]
+            fn places($i: usize, $a: usize, $j: usize, $c: usize) -> [usize; 2] {
+                $places
+            }
+        }
+
         impl Form<10, 12, $numbers> for $Form {
             #[inline(always)]
-            fn prepare<R: Real>(point: &mut Point<R>, rest: &[R; 10], has_pole: bool) {
+            fn prepare<R: Real>(response: &mut Response<R>, rest: &[R; 10], has_pole: bool) {
                 if has_pole {
-                    blunt(point);
+                    blunt(response);
                 }
-                mark_overflow(point, &Rest::new(*rest));
+                response.nonfinite = response.nonfinite | !gradient_is_finite(&response.stress, rest);
+                mark_overflow(response, &Rest::new(*rest));
             }
 
             #[inline(always)]
-            fn first<R: Real>(point: &Point<R>, rest: &[R; 10], put: impl FnMut(usize, R)) {
-                put_gradient(point, rest, put);
+            fn first<R: Lanes>(response: &Response<R>, rest: &[R; 10], to: &mut [R::Element]) {
+                put_gradient(&response.stress, rest, to);
             }
 
             #[inline(always)]
-            fn second<R: Real>(point: &Point<R>, rest: &[R; 10], mut put: impl FnMut(usize, R)) {
-                stiffness(point, rest, |$i, $j, $a, $c, value| {
-                    for place in $places {
-                        put(place, value);
-                    }
-                });
+            fn second<R: Lanes>(response: &Response<R>, rest: &[R; 10], to: &mut [R::Element]) {
+                let Tangent { U, V, blocks } = &response.tangent;
+                let W = Rest::new(*rest).shape_gradients(V);
+                contract(U, &W, blocks, &mut Stiffness(Self, to));
             }
         }
     };
@@ -265,7 +334,7 @@ macro_rules! stiffness_form {
 
 stiffness_form! {
     /// All 144 entries: unknown 3i+a is coordinate a of node i, entry (row, column) at 12 row + column.
-    FullStiffness of 144, |i, j, a, c| {
+    FullStiffness of 144, |i, a, j, c| {
         let (row, column) = (3 * i + a, 3 * j + c);
         [12 * row + column, 12 * column + row]
     }
@@ -273,15 +342,15 @@ stiffness_form! {
 
 stiffness_form! {
     /// The 78 entries on and above the diagonal, row by row.
-    PackedStiffness of 78, |i, j, a, c| {
+    PackedStiffness of 78, |i, a, j, c| {
         let (row, column) = (3 * i + a, 3 * j + c);
-        [packed(12, row.min(column), row.max(column))]
+        [packed(12, row.min(column), row.max(column)); 2]
     }
 }
 
 stiffness_form! {
     /// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
-    BlockStiffness of 90, |i, j, a, c| {
+    BlockStiffness of 90, |i, a, j, c| {
         let start = 9 * (i * (i + 1) / 2 + j);
         [start + 3 * a + c, if i == j { start + 3 * c + a } else { start + 3 * a + c }]
     }

@@ -1,7 +1,7 @@
 //! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
 
 use super::tile::{Rows, TILE};
-use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::lanes::{Backend, Element, Kernel, Lanes, PastCaches};
 
 /// How N numbers of each of many points lie in a slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,7 +54,11 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
             Self::Rows(rows) => rows.get_all(at),
             Self::Lines(from) => {
                 let from = &from[at / E::LINE * N * E::LINE + at % E::LINE..];
-                std::array::from_fn(|k| R::load(&from[k * E::LINE..]))
+                let mut numbers = [R::splat(0.0); N];
+                for (k, number) in numbers.iter_mut().enumerate() {
+                    *number = R::load(&from[k * E::LINE..]);
+                }
+                numbers
             }
         }
     }
@@ -76,9 +80,13 @@ impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
         let whole = if N < R::LANES { 0 } else { count - count % R::LANES };
         let mut at = 0;
         while at < whole {
-            for k in starts::<R, N>() {
+            let mut k = 0;
+            while k < N {
+                // The last square overlaps the one before where N is no multiple.
+                k = k.min(N - R::LANES);
                 let to = &mut rows.0.as_flattened_mut()[k * TILE + at..];
                 R::transpose(&from[at * N + k..], N, to, TILE);
+                k += R::LANES;
             }
             at += R::LANES;
         }
@@ -90,19 +98,13 @@ impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
     }
 }
 
-/// First numbers of the square tiles that cover N numbers: the last one overlaps where N is no multiple.
-#[inline(always)]
-fn starts<R: Lanes, const N: usize>() -> impl Iterator<Item = usize> {
-    (0..N.div_ceil(R::LANES)).map(|tile| (tile * R::LANES).min(N - R::LANES))
-}
-
 /// Where the numbers of a tile go.
 pub(super) struct Sink<'a, E> {
     /// The part of the slice that belongs to the tile.
     pub(super) to: &'a mut [E],
     pub(super) layout: Layout,
-    /// Past the caches, with non-temporal stores.
-    pub(super) stream: bool,
+    /// Past the caches, with non-temporal stores, if given what keeps them in order.
+    pub(super) past_caches: Option<&'a PastCaches>,
 }
 
 /// Numbers of one line on their way to a slice that cannot take them as they come.
@@ -117,36 +119,55 @@ impl<E: Element, const N: usize> Scratch<E, N> {
 }
 
 impl<E: Element> Sink<'_, E> {
-    /// Runs `body` with the place for the N numbers of the points from `at` on: number k belongs at k LINE.
-    ///
-    /// `count` is how many points the tile has.
+    /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`] must follow.
     #[inline(always)]
-    pub(super) fn put<R: Lanes<Element = E>, const N: usize>(
+    pub(super) fn place<'a, const N: usize>(
+        &'a mut self,
+        scratch: &'a mut Scratch<E, N>,
+        at: usize,
+    ) -> &'a mut [E] {
+        let (line, offset) = (at / E::LINE, at % E::LINE);
+        if self.is_direct() {
+            &mut self.to[line * N * E::LINE + offset..]
+        } else {
+            &mut scratch.0.as_flattened_mut()[offset..]
+        }
+    }
+
+    #[inline(always)]
+    fn is_direct(&self) -> bool {
+        self.layout == Layout::Lines && self.past_caches.is_none()
+    }
+
+    /// Brings what is in a place to the slice; `count` is how many points the tile has.
+    #[inline(always)]
+    pub(super) fn finish<R: Lanes<Element = E>, const N: usize>(
         &mut self,
-        scratch: &mut Scratch<E, N>,
+        scratch: &Scratch<E, N>,
         at: usize,
         count: usize,
-        body: impl FnOnce(&mut [E]),
     ) {
-        let offset = at % E::LINE;
-        let line = at / E::LINE;
-        if self.layout == Layout::Lines && !self.stream {
-            return body(&mut self.to[line * N * E::LINE + offset..]);
+        if self.is_direct() {
+            return;
         }
-        let scratch = scratch.0.as_flattened_mut();
-        body(&mut scratch[offset..]);
-        if self.layout == Layout::Lines {
+        let (line, offset) = (at / E::LINE, at % E::LINE);
+        let scratch = scratch.0.as_flattened();
+        if let (Layout::Lines, Some(order)) = (self.layout, self.past_caches) {
             let to = &mut self.to[line * N * E::LINE..];
             for k in 0..N {
                 let start = k * E::LINE + offset;
-                R::load(&scratch[start..]).stream(&mut to[start..]);
+                R::load(&scratch[start..]).stream(&mut to[start..], order);
             }
             return;
         }
         let to = &mut self.to[at * N..];
         if N >= R::LANES && at + R::LANES <= count {
-            for k in starts::<R, N>() {
+            let mut k = 0;
+            while k < N {
+                // The last square overlaps the one before where N is no multiple.
+                k = k.min(N - R::LANES);
                 R::transpose(&scratch[k * E::LINE + offset..], E::LINE, &mut to[k..], N);
+                k += R::LANES;
             }
         } else {
             for (lane, numbers) in to.chunks_exact_mut(N).take(R::LANES).enumerate() {

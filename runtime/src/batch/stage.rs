@@ -5,14 +5,17 @@
 
 #![expect(non_snake_case, reason = "F, U, V, P as in the literature")]
 
-use super::energy::from_numbers;
+use super::energy::{self, from_numbers};
 use super::form::{
-    BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
+    BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, Response,
+    gradient_is_finite, put_all, put_gradient,
 };
 use super::sink::{Scratch, Sink, Source};
 use super::tile::{Rows, first_bits, for_each_group};
-use crate::lanes::{Backend, Element, Kernel, Lanes};
-use crate::point::{Filter, Matrix3, Svd, respond, stress, stress_is_finite, svd, svd_signed_by_determinant};
+use crate::lanes::{Backend, Element, Kernel, Lanes, Mask};
+use crate::point::{
+    Filter, Matrix3, Svd, Tangent, judge, multiply, stress, stress_is_finite, svd, svd_signed_by_determinant,
+};
 
 /// Frames and stretches of a tile's deformation gradients.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +67,16 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
+    /// What one of two stages says.
+    pub(super) fn or(self, other: Self) -> Self {
+        Self {
+            refused: self.refused | other.refused,
+            bounded: self.bounded | other.bounded,
+            nonfinite: self.nonfinite | other.nonfinite,
+            filtered: self.filtered | other.filtered,
+        }
+    }
+
     /// Without what the lanes beyond the last point say.
     fn of_first(self, count: usize) -> Self {
         let points = first_bits(count);
@@ -92,12 +105,66 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
     fn run<R: Lanes<Element = E>>(self) {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
-            for_each_group::<R>(count, |at| {
+            for_each_group!(R, count, |at| {
                 points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<R>(at))));
             });
         } else {
-            for_each_group::<R>(count, |at| points.set(at, &svd(&to_matrix(F.get_all::<R>(at)))));
+            for_each_group!(R, count, |at| {
+                points.set(at, &svd(&to_matrix(F.get_all::<R>(at))));
+            });
         }
+    }
+}
+
+/// Edges of a tile's tetrahedra into their deformation gradients, in place: F = Ds Dm⁻¹.
+pub(super) struct Deform<'a, E> {
+    /// Ds: row a, column k is coordinate a of node k + 1 less that of node 0.
+    pub(super) edges: &'a mut Rows<E, 9>,
+    pub(super) rest: &'a Rows<E, 10>,
+    pub(super) count: usize,
+}
+
+impl<E: Element> Kernel<E> for Deform<'_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) {
+        let Self { edges, rest, count } = self;
+        for_each_group!(R, count, |at| {
+            let Ds = to_matrix(edges.get_all::<R>(at));
+            let [a, b, c, d, e, f, g, h, i, _] = rest.get_all::<R>(at);
+            edges.set_all(at, to_numbers(multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])));
+        });
+    }
+}
+
+/// Frames and ψi into the gradients of elements.
+pub(super) struct Forces<'a, E> {
+    pub(super) points: &'a Points<E>,
+    pub(super) gradients: &'a Rows<E, 3>,
+    pub(super) rest: Source<'a, E, 10>,
+    pub(super) count: usize,
+    pub(super) to: Sink<'a, E>,
+}
+
+impl<E: Element> Kernel<E> for Forces<'_, E> {
+    type Output = Marks;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> Marks {
+        let Self { points, gradients, rest, count, mut to } = self;
+        let mut scratch = Scratch::<E, 12>::new();
+        let mut marks = Marks::default();
+        for_each_group!(R, count, |at| {
+            let svd = points.get::<R>(at);
+            let stress = stress(&svd, gradients.get_all(at));
+            let rest = rest.get_all(at);
+            let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, &rest);
+            marks.nonfinite |= R::bits(!is_finite) << at;
+            put_gradient(&stress, &rest, to.place(&mut scratch, at));
+            to.finish::<R, 12>(&scratch, at, count);
+        });
+        marks.of_first(count)
     }
 }
 
@@ -113,30 +180,57 @@ impl<E: Element> Kernel<E> for Stress<'_, E> {
     type Output = Marks;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(mut self) -> Marks {
+    fn run<R: Lanes<Element = E>>(self) -> Marks {
+        let Self { points, gradients, count, mut P } = self;
         let mut scratch = Scratch::<E, 9>::new();
         let mut marks = Marks::default();
-        for_each_group::<R>(self.count, |at| {
-            let svd = self.points.get::<R>(at);
-            let P = stress(&svd, self.gradients.get_all(at));
-            marks.nonfinite |= R::bits(!stress_is_finite(&svd, &P)) << at;
-            self.P.put::<R, 9>(&mut scratch, at, self.count, |to| {
-                for (k, number) in to_numbers(P).into_iter().enumerate() {
-                    number.store(&mut to[k * E::LINE..]);
-                }
-            });
+        for_each_group!(R, count, |at| {
+            let svd = points.get::<R>(at);
+            let stress = stress(&svd, gradients.get_all(at));
+            marks.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
+            put_all(to_numbers(stress), P.place(&mut scratch, at));
+            P.finish::<R, 9>(&scratch, at, count);
         });
-        marks.of_first(self.count)
+        marks.of_first(count)
     }
 }
 
-/// Frames and blocks, filtered, into a pair of outputs.
+/// Filters the blocks of a tile in place, and says what is wrong with them.
+pub(super) struct Judge<'a, E> {
+    pub(super) points: &'a Points<E>,
+    pub(super) blocks: &'a mut Rows<E, 15>,
+    pub(super) count: usize,
+    pub(super) filter: Filter,
+    pub(super) has_pole: bool,
+}
+
+impl<E: Element> Kernel<E> for Judge<'_, E> {
+    type Output = Marks;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> Marks {
+        let Self { points, blocks, count, filter, has_pole } = self;
+        let mut marks = Marks::default();
+        for_each_group!(R, count, |at| {
+            let stretches = points.stretches.get_all::<R>(at);
+            let judged = judge(stretches, &from_numbers(blocks.get_all(at)), has_pole, filter);
+            if filter != Filter::None {
+                blocks.set_all(at, energy::to_numbers(&judged.blocks));
+            }
+            marks.bounded |= R::bits(judged.bounded) << at;
+            marks.nonfinite |= R::bits(judged.nonfinite) << at;
+            marks.filtered |= R::bits(judged.filtered) << at;
+        });
+        marks.of_first(count)
+    }
+}
+
+/// Frames and judged blocks into a pair of outputs.
 pub(super) struct Respond<'a, E, const REST: usize> {
     pub(super) points: &'a Points<E>,
     pub(super) blocks: &'a Rows<E, 15>,
     pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
-    pub(super) filter: Filter,
     pub(super) has_pole: bool,
     pub(super) first: Sink<'a, E>,
     pub(super) second: Sink<'a, E>,
@@ -155,24 +249,29 @@ where
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) -> Marks {
-        let Respond { points, blocks, rest, count, filter, has_pole, mut first, mut second } = self.0;
+        let Respond { points, blocks, rest, count, has_pole, mut first, mut second } = self.0;
         let (mut first_scratch, mut second_scratch) =
             (Scratch::<E, FIRST>::new(), Scratch::<E, SECOND>::new());
         let mut marks = Marks::default();
-        for_each_group::<R>(count, |at| {
+        for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
-            let mut point = respond(&svd, &from_numbers(blocks.get_all(at)), has_pole, filter);
+            let blocks = from_numbers(blocks.get_all(at));
+            let stress = stress(&svd, blocks.gradient);
+            let is_finite = stress_is_finite(svd.stretches, &stress);
             let rest = rest.get_all(at);
-            F::prepare(&mut point, &rest, has_pole);
-            marks.bounded |= R::bits(point.status.bounded) << at;
-            marks.nonfinite |= R::bits(point.status.nonfinite) << at;
-            marks.filtered |= R::bits(point.filtered) << at;
-            first.put::<R, FIRST>(&mut first_scratch, at, count, |to| {
-                F::first(&point, &rest, |k, number: R| number.store(&mut to[k * E::LINE..]));
-            });
-            second.put::<R, SECOND>(&mut second_scratch, at, count, |to| {
-                F::second(&point, &rest, |k, number: R| number.store(&mut to[k * E::LINE..]));
-            });
+            let mut response = Response {
+                stress,
+                tangent: Tangent { U: svd.U, V: svd.V, blocks },
+                bounded: R::Mask::splat(false),
+                nonfinite: !is_finite,
+            };
+            F::prepare(&mut response, &rest, has_pole);
+            marks.bounded |= R::bits(response.bounded) << at;
+            marks.nonfinite |= R::bits(response.nonfinite) << at;
+            F::first(&response, &rest, first.place(&mut first_scratch, at));
+            first.finish::<R, FIRST>(&first_scratch, at, count);
+            F::second(&response, &rest, second.place(&mut second_scratch, at));
+            second.finish::<R, SECOND>(&second_scratch, at, count);
         });
         marks.of_first(count)
     }
@@ -190,16 +289,14 @@ impl<E: Element> Kernel<E> for Product<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(mut self) {
+    fn run<R: Lanes<Element = E>>(self) {
+        let Self { stored, dF, count, mut dP } = self;
         let mut scratch = Scratch::<E, 9>::new();
-        for_each_group::<R>(self.count, |at| {
-            let tangent = Factored::restore(self.stored.get_all::<R>(at));
-            let dP = tangent.apply(&to_matrix(self.dF.get_all(at)));
-            self.dP.put::<R, 9>(&mut scratch, at, self.count, |to| {
-                for (k, number) in to_numbers(dP).into_iter().enumerate() {
-                    number.store(&mut to[k * E::LINE..]);
-                }
-            });
+        for_each_group!(R, count, |at| {
+            let tangent = Factored::restore(stored.get_all::<R>(at));
+            let product = tangent.apply(&to_matrix(dF.get_all(at)));
+            put_all(to_numbers(product), dP.place(&mut scratch, at));
+            dP.finish::<R, 9>(&scratch, at, count);
         });
     }
 }
@@ -226,7 +323,13 @@ pub trait Stages: Element {
     #[doc(hidden)]
     fn decompose(backend: Backend, kernel: Decompose<'_, Self>);
     #[doc(hidden)]
+    fn deform(backend: Backend, kernel: Deform<'_, Self>);
+    #[doc(hidden)]
+    fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks;
+    #[doc(hidden)]
     fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Marks;
+    #[doc(hidden)]
+    fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Marks;
     #[doc(hidden)]
     fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Marks;
     #[doc(hidden)]
@@ -243,7 +346,19 @@ macro_rules! stages {
                 backend.run(kernel);
             }
 
+            fn deform(backend: Backend, kernel: Deform<'_, Self>) {
+                backend.run(kernel);
+            }
+
+            fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks {
+                backend.run(kernel)
+            }
+
             fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Marks {
+                backend.run(kernel)
+            }
+
+            fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Marks {
                 backend.run(kernel)
             }
 

@@ -1,1 +1,343 @@
+//! Batches of every format, back end and layout against the points of scalars, and against themselves in other places.
 
+use super::*;
+use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+use crate::lanes::{Element, Real};
+use crate::material::Material;
+use crate::point::{Matrix3, Point, evaluate, evaluate_energy};
+use crate::random::Random;
+
+const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
+
+/// Numbers of a format that a test can make and read.
+trait Number: Stages + Real<Mask = bool> {
+    fn of(value: f64) -> Self;
+}
+
+impl Number for f64 {
+    fn of(value: f64) -> Self {
+        value
+    }
+}
+
+impl Number for f32 {
+    fn of(value: f64) -> Self {
+        value as f32
+    }
+}
+
+/// Rest shapes, deformation gradients and increments of so many elements, inverted and collapsed ones among them.
+struct Sample<E> {
+    F: Vec<[E; 9]>,
+    dF: Vec<[E; 9]>,
+    rest: Vec<[E; REST]>,
+}
+
+impl<E: Number> Sample<E> {
+    fn new(count: usize) -> Self {
+        let mut random = Random::new(2011);
+        let mut nine = |scale: f64, identity: f64| -> [E; 9] {
+            let matrix = random.matrix();
+            std::array::from_fn(|k| {
+                E::of(scale * matrix[k / 3][k % 3] + if k % 4 == 0 { identity } else { 0.0 })
+            })
+        };
+        let F = (0..count)
+            .map(|p| match p % 8 {
+                0 => nine(0.0, 1.0),
+                1 => nine(0.0, 0.0),
+                2 => nine(1e-6, 1.0),
+                3 => nine(1.0, -0.5),
+                _ => nine(0.5, 1.0),
+            })
+            .collect();
+        let dF = (0..count).map(|_| nine(1.0, 0.0)).collect();
+        let rest = (0..count)
+            .map(|p| {
+                let shape = nine(0.3, 1.0);
+                std::array::from_fn(|k| if k < 9 { shape[k] } else { E::of(0.5 + 0.01 * p as f64) })
+            })
+            .collect();
+        Self { F, dF, rest }
+    }
+}
+
+/// As a slice of a layout.
+fn lay<E: Number, const N: usize>(layout: Layout, points: &[[E; N]]) -> Vec<E> {
+    let mut slice = vec![E::of(0.0); N * points.len()];
+    for (p, numbers) in points.iter().enumerate() {
+        for (k, number) in numbers.iter().enumerate() {
+            slice[layout.index::<E>(p, N, k)] = *number;
+        }
+    }
+    slice
+}
+
+fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: usize) -> E {
+    slice[layout.index::<E>(p, numbers, k)]
+}
+
+/// Everything that a batch gives.
+#[derive(Debug, PartialEq)]
+struct All<E> {
+    surveys: [Survey; 7],
+    energies: Vec<E>,
+    P: Vec<E>,
+    P_with_tangent: Vec<E>,
+    full: Vec<E>,
+    packed: Vec<E>,
+    dP: Vec<E>,
+    gradients: Vec<E>,
+    stiffnesses: Vec<E>,
+    packed_stiffnesses: Vec<E>,
+}
+
+fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
+    let count = sample.F.len();
+    let [F, dF] = [&sample.F, &sample.dF].map(|points| lay(batch.layout, points));
+    let rest = lay(batch.layout, &sample.rest);
+    let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
+    let mut factors = zero(FACTORS);
+    let mut all = All {
+        surveys: [Survey::NONE; 7],
+        energies: zero(1),
+        P: zero(9),
+        P_with_tangent: zero(9),
+        full: zero(81),
+        packed: zero(45),
+        dP: zero(9),
+        gradients: zero(12),
+        stiffnesses: zero(144),
+        packed_stiffnesses: zero(78),
+    };
+    let surveys = [
+        batch.energies(&F, &mut all.energies),
+        batch.stresses(&F, &mut all.P),
+        batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
+        batch.packed_tangents(&F, &mut all.P_with_tangent, &mut all.packed),
+        batch.factored_tangents(&F, &mut all.P_with_tangent, &mut factors),
+        batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
+        batch.packed_stiffnesses(&F, &rest, &mut all.gradients, &mut all.packed_stiffnesses),
+    ];
+    all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
+    batch.products(&factors, &dF, &mut all.dP).expect("lengths fit");
+    all
+}
+
+/// Worst of |found − expected| relative to u times a scale.
+#[derive(Default)]
+struct Worst(f64);
+
+impl Worst {
+    fn see<E: Number>(&mut self, found: E, expected: E, scale: f64) {
+        let (found, expected): (f64, f64) = (found.into(), expected.into());
+        let error = (found - expected).abs() / (<E as Real>::UNIT_ROUNDOFF * scale.max(f64::MIN_POSITIVE));
+        if error > self.0 || error.is_nan() {
+            self.0 = error;
+        }
+    }
+}
+
+fn norm<E: Number>(numbers: impl IntoIterator<Item = E>) -> f64 {
+    numbers.into_iter().map(|x| Into::<f64>::into(x).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Compares a batch with scalar points and dense algebra on them.
+///
+/// Both sides have a few u of backward error in F, so P differs by u ‖dP/dF‖ ‖F‖ and dP/dF by u times its own slope, for which
+/// its norm over the smallest distance between singular values of what matters stands: the sample has nothing near a pole
+/// but the points of `skip`.
+#[track_caller]
+fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usize) -> bool) {
+    let sample = Sample::<E>::new(200);
+    for backend in Backend::available() {
+        for filter in FILTERS {
+            let batch = Batch { filter, backend, ..Batch::new(material) };
+            let found = all(&batch, &sample);
+            let mut worst = Worst::default();
+            let mut refused = 0;
+            for (p, F) in sample.F.iter().enumerate() {
+                let F: Matrix3<E> = std::array::from_fn(|i| std::array::from_fn(|j| F[3 * i + j]));
+                let point = evaluate(material, &F, filter);
+                refused += usize::from(point.status.refused);
+                if skip(p) || point.status.refused {
+                    continue;
+                }
+                check_point(&mut worst, &found, &sample, p, material, &F, &point);
+            }
+            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 7], "{backend}");
+            // Twice the 20 u of a decomposition, times what a material makes of it.
+            assert!(worst.0 <= 400.0, "{backend}, {filter:?}: {} u", worst.0);
+        }
+    }
+}
+
+fn check_point<E: Number>(
+    worst: &mut Worst,
+    found: &All<E>,
+    sample: &Sample<E>,
+    p: usize,
+    material: &impl Material,
+    F: &Matrix3<E>,
+    point: &Point<E>,
+) {
+    let layout = Layout::Points;
+    let dP_dF = point.tangent.to_matrix();
+    let size = norm(F.iter().flatten().copied()).max(1.0);
+    let unfiltered = evaluate(material, F, Filter::None).tangent.to_matrix();
+    let stiff = norm(unfiltered.into_iter().flatten());
+    let stress = stiff * size;
+    worst.see(found.energies[p], evaluate_energy(material, F).0, stress * size);
+    for k in 0..9 {
+        worst.see(found.P[9 * p + k], point.stress[k / 3][k % 3], stress);
+        worst.see(found.P_with_tangent[9 * p + k], point.stress[k / 3][k % 3], stress);
+        let product = (0..9).fold(E::of(0.0), |sum, l| sum + dP_dF[k][l] * sample.dF[p][l]);
+        worst.see(found.dP[9 * p + k], product, 9.0 * stiff * size * size);
+        for l in 0..9 {
+            worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
+            if l >= k {
+                let entry = number(layout, &found.packed, 45, p, form::packed(9, k, l));
+                assert!(entry == found.full[81 * p + 9 * k + l]);
+            }
+        }
+    }
+    // Column 3n+a of G is ∂F/∂x_na: Dm⁻¹ in row a, with minus the sum for node 0.
+    let rest = sample.rest[p];
+    let G = |row: usize, column: usize| -> E {
+        let (n, a) = (column / 3, column % 3);
+        let shape = |n: usize| rest[3 * n + row % 3];
+        match (a == row / 3, n) {
+            (false, _) => E::of(0.0),
+            (true, 0) => -(shape(0) + shape(1) + shape(2)),
+            (true, n) => shape(n - 1),
+        }
+    };
+    let shape = norm(rest[..9].iter().copied()).max(1.0) * 2.0;
+    for row in 0..12 {
+        let force = (0..9).fold(E::of(0.0), |sum, k| sum + rest[9] * G(k, row) * point.stress[k / 3][k % 3]);
+        worst.see(found.gradients[12 * p + row], force, shape * stress);
+        for column in 0..12 {
+            let mut entry = E::of(0.0);
+            for k in 0..9 {
+                for l in 0..9 {
+                    entry = entry + rest[9] * G(k, row) * dP_dF[k][l] * G(l, column);
+                }
+            }
+            let mine = found.stiffnesses[144 * p + 12 * row + column];
+            worst.see(mine, entry, shape * shape * stiff * size * size);
+            if column >= row {
+                assert!(mine == found.packed_stiffnesses[78 * p + form::packed(12, row, column)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_output_is_that_of_the_points() {
+    check_against_points::<f64, _>(&SaintVenantKirchhoff, |_| false);
+    check_against_points::<f32, _>(&SaintVenantKirchhoff, |_| false);
+    check_against_points::<f64, _>(&NeoHookean, |p| matches!(p % 8, 1 | 3));
+    check_against_points::<f64, _>(&ExtendedNeoHookean { epsilon: 0.4 }, |p| matches!(p % 8, 1 | 3));
+    check_against_points::<f64, _>(&RotatedLinear, |p| matches!(p % 8, 1 | 3));
+}
+
+/// The bits of every number, however the batch is laid out.
+fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
+    let mut bits = Vec::new();
+    let outputs = [
+        (&all.energies, 1),
+        (&all.P, 9),
+        (&all.P_with_tangent, 9),
+        (&all.full, 81),
+        (&all.packed, 45),
+        (&all.dP, 9),
+        (&all.gradients, 12),
+        (&all.stiffnesses, 144),
+        (&all.packed_stiffnesses, 78),
+    ];
+    for p in 0..count {
+        for (output, numbers) in outputs {
+            bits.extend(
+                (0..numbers).map(|k| Into::<f64>::into(number(layout, output, numbers, p, k)).to_bits()),
+            );
+        }
+    }
+    bits
+}
+
+fn check_bits<E: Number>(energy: &dyn Energy<E>) {
+    // Enough tiles for threads to share, in both layouts, the last one not full.
+    const COUNT: usize = 64 * 20 + 16;
+    let sample = Sample::<E>::new(COUNT);
+    let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool of threads");
+    for backend in Backend::available() {
+        let batch = Batch { filter: Filter::Clamp, backend, ..Batch::new(energy) };
+        let points = all(&batch, &sample);
+        let expected = bits(Layout::Points, &points, COUNT);
+        for variant in [
+            Batch { layout: Layout::Lines, ..batch },
+            Batch { layout: Layout::Lines, streams: true, ..batch },
+            Batch { threads: true, ..batch },
+            Batch { threads: true, layout: Layout::Lines, ..batch },
+        ] {
+            let found = two_threads.install(|| all(&variant, &sample));
+            assert_eq!(found.surveys, points.surveys, "{backend}");
+            assert!(bits(variant.layout, &found, COUNT) == expected, "{backend}, {:?}", variant.layout);
+        }
+        // Another place in the tile, other neighbours, another number of points.
+        let shifted = Sample {
+            F: sample.F[37..300].to_vec(),
+            dF: sample.dF[37..300].to_vec(),
+            rest: sample.rest[37..300].to_vec(),
+        };
+        let found = bits(Layout::Points, &all(&batch, &shifted), 263);
+        let per_point = expected.len() / COUNT;
+        assert!(found == expected[37 * per_point..300 * per_point], "{backend}, shifted");
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_place_neighbours_layout_or_threads() {
+    check_bits::<f64>(&RotatedLinear);
+    check_bits::<f32>(&RotatedLinear);
+    check_bits::<f64>(&ExtendedNeoHookean { epsilon: 0.4 });
+    check_bits::<f32>(&ExtendedNeoHookean { epsilon: 0.4 });
+}
+
+#[test]
+fn a_survey_counts_and_names_the_first() {
+    let mut F = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(130);
+    F[9 * 100] = -1.0;
+    F[9 * 101] = f64::NAN;
+    F[9 * 129] = f64::INFINITY;
+    for backend in Backend::available() {
+        let batch = Batch { backend, ..Batch::new(&NeoHookean) };
+        let (mut P, mut dP_dF, mut energies) = (vec![0.0; 9 * 130], vec![0.0; 81 * 130], vec![0.0; 130]);
+        for survey in [batch.energies(&F, &mut energies), batch.tangents(&F, &mut P, &mut dP_dF)] {
+            let survey = survey.expect("lengths fit");
+            // The logarithm of a negative number is not finite, and what is not a number is in no domain.
+            assert_eq!((survey.refused, survey.nonfinite, survey.first), (3, 3, Some(100)), "{backend}");
+            assert!(!survey.is_clean());
+        }
+    }
+}
+
+#[test]
+fn lengths_that_do_not_fit_are_errors() {
+    let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
+    let error = batch.stresses(&[1.0; 18], &mut [0.0; 17]).unwrap_err();
+    assert_eq!(error.to_string(), "`P` has 17 numbers; 2 points of 9 numbers each would make 18");
+    let error = batch.stresses(&[1.0; 17], &mut [0.0; 9]).unwrap_err();
+    assert_eq!(error.slice, "F");
+    let lines = Batch { layout: Layout::Lines, ..batch };
+    let error = lines.stresses(&[1.0; 18], &mut [0.0; 18]).unwrap_err();
+    assert!(error.to_string().ends_with("the layout in lines wants a multiple of 8 points"), "{error}");
+    assert_eq!(batch.stresses(&[], &mut []), Ok(Survey::NONE));
+}
+
+#[test]
+fn lines_are_as_long_as_a_cache_line() {
+    assert_eq!((<f64 as Element>::LINE, <f32 as Element>::LINE), (8, 16));
+    assert_eq!(Layout::Lines.index::<f64>(11, 9, 2), (9 + 2) * 8 + 3);
+    assert_eq!(Layout::Points.index::<f64>(11, 9, 2), 101);
+}

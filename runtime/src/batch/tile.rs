@@ -27,7 +27,11 @@ impl<E: Element, const N: usize> Rows<E, N> {
     /// All numbers of the points from `at` on.
     #[inline(always)]
     pub(crate) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
-        std::array::from_fn(|k| self.get(k, at))
+        let mut numbers = [R::splat(0.0); N];
+        for (k, number) in numbers.iter_mut().enumerate() {
+            *number = self.get(k, at);
+        }
+        numbers
     }
 
     #[inline(always)]
@@ -43,18 +47,21 @@ impl<E: Element, const N: usize> Rows<E, N> {
     }
 }
 
-/// Calls `body(at)` for each group of LANES points of a tile that holds one of the first `count`.
-#[inline(always)]
-pub(crate) fn for_each_group<R: Lanes>(count: usize, mut body: impl FnMut(usize)) {
-    let mut at = 0;
-    while at < count {
-        // Always true, since the lanes of every back end divide the tile; said for the bounds checks' sake.
-        if at + R::LANES <= TILE {
-            body(at);
+/// Runs a block for each group of lanes of a tile that holds one of the first points, `at` being the first of the group.
+///
+/// A macro and no function with a closure: a long closure is a function of its own to the compiler, and not compiled for
+/// the instructions of a back end unless it chooses to inline it.
+macro_rules! for_each_group {
+    ($R:ty, $count:expr, |$at:ident| $body:block) => {
+        let mut $at = 0;
+        while $at < $count {
+            // Always true, since the lanes of every back end divide the tile; said for the bounds checks' sake.
+            if $at + <$R as $crate::lanes::Lanes>::LANES <= $crate::batch::tile::TILE $body
+            $at += <$R as $crate::lanes::Lanes>::LANES;
         }
-        at += R::LANES;
-    }
+    };
 }
+pub(crate) use for_each_group;
 
 /// The lowest `count` bits.
 #[inline]

@@ -3,56 +3,50 @@
 //! Of scalars this is the portable back end: loops of fixed length over IEEE operations, which any compiler turns into
 //! what vector instructions the target has. Of registers it is interleaving: two or four independent batches in
 //! one body keep a processor busy while each waits for its own last result.
+//!
+//! Plain loops, no closures: what is not inlined into the function of a back end is not compiled for its instructions, and
+//! nothing can force a closure to be.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::Mask;
 use super::primitive::Primitive;
+use super::{Mask, PastCaches};
 
 /// N numbers, or N registers of numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Array<T, const N: usize>([T; N]);
 
-impl<T: Copy, const N: usize> Array<T, N> {
-    #[inline(always)]
-    fn map<U: Copy>(self, f: impl Fn(T) -> U) -> Array<U, N> {
-        Array(self.0.map(f))
-    }
-
-    #[inline(always)]
-    fn zip<U: Copy, V>(self, other: Array<U, N>, f: impl Fn(T, U) -> V) -> Array<V, N> {
-        Array(std::array::from_fn(|k| f(self.0[k], other.0[k])))
-    }
-}
-
-macro_rules! operators {
+macro_rules! binary_operators {
     ($($Operator:ident $method:ident),*) => {$(
         impl<T: Copy + $Operator<Output = T>, const N: usize> $Operator for Array<T, N> {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                self.zip(other, $Operator::$method)
+            fn $method(mut self, other: Self) -> Self {
+                for k in 0..N {
+                    self.0[k] = $Operator::$method(self.0[k], other.0[k]);
+                }
+                self
             }
         }
     )*};
 }
-operators!(Add add, Sub sub, Mul mul, Div div, BitAnd bitand, BitOr bitor);
+binary_operators!(Add add, Sub sub, Mul mul, Div div, BitAnd bitand, BitOr bitor);
 
-impl<T: Copy + Neg<Output = T>, const N: usize> Neg for Array<T, N> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.map(Neg::neg)
-    }
+macro_rules! unary_operators {
+    ($($Operator:ident $method:ident),*) => {$(
+        impl<T: Copy + $Operator<Output = T>, const N: usize> $Operator for Array<T, N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self) -> Self {
+                for k in 0..N {
+                    self.0[k] = $Operator::$method(self.0[k]);
+                }
+                self
+            }
+        }
+    )*};
 }
-
-impl<T: Copy + Not<Output = T>, const N: usize> Not for Array<T, N> {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        self.map(Not::not)
-    }
-}
+unary_operators!(Neg neg, Not not);
 
 impl<M: Mask, const N: usize> Mask for Array<M, N> {
     #[inline(always)]
@@ -62,8 +56,25 @@ impl<M: Mask, const N: usize> Mask for Array<M, N> {
 
     #[inline(always)]
     fn any(self) -> bool {
-        self.0.into_iter().reduce(|a, b| a | b).is_some_and(M::any)
+        let mut all = self.0[0];
+        for k in 1..N {
+            all = all | self.0[k];
+        }
+        all.any()
     }
+}
+
+/// Methods that do to each part what they do to it alone.
+macro_rules! part_by_part {
+    ($($method:ident($($other:ident),*)),* $(,)?) => {$(
+        #[inline(always)]
+        fn $method(mut self, $($other: Self),*) -> Self {
+            for k in 0..N {
+                self.0[k] = self.0[k].$method($($other.0[k]),*);
+            }
+            self
+        }
+    )*};
 }
 
 impl<P: Primitive, const N: usize> Primitive for Array<P, N> {
@@ -72,6 +83,11 @@ impl<P: Primitive, const N: usize> Primitive for Array<P, N> {
     const COUNT: usize = N * P::COUNT;
     const IS_FUSED: bool = P::IS_FUSED;
 
+    part_by_part! {
+        fused(factor, addend), root(), reciprocal_root(), rough_root(), magnitude(), larger(other), smaller(other),
+        with_sign(sign), scale(exponent), leading_power(), reciprocal_of_power(),
+    }
+
     #[inline(always)]
     fn fill(value: f64) -> Self {
         Self([P::fill(value); N])
@@ -79,96 +95,71 @@ impl<P: Primitive, const N: usize> Primitive for Array<P, N> {
 
     #[inline(always)]
     fn each(value: impl Fn(usize) -> f64) -> Self {
-        Self(std::array::from_fn(|k| P::each(|lane| value(k * P::COUNT + lane))))
+        let mut all = Self::fill(0.0);
+        for k in 0..N {
+            all.0[k] = P::each(|lane| value(k * P::COUNT + lane));
+        }
+        all
     }
 
     #[inline(always)]
     fn read(from: &[P::Format]) -> Self {
         let from = &from[..Self::COUNT];
-        Self(std::array::from_fn(|k| P::read(&from[k * P::COUNT..])))
+        let mut all = Self::fill(0.0);
+        for k in 0..N {
+            all.0[k] = P::read(&from[k * P::COUNT..]);
+        }
+        all
     }
 
     #[inline(always)]
     fn write(self, to: &mut [P::Format]) {
         let to = &mut to[..Self::COUNT];
-        for (k, part) in self.0.into_iter().enumerate() {
-            part.write(&mut to[k * P::COUNT..]);
+        for k in 0..N {
+            self.0[k].write(&mut to[k * P::COUNT..]);
+        }
+    }
+
+    #[inline(always)]
+    fn write_past_caches(self, to: &mut [P::Format], order: &PastCaches) {
+        let to = &mut to[..Self::COUNT];
+        for k in 0..N {
+            self.0[k].write_past_caches(&mut to[k * P::COUNT..], order);
         }
     }
 
     #[inline(always)]
     fn choice_bits(choice: Self::Choice) -> u64 {
-        choice.0.into_iter().rev().fold(0, |bits, part| bits << P::COUNT | P::choice_bits(part))
-    }
-
-    #[inline(always)]
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k].fused(factor.0[k], addend.0[k])))
-    }
-
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.map(P::root)
-    }
-
-    #[inline(always)]
-    fn reciprocal_root(self) -> Self {
-        self.map(P::reciprocal_root)
-    }
-
-    #[inline(always)]
-    fn rough_root(self) -> Self {
-        self.map(P::rough_root)
-    }
-
-    #[inline(always)]
-    fn magnitude(self) -> Self {
-        self.map(P::magnitude)
-    }
-
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        self.zip(other, P::larger)
-    }
-
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        self.zip(other, P::smaller)
-    }
-
-    #[inline(always)]
-    fn with_sign(self, sign: Self) -> Self {
-        self.zip(sign, P::with_sign)
+        let mut bits = 0;
+        for k in 0..N {
+            bits |= P::choice_bits(choice.0[k]) << (k * P::COUNT);
+        }
+        bits
     }
 
     #[inline(always)]
     fn is_less(self, other: Self) -> Self::Choice {
-        self.zip(other, P::is_less)
+        let mut choice = Self::Choice::splat(false);
+        for k in 0..N {
+            choice.0[k] = self.0[k].is_less(other.0[k]);
+        }
+        choice
     }
 
     #[inline(always)]
-    fn choose(choice: Self::Choice, yes: Self, no: Self) -> Self {
-        Self(std::array::from_fn(|k| P::choose(choice.0[k], yes.0[k], no.0[k])))
+    fn choose(choice: Self::Choice, mut yes: Self, no: Self) -> Self {
+        for k in 0..N {
+            yes.0[k] = P::choose(choice.0[k], yes.0[k], no.0[k]);
+        }
+        yes
     }
 
     #[inline(always)]
-    fn split(self) -> (Self, Self) {
-        let parts = self.map(P::split);
-        (parts.map(|part| part.0), parts.map(|part| part.1))
-    }
-
-    #[inline(always)]
-    fn scale(self, exponent: Self) -> Self {
-        self.zip(exponent, P::scale)
-    }
-
-    #[inline(always)]
-    fn leading_power(self) -> Self {
-        self.map(P::leading_power)
-    }
-
-    #[inline(always)]
-    fn reciprocal_of_power(self) -> Self {
-        self.map(P::reciprocal_of_power)
+    fn split(mut self) -> (Self, Self) {
+        let mut exponents = self;
+        for k in 0..N {
+            (self.0[k], exponents.0[k]) = self.0[k].split();
+        }
+        (self, exponents)
     }
 }

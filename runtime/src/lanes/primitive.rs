@@ -7,7 +7,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::elementary::{self, Logarithm};
-use super::{Element, Lanes, Mask, Real};
+use super::{Element, Lanes, Mask, PastCaches, Real};
 
 /// Numbers of one format with the operations of an instruction set.
 ///
@@ -43,7 +43,7 @@ pub trait Primitive:
     fn write(self, to: &mut [Self::Format]);
     /// Past the caches where `to` is aligned to the register and there is such an instruction, else as `write`.
     #[inline(always)]
-    fn write_past_caches(self, to: &mut [Self::Format]) {
+    fn write_past_caches(self, to: &mut [Self::Format], _: &PastCaches) {
         self.write(to);
     }
     /// Entry (i, j) from `from[i from_stride + j]` to `to[j to_stride + i]`, i, j < COUNT.
@@ -242,8 +242,8 @@ impl<P: Primitive> Lanes for P {
     }
 
     #[inline(always)]
-    fn stream(self, to: &mut [P::Format]) {
-        self.write_past_caches(to);
+    fn stream(self, to: &mut [P::Format], order: &PastCaches) {
+        self.write_past_caches(to, order);
     }
 
     #[inline(always)]

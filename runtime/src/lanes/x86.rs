@@ -9,8 +9,16 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::Mask;
 use super::primitive::Primitive;
+use super::{Mask, PastCaches};
+
+mod transpose;
+
+/// Stores before are seen before those that follow, non-temporal ones too.
+pub(super) fn order_stores() {
+    // SAFETY: every processor of x86-64 has SSE.
+    unsafe { _mm_sfence() }
+}
 
 /// Bit masks of AVX-512: one bit for each lane.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +68,7 @@ macro_rules! register {
     (
         $(#[$doc:meta])*
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, choice $Choice:ty,
-        fill $fill:ident, load $load:ident, store $store:ident,
+        fill $fill:ident, load $load:ident, store $store:ident, stream $stream:ident, turn $turn:path,
         add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident, fused $fused:ident,
         root $root:ident, larger $max:ident, smaller $min:ident, xor $xor:ident, and_not $and_not:ident,
         { $($rest:item)* }
@@ -112,6 +120,27 @@ macro_rules! register {
                 let to = &mut to[..$lanes];
                 // SAFETY: as many numbers are writable at the pointer as the register holds.
                 unsafe { $store(to.as_mut_ptr(), self.0) }
+            }
+
+            #[inline(always)]
+            fn write_past_caches(self, to: &mut [$Number], _: &PastCaches) {
+                let to = &mut to[..$lanes];
+                if to.as_ptr().cast::<$Register>().is_aligned() {
+                    // SAFETY: as many numbers are writable at the pointer as the register holds, and it is aligned to it.
+                    unsafe { $stream(to.as_mut_ptr(), self.0) }
+                } else {
+                    self.write(to);
+                }
+            }
+
+            #[inline(always)]
+            fn turn(from: &[$Number], from_stride: usize, to: &mut [$Number], to_stride: usize) {
+                let rows = std::array::from_fn(|i| Self::read(&from[i * from_stride..]).0);
+                // SAFETY: the processor has the instructions, or there would be no value of this type.
+                let columns = unsafe { $turn(rows) };
+                for (j, column) in columns.into_iter().enumerate() {
+                    Self(column).write(&mut to[j * to_stride..]);
+                }
             }
 
             #[inline(always)]
@@ -269,7 +298,7 @@ register_512! {
         let series = e.fused(Self::fill(0.3125), Self::fill(0.375)).fused(e, Self::fill(0.5));
         y.fused(e * series, y)
     },
-    fill _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd,
+    fill _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd, turn transpose::turn_f64x8,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd, fused _mm512_fmadd_pd,
     root _mm512_sqrt_pd, larger _mm512_max_pd, smaller _mm512_min_pd,
     xor _mm512_xor_pd, and_not _mm512_andnot_pd,
@@ -288,7 +317,7 @@ register_512! {
         let e = (-(x * y)).fused(y, Self::fill(1.0));
         y.fused(e * Self::fill(0.5), y)
     },
-    fill _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps,
+    fill _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps, turn transpose::turn_f32x16,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps, fused _mm512_fmadd_ps,
     root _mm512_sqrt_ps, larger _mm512_max_ps, smaller _mm512_min_ps,
     xor _mm512_xor_ps, and_not _mm512_andnot_ps,
@@ -449,7 +478,7 @@ register_256! {
         (Self(_mm256_castsi256_pd(m)), Self(_mm256_castsi256_pd(e)) - rounding)
     },
     xor _mm256_xor_pd, and_not _mm256_andnot_pd,
-    fill _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
+    fill _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd, stream _mm256_stream_pd, turn transpose::turn_f64x4,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd, fused _mm256_fmadd_pd,
     root _mm256_sqrt_pd, larger _mm256_max_pd, smaller _mm256_min_pd,
 }
@@ -481,7 +510,7 @@ register_256! {
         (Self(_mm256_castsi256_ps(m)), Self(_mm256_cvtepi32_ps(exponent)))
     },
     xor _mm256_xor_ps, and_not _mm256_andnot_ps,
-    fill _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps,
+    fill _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps, stream _mm256_stream_ps, turn transpose::turn_f32x8,
     add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps, fused _mm256_fmadd_ps,
     root _mm256_sqrt_ps, larger _mm256_max_ps, smaller _mm256_min_ps,
 }

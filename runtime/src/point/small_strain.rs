@@ -45,7 +45,7 @@
 
 use super::matrix::{column, dot, multiply_transposed};
 use super::project::eigen;
-use super::{Filter, Matrix3, Point, evaluate, evaluate_stress, finite};
+use super::{Filter, Matrix3, Point, evaluate, evaluate_stress, stress_is_finite};
 use crate::lanes::{Mask, Real};
 use crate::material::{Material, PAIRS, Status};
 
@@ -147,7 +147,7 @@ fn stress_near_rest<R: Real>(material: &impl Material, H: &Matrix3<R>) -> (Matri
     let P: Matrix3<R> = std::array::from_fn(|i| std::array::from_fn(|j| S[i][j] + dot(H[i], column(&S, j))));
 
     let refused = !material.admits(stretches);
-    let nonfinite = !(finite(strains) & finite(P.into_iter().flatten()));
+    let nonfinite = !stress_is_finite(strains, &P);
     (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
 }
 

@@ -14,6 +14,11 @@ use crate::lanes::Real;
 #[inline(always)]
 #[must_use]
 pub fn stress<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    let scaled = svd.U.map(|row| std::array::from_fn(|k| row[k] * gradient[k]));
+    let mut scaled = svd.U;
+    for row in &mut scaled {
+        for k in 0..3 {
+            row[k] = row[k] * gradient[k];
+        }
+    }
     multiply_transposed(&scaled, &svd.V)
 }

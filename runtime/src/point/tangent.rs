@@ -94,7 +94,7 @@
 #![expect(non_snake_case, reason = "U, V, W, dF, dP as in the essay above")]
 
 use super::Matrix3;
-use super::matrix::{to_principal, to_world};
+use super::matrix::{dot, to_principal, to_world};
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
@@ -126,15 +126,20 @@ impl<R: Real> Tangent<R> {
     #[must_use]
     pub fn to_matrix(&self) -> [[R; 9]; 9] {
         let mut dP_dF = [[R::splat(0.0); 9]; 9];
-        contract(&self.U, &self.V, &self.blocks, |a, c, block| {
-            for x in 0..3 {
-                for y in 0..3 {
-                    dP_dF[3 * a + x][3 * c + y] = block[x][y];
-                    dP_dF[3 * c + y][3 * a + x] = block[x][y];
-                }
-            }
-        });
+        contract(&self.U, &self.V, &self.blocks, &mut dP_dF);
         dP_dF
+    }
+}
+
+impl<R: Real> Assemble<R> for [[R; 9]; 9] {
+    #[inline(always)]
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
+        for x in 0..3 {
+            for y in 0..3 {
+                self[3 * a + x][3 * c + y] = block[x][y];
+                self[3 * c + y][3 * a + x] = block[x][y];
+            }
+        }
     }
 }
 
@@ -166,9 +171,17 @@ impl<R: Real> Blocks<R> {
     }
 }
 
+/// Takes the 3×3 blocks of a symmetric matrix from [`contract`].
+///
+/// A trait and no closure, because lanes want everything inlined, and nothing can force a closure to be.
+pub trait Assemble<R> {
+    /// Takes K between (a, x) and (c, y) as `block[x][y]`, a ≤ c.
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>);
+}
+
 /// The symmetric matrix K = (U ⊗ W) A (U ⊗ W)ᵀ of the [`Blocks`] A, handed out as 3×3 blocks.
 ///
-/// `emit(a, c, block)` is called for the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c
+/// `to` takes the blocks of the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c
 /// are coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K
 /// between (c, y) and (a, x) is the same number as between (a, x) and (c, y).
 ///
@@ -176,12 +189,7 @@ impl<R: Real> Blocks<R> {
 /// shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum.
 /// About 490 multiplications and additions.
 #[inline(always)]
-pub fn contract<R: Real>(
-    U: &Matrix3<R>,
-    W: &Matrix3<R>,
-    blocks: &Blocks<R>,
-    mut emit: impl FnMut(usize, usize, &Matrix3<R>),
-) {
+pub fn contract<R: Real>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut impl Assemble<R>) {
     let zero = R::splat(0.0);
 
     let mut alpha = [[zero; 3]; 3];
@@ -215,18 +223,16 @@ pub fn contract<R: Real>(
 
     for a in 0..3 {
         for c in a..3 {
-            let products: [R; 3] = std::array::from_fn(|l| U[a][l] * U[c][l]);
-            let weights: [R; 3] = std::array::from_fn(|m| {
-                products[0].mul_add(alpha[0][m], products[1].mul_add(alpha[1][m], products[2] * alpha[2][m]))
-            });
-            let direct = PAIRS.map(|(i, j)| U[a][i] * U[c][j]);
-            let swapped = PAIRS.map(|(i, j)| U[a][j] * U[c][i]);
+            let products = [U[a][0] * U[c][0], U[a][1] * U[c][1], U[a][2] * U[c][2]];
+            let weights = [dot(products, alpha[0]), dot(products, alpha[1]), dot(products, alpha[2])];
+            let (mut direct, mut swapped) = ([zero; 3], [zero; 3]);
+            for (pair, &(i, j)) in PAIRS.iter().enumerate() {
+                (direct[pair], swapped[pair]) = (U[a][i] * U[c][j], U[a][j] * U[c][i]);
+            }
             let mut block = [[zero; 3]; 3];
             for x in 0..3 {
                 for y in x..3 {
-                    let common = straight[x][y];
-                    let common =
-                        weights[0].mul_add(common[0], weights[1].mul_add(common[1], weights[2] * common[2]));
+                    let common = dot(weights, straight[x][y]);
                     let (mut upper, mut lower) = (common, common);
                     for pair in 0..3 {
                         let (here, there) = (crossed[x][y][pair], crossed[y][x][pair]);
@@ -239,7 +245,7 @@ pub fn contract<R: Real>(
                     block[y][x] = if a == c { upper } else { lower };
                 }
             }
-            emit(a, c, &block);
+            to.block(a, c, &block);
         }
     }
 }

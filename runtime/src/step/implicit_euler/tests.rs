@@ -1,9 +1,9 @@
 use super::*;
+use crate::batch::Energy;
 use crate::mesh::{Bounds, TetMesh, read_msh};
 use crate::point::Filter;
 use crate::random::Random;
 use crate::step::{Convergence, NewtonSettings};
-use crate::system::ElementEnergy;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 fn settings(newton: NewtonSettings) -> Settings {
@@ -12,7 +12,7 @@ fn settings(newton: NewtonSettings) -> Settings {
 
 fn simulation(
     mesh: &TetMesh,
-    material: impl ElementEnergy + 'static,
+    material: impl Energy<f64> + 'static,
     pins: &Pins,
     settings: Settings,
 ) -> Simulation {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::random::Random;
 use crate::system::Pins;
+use crate::system::element::tests::to_matrix;
 use crate::system::linear::Cholesky;
 use crate::system::testing::{KIRCHHOFF, beam, shake};
 use faer::sparse::SparseColMatRef;
@@ -21,8 +22,8 @@ fn gathering_gives_what_scattering_gives() {
     let unknowns = pattern.unknowns();
     assert_eq!(unknowns, 3 * (mesh.positions.len() - 2));
     let mut dense = vec![vec![0.0; unknowns]; unknowns];
-    for (element, stiffness) in body.elements().iter().zip(&elastic.stiffnesses) {
-        let matrix = stiffness.to_matrix();
+    for (element, (_, stiffness)) in body.elements().iter().zip(elastic.derivatives()) {
+        let matrix = to_matrix(stiffness);
         let free = element.nodes.map(|node| pattern.free_of_node()[node]);
         for row in 0..12 {
             for column in 0..12 {
@@ -90,9 +91,9 @@ fn compensation_keeps_what_a_plain_sum_loses() {
 }
 
 #[test]
-fn pieces_cover_a_range_of_several_materials() {
+fn groups_hold_elements_of_one_material() {
     let mut mesh = beam(4);
-    let group = |name: &str, tets: std::ops::Range<usize>| crate::mesh::Group {
+    let group = |name: &str, tets: Range<usize>| crate::mesh::Group {
         name: name.to_owned(),
         dimension: 3,
         nodes: Vec::new(),
@@ -108,8 +109,11 @@ fn pieces_cover_a_range_of_several_materials() {
     let body = Body::from_parts(&mesh, parts).expect("a body");
     let tags: Vec<usize> = body.elements().iter().map(|element| element.tag).collect();
     assert_eq!(tags[..3], [8, 9, 1]);
-    let ranges: Vec<_> = body.pieces(1, 20).map(|(_, range)| range).collect();
-    assert_eq!(ranges, [0..1, 1..8, 8..20]);
+    let ranges: Vec<_> = body.groups().map(|(_, range)| range).collect();
+    assert_eq!(ranges, [0..2, 2..9, 9..24]);
+    let long = Body::new(&beam(30), KIRCHHOFF, 1.0).expect("a body");
+    let ranges: Vec<_> = long.groups().map(|(_, range)| range).collect();
+    assert_eq!(ranges, [0..64, 64..128, 128..180]);
     // A sixth of a cell for each tetrahedron.
     let total: f64 = body.masses().iter().sum();
     let expected = (2.0 * 1.0 + 7.0 * 2.0 + 15.0 * 4.0) * 1e-3 / 6.0;

@@ -1,13 +1,9 @@
 use super::*;
+use crate::batch::STIFFEST;
 use crate::point::svd;
 use crate::random::Random;
 use crate::system::Body;
 use crate::system::testing::{KIRCHHOFF, ROTATED, beam, shake};
-
-const IDENTITY: Svd<f64> = {
-    let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Svd { U: one, stretches: [1.0; 3], V: one }
-};
 
 /// A tetrahedron of a beam with its nodes moved at random.
 fn sample(seed: u64, amplitude: f64) -> (Element, Vec<[f64; 3]>) {
@@ -17,26 +13,35 @@ fn sample(seed: u64, amplitude: f64) -> (Element, Vec<[f64; 3]>) {
     (element, shake(&mut Random::new(seed), &mesh.positions, amplitude))
 }
 
-fn energy(material: &dyn ElementEnergy, element: &Element, positions: &[[f64; 3]]) -> f64 {
-    let (mut points, mut energies) = ([IDENTITY], [0.0]);
-    material.evaluate(&[*element], positions, &mut points, &mut energies);
-    energies[0]
+fn energy(material: &dyn Energy<f64>, element: &Element, positions: &[[f64; 3]]) -> f64 {
+    let mut group = Group::new(&[*element]);
+    group.evaluate(material, &[*element], positions);
+    group.energies[0]
 }
 
 fn derivatives(
-    material: &dyn ElementEnergy,
+    material: &dyn Energy<f64>,
     element: &Element,
     positions: &[[f64; 3]],
     filter: Filter,
 ) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
-    let (mut points, mut energies) = ([IDENTITY], [0.0]);
-    let (mut gradients, mut stiffnesses) = ([[[0.0; 3]; 4]], [ElementStiffness::ZERO]);
-    material.evaluate(&[*element], positions, &mut points, &mut energies);
-    let survey = material.stiffnesses(&[*element], &points, filter, &mut gradients, &mut stiffnesses);
-    let with_stiffness = gradients;
-    material.gradients(&[*element], &points, &mut gradients);
-    assert_eq!(gradients, with_stiffness, "the gradient is the same with and without a stiffness");
-    (gradients[0], stiffnesses[0].to_matrix(), survey)
+    let mut group = Group::new(&[*element]);
+    group.evaluate(material, &[*element], positions);
+    let survey = group.evaluate_stiffnesses(material, &[*element], filter);
+    let with_stiffness = group.gradients[0];
+    group.evaluate_gradients(material, &[*element]);
+    assert_eq!(group.gradients[0], with_stiffness, "the gradient is the same with and without a stiffness");
+    (group.gradients[0], to_matrix(&group.stiffnesses[0]), survey)
+}
+
+/// The whole matrix; unknown 3i+a is coordinate a of node i.
+pub(crate) fn to_matrix(stiffness: &Stiffness) -> [[f64; 12]; 12] {
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            let (i, a, j, c) = (row / 3, row % 3, column / 3, column % 3);
+            if i >= j { stiffness[pair(i, j)][a][c] } else { stiffness[pair(j, i)][c][a] }
+        })
+    })
 }
 
 fn moved(element: &Element, positions: &[[f64; 3]], unknown: usize, by: f64) -> Vec<[f64; 3]> {
@@ -64,7 +69,7 @@ fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients()
     for seed in 0..12 {
         // Up to twice the size of an element: many of these are inverted.
         let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.2 });
-        for material in [&KIRCHHOFF as &dyn ElementEnergy, &ROTATED] {
+        for material in [&KIRCHHOFF as &dyn Energy<f64>, &ROTATED] {
             let (gradient, stiffness, _) = derivatives(material, &element, &positions, Filter::None);
             let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
             for unknown in 0..12 {
@@ -200,8 +205,7 @@ fn an_affine_map_gives_every_element_the_same_stress() {
 fn a_survey_names_the_first_offender() {
     let (element, mut positions) = sample(3, 0.0);
     positions[element.nodes[1]][2] = f64::NAN;
-    let (mut points, mut energies) = ([IDENTITY], [0.0]);
-    let survey = KIRCHHOFF.evaluate(&[element], &positions, &mut points, &mut energies);
+    let survey = Group::new(&[element]).evaluate(&KIRCHHOFF, &[element], &positions);
     assert_eq!((survey.nonfinite, survey.refused, survey.first_offender), (1, 0, Some(element.tag)));
     assert!(!survey.is_admissible());
 }
@@ -214,12 +218,10 @@ fn a_survey_tells_of_forces_and_stiffnesses_that_overflow() {
         let mut element = element;
         element.shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * size));
         let positions: Vec<_> = positions.iter().map(|x| x.map(|x| x / size)).collect();
-        let (mut points, mut energies) = ([IDENTITY], [0.0]);
-        let survey = KIRCHHOFF.evaluate(&[element], &positions, &mut points, &mut energies);
+        let mut group = Group::new(&[element]);
+        let survey = group.evaluate(&KIRCHHOFF, &[element], &positions);
         assert!(survey.is_admissible(), "{survey:?}");
-        let (mut gradients, mut stiffnesses) = ([[[0.0; 3]; 4]], [ElementStiffness::ZERO]);
-        let survey =
-            KIRCHHOFF.stiffnesses(&[element], &points, Filter::None, &mut gradients, &mut stiffnesses);
+        let survey = group.evaluate_stiffnesses(&KIRCHHOFF, &[element], Filter::None);
         assert_eq!((survey.nonfinite, survey.first_offender.is_some()), (expected, expected > 0));
     };
     check(1.0, 0);

@@ -1,0 +1,118 @@
+//! A tile of linear tetrahedra: the stages of a batch with the memory between them kept, for solvers that come back.
+//!
+//! One decomposition of each element serves the energy, the gradient and the stiffness.
+
+use super::energy::{Energy, TileOf, Verdict};
+use super::sink::{Layout, Sink, Source};
+use super::stage::{Decompose, Deform, Forces, Judge, Points, Respond, Stages, StiffnessForm};
+use super::tile::Rows;
+use crate::lanes::Backend;
+use crate::mesh::RestShape;
+use crate::point::Filter;
+
+pub(crate) use super::stage::Marks;
+pub(crate) use super::tile::TILE;
+
+/// Up to [`TILE`] elements of one material.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementTile {
+    backend: Backend,
+    count: usize,
+    rest: Rows<f64, 10>,
+    points: Points<f64>,
+}
+
+impl ElementTile {
+    pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
+        let mut tile = Self { backend, count: 0, rest: Rows::zero(), points: Points::new() };
+        for (lane, shape) in shapes.enumerate() {
+            let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
+            for (row, &number) in tile.rest.0.iter_mut().zip(numbers) {
+                row[lane] = number;
+            }
+            tile.count = lane + 1;
+        }
+        tile
+    }
+
+    /// λ1, λ2, λ3 of an element, as evaluated last.
+    pub(crate) fn stretches(&self, lane: usize) -> [f64; 3] {
+        let rows = &self.points.stretches.0;
+        [rows[0][lane], rows[1][lane], rows[2][lane]]
+    }
+
+    /// Decomposes F and evaluates energies, J; `corners` are the positions of each element's nodes.
+    pub(crate) fn evaluate(
+        &mut self,
+        energy: &dyn Energy<f64>,
+        corners: impl Iterator<Item = [[f64; 3]; 4]>,
+        energies: &mut [f64],
+    ) -> Verdict {
+        let Self { backend, count, ref rest, ref mut points } = *self;
+        let mut rows = Rows::zero();
+        for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
+            for a in 0..3 {
+                rows.0[3 * a][lane] = x1[a] - x0[a];
+                rows.0[3 * a + 1][lane] = x2[a] - x0[a];
+                rows.0[3 * a + 2][lane] = x3[a] - x0[a];
+            }
+        }
+        f64::deform(backend, Deform { edges: &mut rows, rest, count });
+        let is_signed = energy.ends_at_zero_volume();
+        f64::decompose(backend, Decompose { F: Source::Rows(&rows), count, is_signed, points });
+        let mut densities = Rows::zero();
+        let verdict = energy.energies(self.stretched(), &mut densities);
+        for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.rest.0[9]) {
+            *energy = volume * density;
+        }
+        verdict
+    }
+
+    /// Gradients of the energies evaluated last, N, 12 numbers each.
+    pub(crate) fn gradients(&self, energy: &dyn Energy<f64>, gradients: &mut [f64]) -> Marks {
+        let mut principal = Rows::zero();
+        let refused = energy.gradients(self.stretched(), &mut principal);
+        let kernel = Forces {
+            points: &self.points,
+            gradients: &principal,
+            rest: Source::Rows(&self.rest),
+            count: self.count,
+            to: by_elements(gradients),
+        };
+        Marks { refused, ..f64::forces(self.backend, kernel) }
+    }
+
+    /// Gradients, and filtered stiffnesses as the blocks of node pairs, N/m, 90 numbers each.
+    pub(crate) fn stiffnesses(
+        &self,
+        energy: &dyn Energy<f64>,
+        filter: Filter,
+        gradients: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) -> Marks {
+        let Self { backend, count, rest, points } = self;
+        let (has_pole, count) = (energy.has_pole(), *count);
+        let mut blocks = Rows::zero();
+        let refused = energy.blocks(self.stretched(), &mut blocks);
+        let judged = f64::judge(*backend, Judge { points, blocks: &mut blocks, count, filter, has_pole });
+        let kernel = Respond {
+            points,
+            blocks: &blocks,
+            rest: Source::Rows(rest),
+            count,
+            has_pole,
+            first: by_elements(gradients),
+            second: by_elements(stiffnesses),
+        };
+        let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(judged);
+        Marks { refused, ..marks }
+    }
+
+    fn stretched(&self) -> TileOf<'_, f64> {
+        TileOf { backend: self.backend, start: 0, count: self.count, stretches: &self.points.stretches }
+    }
+}
+
+fn by_elements(to: &mut [f64]) -> Sink<'_, f64> {
+    Sink { to, layout: Layout::Points, past_caches: None }
+}
