@@ -4,7 +4,7 @@
 
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, Material, PAIRS};
-use crate::quotient::{ln_quotient, pole_floor};
+use crate::quotient::{Pair, pole_floor};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -73,7 +73,7 @@ impl Material for NeoHookean {
     fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
         let one = R::splat(1.0);
         // ln(1 + s) = s ln[1 + s, 1], whose second factor is smooth.
-        let log = s.map(|s| s * ln_quotient(one + s, one));
+        let log = s.map(|s| s * Pair::of(one + s, one).ln_quotient());
         let volumetric = R::splat(LAMBDA) * (log[0] + log[1] + log[2]);
         s.map(|s| (R::splat(MU) * s * (R::splat(2.0) + s) + volumetric) / (one + s))
     }

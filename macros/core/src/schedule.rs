@@ -3,7 +3,8 @@
 //! Operations are numbered by value: what is computed twice is computed once, and what does not change from one entry
 //! of a list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
 //! needs the result of another. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
-//! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything.
+//! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
+//! base are made from one logarithm.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -42,31 +43,47 @@ pub enum Op {
     Div(Value, Value),
     /// First · second + third.
     MulAdd(Value, Value, Value),
+    /// Third − first · second.
+    NegMulAdd(Value, Value, Value),
+    /// First · second − third.
+    MulSub(Value, Value, Value),
     Sqrt(Value),
     Cbrt(Value),
     Ln(Value),
     Exp(Value),
+    /// The logarithm that all powers of a number are made from.
+    Logarithm(Value),
+    /// From such a logarithm and the exponent.
+    Power(Value, Value),
     /// ln of a product of three.
     LnProduct([Value; 3]),
     /// Derivative of the given order of a function that is a parameter.
     Function(Parameter, u8, Value),
     FunctionQuotient(Parameter, u8, Value, Value),
-    Powf(Value, Value),
     Max(Value, Value),
     /// min(first − second, 0).
     Below(Value, Value),
     WhereNegative(Value, Value, Value),
     ShareAbove(Value, Value, Value),
     ShareBelow(Value, Value, Value),
-    LnQuotient(Value, Value),
-    ExpQuotient(Value, Value),
+    /// What quotients of logarithms and powers of two numbers share: from both, their reciprocals, their logarithms.
+    Pair {
+        values: [Value; 2],
+        reciprocals: [Value; 2],
+        logarithms: [Value; 2],
+    },
+    /// Of a pair.
+    LnQuotient(Value),
+    /// Of a pair, from both powers and the exponent.
     PowerQuotient {
-        a: Value,
-        b: Value,
-        a_power: Value,
-        b_power: Value,
+        pair: Value,
+        powers: [Value; 2],
         exponent: Value,
-        ln_quotient: Value,
+    },
+    /// From both numbers and their exponentials.
+    ExpQuotient {
+        values: [Value; 2],
+        exponentials: [Value; 2],
     },
 }
 
@@ -91,26 +108,30 @@ impl Op {
             | Self::Sqrt(a)
             | Self::Cbrt(a)
             | Self::Ln(a)
+            | Self::Logarithm(a)
             | Self::Exp(a)
+            | Self::LnQuotient(a)
             | Self::Function(.., a) => vec![a],
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
             | Self::Div(a, b)
-            | Self::Powf(a, b)
+            | Self::Power(a, b)
             | Self::Max(a, b)
             | Self::Below(a, b)
-            | Self::LnQuotient(a, b)
-            | Self::ExpQuotient(a, b)
             | Self::FunctionQuotient(.., a, b) => vec![a, b],
             Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
+            | Self::NegMulAdd(a, b, c)
+            | Self::MulSub(a, b, c)
             | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
             | Self::ShareBelow(a, b, c) => vec![a, b, c],
-            Self::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => {
-                vec![a, b, a_power, b_power, exponent, ln_quotient]
+            Self::Pair { values, reciprocals, logarithms } => {
+                values.iter_mut().chain(reciprocals).chain(logarithms).collect()
             }
+            Self::PowerQuotient { pair, powers: [a, b], exponent } => vec![pair, a, b, exponent],
+            Self::ExpQuotient { values, exponentials } => values.iter_mut().chain(exponentials).collect(),
         }
     }
 }
@@ -328,19 +349,19 @@ impl Scheduler<'_> {
                 self.push(Op::WhereNegative(condition, a, b))
             }
             Node::LnQuotient(a, b) => {
-                let (a, b) = (self.value(a), self.value(b));
-                self.push(Op::LnQuotient(a, b))
+                let pair = self.pair(a, b);
+                self.push(Op::LnQuotient(pair))
             }
             Node::ExpQuotient(a, b) => {
-                let (a, b) = (self.value(a), self.value(b));
-                self.push(Op::ExpQuotient(a, b))
+                let values = [a, b].map(|id| self.value(id));
+                let exponentials = values.map(|value| self.push(Op::Exp(value)));
+                self.push(Op::ExpQuotient { values, exponentials })
             }
             Node::PowerQuotient(a, b, exponent) => {
-                let (a_power, b_power) = (self.power(a, exponent), self.power(b, exponent));
+                let pair = self.pair(a, b);
+                let powers = [a, b].map(|base| self.power(base, exponent));
                 let exponent = self.exponent(exponent);
-                let (a, b) = (self.value(a), self.value(b));
-                let ln_quotient = self.push(Op::LnQuotient(a, b));
-                self.push(Op::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient })
+                self.push(Op::PowerQuotient { pair, powers, exponent })
             }
             Node::PoleQuotient(numerator, sum) => {
                 let (numerator, sum) = (self.value(numerator), self.value(sum));
@@ -409,7 +430,7 @@ impl Scheduler<'_> {
         match self.powers.way(base, exponent) {
             Way::Real(representative) => {
                 let computed = self.exponent(Exponent { real, rational: representative });
-                let power = self.push(Op::Powf(value, computed));
+                let power = self.real_power(value, computed);
                 let shift = rational.checked_add(representative.negated()).and_then(Rational::as_integer);
                 match shift {
                     Some(0) | None => power,
@@ -426,13 +447,25 @@ impl Scheduler<'_> {
                     3 => self.push(Op::Cbrt(value)),
                     _ => {
                         let exponent = self.push(Op::Literal((1.0 / degree as f64).to_bits()));
-                        self.push(Op::Powf(value, exponent))
+                        self.real_power(value, exponent)
                     }
                 };
                 let whole = rational.numerator().checked_mul(degree / rational.denominator());
                 self.whole_power(root, whole.and_then(|n| i64::try_from(n).ok()).unwrap_or(i64::MAX))
             }
         }
+    }
+
+    fn real_power(&mut self, base: Value, exponent: Value) -> Value {
+        let logarithm = self.push(Op::Logarithm(base));
+        self.push(Op::Power(logarithm, exponent))
+    }
+
+    fn pair(&mut self, a: Id, b: Id) -> Value {
+        let values = [a, b].map(|id| self.value(id));
+        let reciprocals = [a, b].map(|base| self.power(base, Exponent::integer(-1)));
+        let logarithms = values.map(|value| self.push(Op::Logarithm(value)));
+        self.push(Op::Pair { values, reciprocals, logarithms })
     }
 
     fn whole_power(&mut self, base: Value, n: i64) -> Value {

@@ -268,7 +268,7 @@ fn ogden_needs_three_powers_for_each_term_and_energy_alone_no_quotient() {
         let (mut powers, mut quotients) = (0, 0);
         for statement in program.statements {
             if let Statement::Loop { body, .. } = statement {
-                powers += body.iter().filter(|(_, op)| matches!(op, Op::Powf(..))).count();
+                powers += body.iter().filter(|(_, op)| matches!(op, Op::Power(..))).count();
                 quotients += body.iter().filter(|(_, op)| matches!(op, Op::PowerQuotient { .. })).count();
             }
         }
@@ -322,7 +322,7 @@ fn literal_exponents_are_real_powers_unless_they_are_simple_fractions() {
         let is_match = |statement: &&Statement| matches!(statement, Statement::Let(_, op) if matches(op));
         program.statements.iter().filter(is_match).count()
     };
-    assert_eq!(count(|op| matches!(op, Op::Powf(..))), 3);
+    assert_eq!(count(|op| matches!(op, Op::Power(..))), 3);
     assert_eq!(count(|op| matches!(op, Op::PowerQuotient { .. })), 3);
     assert_eq!(count(|op| matches!(op, Op::Sqrt(_))), 3);
     let judge = Judge { name: "literal exponents", graph: &model.graph, variant: &variant };

@@ -135,6 +135,15 @@ impl<'a> Writer<'a> {
                 let (a, b, c) = (n(a), n(b), n(c));
                 quote!(#a.mul_add(#b, #c))
             }
+            // A change of sign costs nothing: it is part of the fused instruction.
+            Op::NegMulAdd(a, b, c) => {
+                let (a, b, c) = (n(a), n(b), n(c));
+                quote!((-#a).mul_add(#b, #c))
+            }
+            Op::MulSub(a, b, c) => {
+                let (a, b, c) = (n(a), n(b), n(c));
+                quote!(#a.mul_add(#b, -#c))
+            }
             Op::Sqrt(a) => method(&n(a), "sqrt"),
             Op::Cbrt(a) => method(&n(a), "cbrt"),
             Op::Ln(a) => method(&n(a), "ln"),
@@ -143,9 +152,10 @@ impl<'a> Writer<'a> {
                 let factors = factors.map(n);
                 self.call("ln_product", &[quote!([#(#factors),*])])
             }
-            Op::Powf(a, b) => {
-                let (a, b) = (n(a), n(b));
-                quote!(#a.powf(#b))
+            Op::Logarithm(a) => method(&n(a), "logarithm"),
+            Op::Power(logarithm, exponent) => {
+                let (logarithm, exponent) = (n(logarithm), n(exponent));
+                quote!(R::power(#logarithm, #exponent))
             }
             Op::Max(a, b) => {
                 let (a, b) = (n(a), n(b));
@@ -169,16 +179,18 @@ impl<'a> Writer<'a> {
             }
             Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
-            Op::LnQuotient(a, b) => self.call("ln_quotient", &[n(a), n(b)]),
-            Op::ExpQuotient(a, b) => self.call("exp_quotient", &[n(a), n(b)]),
-            Op::PowerQuotient { a, b, a_power, b_power, exponent, ln_quotient } => self.call(
-                "power_quotient",
-                &[[n(a), n(a_power)], [n(b), n(b_power)]]
-                    .map(|[base, power]| quote!([#base, #power]))
-                    .into_iter()
-                    .chain([n(exponent), n(ln_quotient)])
-                    .collect::<Vec<_>>(),
-            ),
+            Op::Pair { values, reciprocals, logarithms } => {
+                let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
+                quote!(::piola::quotient::Pair::new(#(#arguments),*))
+            }
+            Op::LnQuotient(pair) => method(&n(pair), "ln_quotient"),
+            Op::PowerQuotient { pair, powers, exponent } => {
+                let (pair, powers, exponent) = (n(pair), self.two(powers, names), n(exponent));
+                quote!(#pair.power_quotient(#powers, #exponent))
+            }
+            Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
+                self.call("exp_quotient", &[[a, a_exp], [b, b_exp]].map(|two| self.two(two, names)))
+            }
             Op::PoleFloor => {
                 let stretches = &self.declaration.stretches;
                 self.call("pole_floor", &[quote!([#(#stretches),*])])
@@ -198,6 +210,11 @@ impl<'a> Writer<'a> {
         let Some(method) = method else { return literal(f64::NAN) };
         let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));
         quote!(::piola::Univariate::#method(&self.#name, #(#arguments),*))
+    }
+
+    fn two(&self, values: [Value; 2], names: &Names) -> TokenStream {
+        let [a, b] = values.map(|value| names.get(value));
+        quote!([#a, #b])
     }
 
     fn call(&self, kernel: &str, arguments: &[TokenStream]) -> TokenStream {

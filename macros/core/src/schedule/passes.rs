@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Op, Program, Statement, Value};
 
-/// a b + c in one operation where the product is used nowhere else.
+/// a b + c, c − a b and a b − c in one operation where the product is used nowhere else.
 pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
     let mut uses: HashMap<Value, usize> = HashMap::new();
     let mut products: HashMap<Value, (Value, Value)> = HashMap::new();
@@ -27,15 +27,18 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
     }
     let mut fused = HashSet::new();
     let mut fuse = |op: &mut Op| {
-        if let Op::Add(a, b) = *op {
-            for (product, addend) in [(b, a), (a, b)] {
-                if uses[&product] == 1
-                    && let Some(&(x, y)) = products.get(&product)
-                {
-                    *op = Op::MulAdd(x, y, addend);
-                    fused.insert(product);
-                    return;
-                }
+        let candidates: &[(Value, fn(Value, Value, Value) -> Op, Value)] = match *op {
+            Op::Add(a, b) => &[(b, Op::MulAdd, a), (a, Op::MulAdd, b)],
+            Op::Sub(a, b) => &[(b, Op::NegMulAdd, a), (a, Op::MulSub, b)],
+            _ => &[],
+        };
+        for &(product, fuse, other) in candidates {
+            if uses[&product] == 1
+                && let Some(&(x, y)) = products.get(&product)
+            {
+                *op = fuse(x, y, other);
+                fused.insert(product);
+                return;
             }
         }
     };
