@@ -36,6 +36,7 @@ use std::fmt;
 
 use crate::material::{Blocks, Declared, Material};
 
+mod evaluation;
 mod frames;
 mod inverted;
 mod pairs;

@@ -6,12 +6,13 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
+use super::evaluation::{energy, stress, tangent};
 use super::frames::diagonal;
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
 use crate::material::Material;
+use crate::point::Matrix3;
 use crate::point::matrix::multiply;
-use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
 use crate::random::Random;
 
 /// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h².
@@ -82,12 +83,12 @@ pub(super) fn energy_at(
     random: &mut Random,
 ) -> Result<(), Violation> {
     let (F, A) = line(stretches, approach.reach, random);
-    let P = evaluate_stress(material, &F).0;
+    let P = stress(material, &F);
     let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
     let blocks = material.blocks(stretches);
-    let energy = material.energy(stretches).abs();
-    let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + energy);
-    let along = |h: f64| evaluate_energy(material, &moved(&F, h, &A)).0;
+    let size = material.energy(stretches).abs();
+    let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + size);
+    let along = |h: f64| energy(material, &moved(&F, h, &A));
     let name = || "difference quotient of the energy along a random line".into();
     slope(judge, name, stretches, along, derivative, approach.order, rounding)
 }
@@ -103,12 +104,12 @@ pub(super) fn stress_at(
     let (F, A) = line(stretches, approach.reach, random);
     let B = random.matrix();
     let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
-    let point = evaluate(material, &F, Filter::None);
+    let dP_dF = tangent(material, &F);
     let blocks = material.blocks(stretches);
     let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
-    let along = |h: f64| inner(&evaluate_stress(material, &moved(&F, h, &A)).0);
+    let along = |h: f64| inner(&stress(material, &moved(&F, h, &A)));
     let name = || "difference quotient of the stress along a random line".into();
-    slope(judge, name, stretches, along, inner(&point.tangent.apply(&A)), approach.order, rounding)
+    slope(judge, name, stretches, along, inner(&dP_dF.apply(&A)), approach.order, rounding)
 }
 
 /// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
