@@ -15,7 +15,7 @@ use std::fmt;
 use piola::Material;
 use piola::batch::Batch;
 use piola::material::Blocks;
-use piola::point::{Filter, Matrix3, svd, svd_signed_by_determinant};
+use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
 
 use crate::bits::{Precision, widen};
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
