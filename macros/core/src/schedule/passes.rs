@@ -27,7 +27,8 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
     }
     let mut fused = HashSet::new();
     let mut fuse = |op: &mut Op| {
-        let candidates: &[(Value, fn(Value, Value, Value) -> Op, Value)] = match *op {
+        type Fuse = fn(Value, Value, Value) -> Op;
+        let candidates: &[(Value, Fuse, Value)] = match *op {
             Op::Add(a, b) => &[(b, Op::MulAdd, a), (a, Op::MulAdd, b)],
             Op::Sub(a, b) => &[(b, Op::NegMulAdd, a), (a, Op::MulSub, b)],
             _ => &[],
