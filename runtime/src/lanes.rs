@@ -17,6 +17,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 mod array;
 mod backend;
 mod elementary;
+mod pair;
 mod primitive;
 mod scalar;
 #[cfg(target_arch = "x86_64")]
@@ -144,6 +145,12 @@ pub trait Real:
 pub trait Lanes: Real {
     /// What a lane holds.
     type Element: Element;
+
+    /// Several registers that are computed with in turns, for kernels whose operations wait for each other.
+    ///
+    /// Each gets the bits it would get alone. On x86-64 there are four, which spill and are still the fastest for the singular
+    /// value decomposition; elsewhere, what is an array already.
+    type Interleaved: Lanes<Element = Self::Element>;
 
     /// How many lanes there are.
     const LANES: usize;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use piola::Inversion;
-use piola::batch::Energy;
+use piola::batch;
 use piola::material::{Description, Moduli};
 use piola_materials::{CATALOGUE, Entry};
 
@@ -98,7 +98,7 @@ pub struct Substance {
     /// Its name in the catalogue.
     pub name: &'static str,
     /// What elements see of it.
-    pub elements: Box<dyn Energy<f64>>,
+    pub elements: Box<dyn batch::Energy<f64>>,
     /// Its small-strain moduli.
     pub moduli: Moduli,
 }

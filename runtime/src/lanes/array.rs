@@ -1,8 +1,7 @@
-//! Several numbers, or several registers, at once.
+//! Several numbers at once.
 //!
-//! Of scalars this is the portable back end: loops of fixed length over IEEE operations, which any compiler turns into
-//! what vector instructions the target has. Of registers it is interleaving: two or four independent batches in
-//! one body keep a processor busy while each waits for its own last result.
+//! The portable back end: loops of fixed length over IEEE operations, which any compiler turns into what vector
+//! instructions the target has.
 //!
 //! Plain loops, no closures: what is not inlined into the function of a back end is not compiled for its instructions, and
 //! nothing can force a closure to be.
@@ -12,7 +11,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use super::primitive::Primitive;
 use super::{Mask, PastCaches};
 
-/// N numbers, or N registers of numbers.
+/// N numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Array<T, const N: usize>([T; N]);
 
@@ -80,6 +79,7 @@ macro_rules! part_by_part {
 impl<P: Primitive, const N: usize> Primitive for Array<P, N> {
     type Choice = Array<P::Choice, N>;
     type Format = P::Format;
+    type Interleaved = Self;
     const COUNT: usize = N * P::COUNT;
     const IS_FUSED: bool = P::IS_FUSED;
 

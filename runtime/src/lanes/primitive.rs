@@ -28,6 +28,8 @@ pub trait Primitive:
     type Choice: Mask;
     /// The format of each number.
     type Format: Element;
+    /// See [`Lanes::Interleaved`].
+    type Interleaved: Primitive<Format = Self::Format>;
     /// How many numbers there are.
     const COUNT: usize;
     /// Whether [`Primitive::fused`] is an instruction that rounds once.
@@ -228,6 +230,7 @@ impl<P: Primitive> Real for P {
 
 impl<P: Primitive> Lanes for P {
     type Element = P::Format;
+    type Interleaved = P::Interleaved;
 
     const LANES: usize = P::COUNT;
 

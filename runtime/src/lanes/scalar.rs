@@ -62,6 +62,7 @@ macro_rules! scalar {
         impl Primitive for $Number {
             type Choice = bool;
             type Format = Self;
+            type Interleaved = Self;
             const COUNT: usize = 1;
             const IS_FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 

@@ -9,6 +9,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use super::pair::Pair;
 use super::primitive::Primitive;
 use super::{Mask, PastCaches};
 
@@ -94,6 +95,7 @@ macro_rules! register {
         impl Primitive for $Register {
             type Choice = $Choice;
             type Format = $Number;
+            type Interleaved = Pair<Pair<Self>>;
             const COUNT: usize = $lanes;
             const IS_FUSED: bool = true;
 

@@ -5,6 +5,31 @@
 use super::Matrix3;
 use crate::lanes::Real;
 
+/// `three!(i => x)` is `[x, x, x]` with i = 0, 1, 2.
+///
+/// What `std::array::from_fn` makes, without a closure. Lanes must be computed with inside one function that is compiled
+/// for their instructions; a long closure is a function of its own unless the compiler finds it worth inlining, and then
+/// costs a call for every operation in it.
+macro_rules! three {
+    ($i:ident => $value:expr) => {
+        [
+            {
+                let $i = 0_usize;
+                $value
+            },
+            {
+                let $i = 1_usize;
+                $value
+            },
+            {
+                let $i = 2_usize;
+                $value
+            },
+        ]
+    };
+}
+pub(crate) use three;
+
 /// x·y.
 #[inline(always)]
 pub(crate) fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
@@ -33,7 +58,7 @@ pub(crate) fn multiply<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
 /// A Bᵀ.
 #[inline(always)]
 pub(crate) fn multiply_transposed<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
-    A.map(|row| B.map(|column| dot(row, column)))
+    three!(i => three!(j => dot(A[i], B[j])))
 }
 
 /// U A Vᵀ: from the principal frames to the world.

@@ -44,7 +44,7 @@
 #![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
 
 use super::matrix::{column, dot, multiply_transposed};
-use super::project::eigen;
+use super::svd::sweeps;
 use super::{Filter, Matrix3, Point, evaluate, evaluate_stress, stress_is_finite};
 use crate::lanes::{Mask, Real};
 use crate::material::{Material, PAIRS, Status};
@@ -177,4 +177,43 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
         V.iter_mut().for_each(exchange);
     }
     (strains, V)
+}
+
+/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic Jacobi
+/// rotations.
+#[inline(always)]
+fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
+    let (zero, one) = (R::splat(0.0), R::splat(1.0));
+    let [a11, a22, a33, a12, a13, a23] = A;
+    let mut A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
+    let mut Q = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small to
+    // matter elsewhere.
+    let floor = R::splat(R::MIN_POSITIVE.sqrt());
+    for _ in 0..sweeps(R::UNIT_ROUNDOFF) {
+        for (p, q) in PAIRS {
+            let r = 3 - p - q;
+            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation [Golub, Van
+            // Loan, 8.5].
+            let d = A[q][q] - A[p][p];
+            let g = A[p][q] + A[p][q];
+            let magnitude = g / (d.abs() + d.mul_add(d, g * g).sqrt() + floor);
+            let t = R::select(d.less(zero), -magnitude, magnitude);
+            let c = one / t.mul_add(t, one).sqrt();
+            let s = t * c;
+            let apq = A[p][q];
+            A[p][p] = A[p][p] - t * apq;
+            A[q][q] = t.mul_add(apq, A[q][q]);
+            A[p][q] = zero;
+            let (arp, arq) = (A[r.min(p)][r.max(p)], A[r.min(q)][r.max(q)]);
+            A[r.min(p)][r.max(p)] = c.mul_add(arp, -(s * arq));
+            A[r.min(q)][r.max(q)] = s.mul_add(arp, c * arq);
+            for row in &mut Q {
+                let (vp, vq) = (row[p], row[q]);
+                row[p] = c.mul_add(vp, -(s * vq));
+                row[q] = s.mul_add(vp, c * vq);
+            }
+        }
+    }
+    ([A[0][0], A[1][1], A[2][2]], Q)
 }

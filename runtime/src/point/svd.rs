@@ -20,7 +20,7 @@
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
 use super::Matrix3;
-use super::matrix::{column, dot};
+use super::matrix::{column, dot, three, transpose};
 use crate::lanes::Real;
 use crate::material::PAIRS;
 
@@ -51,9 +51,9 @@ pub struct Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    let scaled = Scaled::new(F);
-    let (U, stretches, V) = jacobi(&scaled.F);
-    Svd { U, stretches: scaled.restore(stretches), V }
+    let (F, back) = scaled(F);
+    let (U, stretches, V) = jacobi(&F);
+    Svd { U, stretches: three!(k => stretches[k] * back), V }
 }
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
@@ -65,38 +65,24 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    let scaled = Scaled::new(F);
-    let (U, [s1, s2, s3], V) = jacobi(&scaled.F);
+    let (F, back) = scaled(F);
+    let (U, [s1, s2, s3], V) = jacobi(&F);
     let area = s1 * s2;
-    let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&scaled.F) / area, s3);
+    let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
     // λ2 and the quotient are rounded independently, which must not disturb their order.
     let s3 = s3.abs().min(s2).copysign(s3);
-    Svd { U, stretches: scaled.restore([s1, s2, s3]), V }
+    Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
 }
 
-/// F brought to a magnitude between 1 and 2 by a power of two.
-struct Scaled<R: Real> {
-    F: Matrix3<R>,
-    back: R,
-    finite: R::Mask,
-}
-
-impl<R: Real> Scaled<R> {
-    #[inline(always)]
-    fn new(F: &Matrix3<R>) -> Self {
-        let largest = F.iter().flatten().fold(R::splat(0.0), |largest, x| x.abs().max(largest));
-        let (scale, back) = largest.power_of_two_scale();
-        let F = F.map(|row| row.map(|x| x * scale));
-        // Finite entries are below 4 here, so their sum cannot overflow; `max` above drops NaNs, a sum keeps
-        // them.
-        let finite = F.iter().flatten().fold(R::splat(0.0), |sum, x| sum + x.abs()).is_finite();
-        Self { F, back, finite }
-    }
-
-    #[inline(always)]
-    fn restore(&self, stretches: [R; 3]) -> [R; 3] {
-        stretches.map(|s| R::select(self.finite, s * self.back, R::splat(f64::NAN)))
-    }
+/// F brought to a magnitude between 1 and 2 by a power of two, and the power that brings stretches back.
+///
+/// What is not finite is left so and needs no mask: the length of its column makes the first cosine NaN (∞ times the
+/// reciprocal of ∞ where it is not NaN itself), the quaternion spreads that over V, and F V over every stretch.
+#[inline(always)]
+fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
+    let rows: [R; 3] = three!(i => F[i][0].abs().max(F[i][1].abs()).max(F[i][2].abs()));
+    let (scale, back) = rows[0].max(rows[1]).max(rows[2]).power_of_two_scale();
+    (three!(i => three!(j => F[i][j] * scale)), back)
 }
 
 /// Sweeps after which the columns are orthogonal to working precision: 4 for u = 2⁻²⁴, 5 for 2⁻⁵³, 6 for 2⁻¹⁰⁶.
@@ -116,50 +102,64 @@ pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
 /// U, λ, V of a matrix scaled to a magnitude between 1 and 2.
 #[inline(always)]
 fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
-    let mut columns = [column(F, 0), column(F, 1), column(F, 2)];
+    let mut columns = transpose(F);
     let mut quaternion = [R::splat(1.0), R::splat(0.0), R::splat(0.0), R::splat(0.0)];
-    for _ in 0..sweeps(R::UNIT_ROUNDOFF) {
-        for pair in 0..PAIRS.len() {
-            orthogonalize(&mut columns, &mut quaternion, pair);
-        }
+    for _ in 1..sweeps(R::UNIT_ROUNDOFF) {
+        sweep::<R, ROUGH>(&mut columns, &mut quaternion);
     }
+    sweep::<R, EXACT>(&mut columns, &mut quaternion);
     let V = rotation_matrix(quaternion);
-    // The columns have collected the rounding of all rotations; F V anew has that of one product, which brings the
-    // worst backward error of the tests from 19 u to 13 u.
-    let columns = [0, 1, 2].map(|k| F.map(|row| dot(row, column(&V, k))));
+    // The columns have collected the rounding of all rotations; F V anew has that of one product.
+    let columns = three!(k => three!(i => dot(F[i], column(&V, k))));
     let (U, stretches) = left(&columns);
     (U, descending(stretches), V)
 }
 
+/// How well a sweep knows its angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next sweep squares.
+/// Only what the last one leaves, stays.
+const ROUGH: bool = false;
+const EXACT: bool = true;
+
+/// Makes the columns orthogonal pair by pair.
+#[inline(always)]
+fn sweep<R: Real, const ANGLE: bool>(columns: &mut [[R; 3]; 3], quaternion: &mut [R; 4]) {
+    orthogonalize::<R, ANGLE>(columns, quaternion, 0);
+    orthogonalize::<R, ANGLE>(columns, quaternion, 1);
+    orthogonalize::<R, ANGLE>(columns, quaternion, 2);
+}
+
 /// Rotates two columns p < q in their plane so that they become orthogonal and p is the longer one.
 #[inline(always)]
-fn orthogonalize<R: Real>(columns: &mut [[R; 3]; 3], quaternion: &mut [R; 4], pair: usize) {
+fn orthogonalize<R: Real, const ANGLE: bool>(
+    columns: &mut [[R; 3]; 3],
+    quaternion: &mut [R; 4],
+    pair: usize,
+) {
     let (p, q) = PAIRS[pair];
     let (bp, bq) = (columns[p], columns[q]);
-    let (c, s) = rotation(dot(bp, bp) - dot(bq, bq), R::splat(2.0) * dot(bp, bq));
-    for i in 0..3 {
-        columns[p][i] = c.mul_add(bp[i], s * bq[i]);
-        columns[q][i] = c.mul_add(bq[i], -(s * bp[i]));
-    }
+    let half_g = dot(bp, bq);
+    let (c, s) = rotation::<R, ANGLE>(dot(bp, bp) - dot(bq, bq), half_g + half_g);
+    columns[p] = three!(i => c.mul_add(bp[i], s * bq[i]));
+    columns[q] = three!(i => c.mul_add(bq[i], -(s * bp[i])));
     turn(quaternion, pair, c, s);
 }
 
 /// Cosine and sine of θ with tan 2θ = g/d, where d = |bp|² − |bq|² and g = 2 bp·bq, and cos θ ≥ 0.
 ///
 /// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both cases
-/// the root that leaves |bp| ≥ |bq|.
+/// the root that leaves |bp| ≥ |bq|. A rough root gives a rough angle.
 #[inline(always)]
-fn rotation<R: Real>(d: R, g: R) -> (R, R) {
-    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0. A power of
-    // two whose square is normal, so that c² + s² = 1 holds to rounding down here too.
-    let floor = R::splat(R::MIN_POSITIVE.sqrt());
-    let x = d.abs() + d.mul_add(d, g * g).sqrt() + floor;
+fn rotation<R: Real, const ANGLE: bool>(d: R, g: R) -> (R, R) {
+    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0: the root is then
+    // twice that of the smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
+    let floor = R::splat(4.0 * R::MIN_POSITIVE);
+    let squared = d.mul_add(d, g.mul_add(g, floor));
+    let x = d.abs() + if ANGLE == EXACT { squared.sqrt() } else { squared.rough_sqrt() };
     let swap = d.less(R::splat(0.0));
     let cosine = R::select(swap, g.abs(), x);
     let sine = R::select(swap, x.copysign(g), g);
-    // Two divisions instead of a common reciprocal: late sweeps then have a cosine of exactly 1 and add no rounding.
-    let norm = cosine.mul_add(cosine, sine * sine).sqrt();
-    (cosine / norm, sine / norm)
+    let scale = x.mul_add(x, g * g).reciprocal_sqrt();
+    (cosine * scale, sine * scale)
 }
 
 /// Follows the rotation of two columns in the quaternion (w, x, y, z) of V, up to a positive factor.
@@ -170,12 +170,11 @@ fn turn<R: Real>(quaternion: &mut [R; 4], pair: usize, c: R, s: R) {
     let half = R::splat(0.5);
     let (c, s) = (c.mul_add(half, half), s * half);
     let [w, x, y, z] = *quaternion;
-    let plus = |a: R, b: R| a.mul_add(c, b * s);
-    let minus = |a: R, b: R| a.mul_add(c, -(b * s));
+    let (w_c, x_c, y_c, z_c) = (w * c, x * c, y * c, z * c);
     *quaternion = match pair {
-        0 => [minus(w, z), plus(x, y), minus(y, x), plus(z, w)],
-        1 => [plus(w, y), plus(x, z), minus(y, w), minus(z, x)],
-        _ => [minus(w, x), plus(x, w), plus(y, z), minus(z, y)],
+        0 => [(-s).mul_add(z, w_c), s.mul_add(y, x_c), (-s).mul_add(x, y_c), s.mul_add(w, z_c)],
+        1 => [s.mul_add(y, w_c), s.mul_add(z, x_c), (-s).mul_add(w, y_c), (-s).mul_add(x, z_c)],
+        _ => [(-s).mul_add(x, w_c), s.mul_add(w, x_c), s.mul_add(z, y_c), (-s).mul_add(y, z_c)],
     };
 }
 
@@ -188,12 +187,11 @@ fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
     let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
     let scale = R::splat(1.0) / ((ww + xx) + (yy + zz));
     let (wx, wy, wz) = (w * x, w * y, w * z);
-    let diagonal = |positive: R, negative: R| (positive - negative) * scale;
     let twice = scale + scale;
     [
-        [diagonal(ww + xx, yy + zz), x.mul_add(y, -wz) * twice, x.mul_add(z, wy) * twice],
-        [x.mul_add(y, wz) * twice, diagonal(ww + yy, xx + zz), y.mul_add(z, -wx) * twice],
-        [x.mul_add(z, -wy) * twice, y.mul_add(z, wx) * twice, diagonal(ww + zz, xx + yy)],
+        [((ww + xx) - (yy + zz)) * scale, x.mul_add(y, -wz) * twice, x.mul_add(z, wy) * twice],
+        [x.mul_add(y, wz) * twice, ((ww + yy) - (xx + zz)) * scale, y.mul_add(z, -wx) * twice],
+        [x.mul_add(z, -wy) * twice, y.mul_add(z, wx) * twice, ((ww + zz) - (xx + yy)) * scale],
     ]
 }
 
@@ -206,14 +204,14 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let [b1, b2, b3] = *columns;
 
-    let (u1, s1) = {
-        let squared = dot(b1, b1);
-        let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
-        let norm = R::select(vanishes, one, squared.sqrt());
-        let e1 = [one, zero, zero];
-        let u1: [R; 3] = std::array::from_fn(|i| R::select(vanishes, e1[i], b1[i] / norm));
-        (u1, R::select(vanishes, zero, norm))
-    };
+    let squared = dot(b1, b1);
+    let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
+    let (s1, inverse) = length(squared);
+    let u1 = [
+        R::select(vanishes, one, b1[0] * inverse),
+        R::select(vanishes, zero, b1[1] * inverse),
+        R::select(vanishes, zero, b1[2] * inverse),
+    ];
 
     // p and q complete u1 to a right-handed orthonormal basis [Duff17].
     let [x, y, z] = u1;
@@ -227,15 +225,23 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let (yp, yq) = (dot(b2, p), dot(b2, q));
     let squared = yp.mul_add(yp, yq * yq);
     let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
-    let norm = R::select(vanishes, one, squared.sqrt());
+    let (s2, inverse) = length(squared);
     // Where b2 vanishes, q completes u1 = e1 to the identity.
-    let cp = R::select(vanishes, zero, yp / norm);
-    let cq = R::select(vanishes, one, yq / norm);
-    let s2 = R::select(vanishes, zero, norm);
+    let cp = R::select(vanishes, zero, yp * inverse);
+    let cq = R::select(vanishes, one, yq * inverse);
     let s3 = cp.mul_add(dot(b3, q), -(cq * dot(b3, p)));
 
-    let U = std::array::from_fn(|i| [u1[i], cp.mul_add(p[i], cq * q[i]), cp.mul_add(q[i], -(cq * p[i]))]);
+    let U = three!(i => [u1[i], cp.mul_add(p[i], cq * q[i]), cp.mul_add(q[i], -(cq * p[i]))]);
     (U, [s1, s2, s3])
+}
+
+/// The length of a vector and its reciprocal from the square; a length of 0 where that is not a normal number.
+#[inline(always)]
+fn length<R: Real>(squared: R) -> (R, R) {
+    let smallest = R::splat(R::MIN_POSITIVE);
+    let vanishes = squared.less(smallest);
+    let inverse = R::select(vanishes, smallest, squared).reciprocal_sqrt();
+    (R::select(vanishes, R::splat(0.0), squared.sqrt()), inverse)
 }
 
 /// λ1 ≥ λ2 ≥ |λ3|.
@@ -254,25 +260,24 @@ fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
 /// det F to about twice the working precision, relative to Σ|products of three entries|.
 #[inline(always)]
 fn determinant<R: Real>(F: &Matrix3<R>) -> R {
-    let term = |j: usize| {
+    let [(a, da), (b, db), (c, dc)] = three!(j => {
         let (k, l) = ((j + 1) % 3, (j + 2) % 3);
         let (minor, minor_error) = difference_of_products(F[1][k], F[2][l], F[1][l], F[2][k]);
         let (product, error) = F[0][j].two_product(minor);
         (product, F[0][j].mul_add(minor_error, error))
-    };
-    let ((a, da), (b, db), (c, dc)) = (term(0), term(1), term(2));
+    });
     let (ab, dab) = two_sum(a, b);
     let (abc, dabc) = two_sum(ab, c);
     abc + ((da + db) + dc + (dab + dabc))
 }
 
-/// a b − c d as the sum of a rounded value and its error.
+/// a b − c d as the sum of a rounded value and a correction of at most 2u (|a b| + |c d|), which may be the larger one.
 #[inline(always)]
 fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> (R, R) {
     let (ab, dab) = a.two_product(b);
     let (cd, dcd) = c.two_product(d);
     let (difference, error) = two_sum(ab, -cd);
-    two_sum(difference, error + (dab - dcd))
+    (difference, error + (dab - dcd))
 }
 
 /// a + b as a rounded value and its exact error [Knuth, The Art of Computer Programming 2, 4.2.2].

@@ -2,6 +2,7 @@
 //! with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
 
 use super::*;
+use crate::lanes::{Backend, Element, Kernel, Lanes};
 use crate::point::twice::Twice;
 use crate::random::Random;
 
@@ -9,16 +10,71 @@ mod search;
 
 type Exact = [[f64; 3]; 3];
 
-/// A real type whose values are doubles, so that the oracle can read them.
-trait Narrow: Real + Into<f64> {}
-impl Narrow for f64 {}
-impl Narrow for f32 {}
+/// What is tested, on every back end.
+#[derive(Clone, Copy, Debug)]
+enum Method {
+    Plain,
+    SignedByDeterminant,
+}
 
-fn rounded<R: Narrow>(F: &Exact) -> Matrix3<R> {
+impl Method {
+    #[inline(always)]
+    fn of<R: Real>(self, F: &Matrix3<R>) -> Svd<R> {
+        match self {
+            Self::Plain => svd(F),
+            Self::SignedByDeterminant => svd_signed_by_determinant(F),
+        }
+    }
+}
+
+/// Decomposes matrices with interleaved lanes; where too few are left, the last one fills the other lanes.
+struct Decompose<'a, E> {
+    method: Method,
+    matrices: &'a [Matrix3<E>],
+}
+
+impl<E: Element> Kernel<E> for Decompose<'_, E> {
+    type Output = Vec<Svd<E>>;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> Vec<Svd<E>> {
+        decompose_in_lanes::<R::Interleaved>(self.method, self.matrices)
+    }
+}
+
+#[inline(always)]
+fn decompose_in_lanes<R: Lanes>(method: Method, matrices: &[Matrix3<R::Element>]) -> Vec<Svd<R::Element>> {
+    let mut answers = Vec::with_capacity(matrices.len());
+    for some in matrices.chunks(R::LANES) {
+        let of_lane = |lane: usize| some[lane.min(some.len() - 1)];
+        let F = three!(i => three!(j => R::from_fn(|lane| of_lane(lane)[i][j].into())));
+        let Svd { U, stretches, V } = method.of(&F);
+        answers.extend((0..some.len()).map(|lane| Svd {
+            U: U.map(|row| row.map(|x| of(x, lane))),
+            stretches: stretches.map(|x| of(x, lane)),
+            V: V.map(|row| row.map(|x| of(x, lane))),
+        }));
+    }
+    answers
+}
+
+/// What one lane holds.
+fn of<R: Lanes>(x: R, lane: usize) -> R::Element {
+    let mut all = vec![R::Element::default(); R::LANES];
+    x.store(&mut all);
+    all[lane]
+}
+
+/// The decompositions of matrices by every back end.
+fn by_every_backend<E: Element>(method: Method, matrices: &[Matrix3<E>]) -> Vec<(Backend, Vec<Svd<E>>)> {
+    Backend::available().map(|backend| (backend, backend.run(Decompose { method, matrices }))).collect()
+}
+
+fn rounded<R: Real>(F: &Exact) -> Matrix3<R> {
     F.map(|row| row.map(R::splat))
 }
 
-fn exact<R: Narrow>(F: &Matrix3<R>) -> Exact {
+fn exact<R: Element>(F: &Matrix3<R>) -> Exact {
     F.map(|row| row.map(Into::into))
 }
 
@@ -76,25 +132,23 @@ struct Worst {
 
 impl Worst {
     #[track_caller]
-    fn see<R: Narrow>(&mut self, F: &Exact, decompose: impl Fn(&Matrix3<R>) -> Svd<R>) {
-        let F = rounded::<R>(F);
-        let svd = decompose(&F);
+    fn see<R: Element>(&mut self, F: &Matrix3<R>, svd: &Svd<R>) {
         let (U, V) = (exact(&svd.U), exact(&svd.V));
         let stretches: [f64; 3] = svd.stretches.map(Into::into);
         let [s1, s2, s3] = stretches;
         assert!(s1 >= s2 && s2 >= s3.abs(), "unordered {stretches:?} of {F:?}");
         assert!((determinant_of_rotation(&U) - 1.0).abs() < 1e-4, "det U = −1 for {F:?}");
         assert!((determinant_of_rotation(&V) - 1.0).abs() < 1e-4, "det V = −1 for {F:?}");
-        let eps = 2.0 * R::UNIT_ROUNDOFF;
+        let eps = 2.0 * <R as Element>::UNIT_ROUNDOFF;
         self.left = self.left.max(orthogonality(&U) / eps);
         self.right = self.right.max(orthogonality(&V) / eps);
         if s1 > 0.0 {
             let scale = 2f64.powi(-(s1.log2().floor().max(-1020.0) as i32));
-            let F = exact(&F).map(|row| row.map(|x| x * scale));
+            let F = exact(F).map(|row| row.map(|x| x * scale));
             let error = residual(&F, &U, stretches.map(|s| s * scale), &V);
             self.backward = self.backward.max(error / (s1 * scale) / eps);
         } else {
-            assert_eq!(exact(&F), [[0.0; 3]; 3]);
+            assert_eq!(exact(F), [[0.0; 3]; 3]);
         }
     }
 
@@ -165,49 +219,83 @@ fn perturbed(A: &Exact, amount: f64, B: &Exact) -> Exact {
     std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + amount * B[i][j]))
 }
 
-fn bounds_hold<R: Narrow>(exponent: f64, decompose: impl Fn(&Matrix3<R>) -> Svd<R>) {
-    let mut worst = std::collections::BTreeMap::<String, Worst>::new();
-    families(5_000, exponent, |name, F| worst.entry(name.into()).or_default().see(F, &decompose));
-    for (name, worst) in &worst {
-        worst.check(name);
+fn bounds_hold<E: Element>(exponent: f64, method: Method) {
+    let (mut names, mut matrices) = (Vec::<String>::new(), Vec::<Matrix3<E>>::new());
+    families(5_000, exponent, |name, F| {
+        names.push(name.into());
+        matrices.push(rounded(F));
+    });
+    for (backend, answers) in by_every_backend(method, &matrices) {
+        let mut worst = std::collections::BTreeMap::<&str, Worst>::new();
+        for ((name, F), answer) in names.iter().zip(&matrices).zip(&answers) {
+            worst.entry(name).or_default().see(F, answer);
+        }
+        for (name, worst) in &worst {
+            worst.check(&format!("{name}, {backend}"));
+        }
     }
 }
 
 #[test]
 fn bounds_hold_in_f64() {
-    bounds_hold::<f64>(300.0, svd);
+    bounds_hold::<f64>(300.0, Method::Plain);
 }
 
 #[test]
 fn bounds_hold_in_f32() {
-    bounds_hold::<f32>(30.0, svd);
+    bounds_hold::<f32>(30.0, Method::Plain);
 }
 
 #[test]
 fn bounds_hold_with_the_determinant() {
-    bounds_hold::<f64>(300.0, svd_signed_by_determinant);
-    bounds_hold::<f32>(30.0, svd_signed_by_determinant);
+    bounds_hold::<f64>(300.0, Method::SignedByDeterminant);
+    bounds_hold::<f32>(30.0, Method::SignedByDeterminant);
 }
 
 /// All 19683 matrices of −1, 0, 1: every rank, every tie of columns, every reflection.
 #[test]
 fn bounds_hold_for_small_integers() {
-    let (mut double, mut single) = (Worst::default(), Worst::default());
-    for code in 0..3usize.pow(9) {
-        let F: Exact = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (code / 3usize.pow(3 * i as u32 + j as u32) % 3) as f64 - 1.0)
-        });
-        double.see::<f64>(&F, svd);
-        single.see::<f32>(&F, svd);
+    fn check<E: Element>() {
+        let entry = |code: usize, k: u32| E::splat((code / 3usize.pow(k) % 3) as f64 - 1.0);
+        let matrices: Vec<Matrix3<E>> = (0..3usize.pow(9))
+            .map(|code| {
+                std::array::from_fn(|i| std::array::from_fn(|j| entry(code, 3 * i as u32 + j as u32)))
+            })
+            .collect();
+        for (backend, answers) in by_every_backend(Method::Plain, &matrices) {
+            let mut worst = Worst::default();
+            for (F, answer) in matrices.iter().zip(&answers) {
+                worst.see(F, answer);
+            }
+            worst.check(backend.name());
+        }
     }
-    double.check("f64");
-    single.check("f32");
+    check::<f64>();
+    check::<f32>();
+}
+
+/// Lanes without instructions of their own do what a number does alone, and no lane knows what the others hold.
+#[test]
+fn portable_lanes_give_the_bits_of_a_scalar() {
+    let mut random = Random::new(7);
+    let matrices: Vec<_> = (0..67).map(|_| random.matrix()).collect();
+    for method in [Method::Plain, Method::SignedByDeterminant] {
+        for (backend, answers) in by_every_backend(method, &matrices) {
+            for (F, answer) in matrices.iter().zip(&answers) {
+                let alone = backend.run(Decompose { method, matrices: &[*F] });
+                assert_eq!(*answer, alone[0], "{backend}");
+                if backend == Backend::portable() {
+                    assert_eq!(*answer, method.of(F));
+                }
+            }
+        }
+    }
 }
 
 /// Climbs towards worse backward errors from the worst of random starts.
 #[test]
 fn a_search_for_counterexamples_finds_none() {
-    fn climb<R: Narrow>(seed: u64) {
+    fn climb<R: Element>(seed: u64) {
         let mut random = Random::new(seed);
         for start in 0..40 {
             let mut F = random.matrix();
@@ -222,7 +310,10 @@ fn a_search_for_counterexamples_finds_none() {
                     candidate[step % 9 / 3][step % 3] *= random.uniform(-2.0, 2.0);
                 }
                 let mut worst = Worst::default();
-                worst.see::<R>(&candidate, svd);
+                let candidate_in_R = rounded::<R>(&candidate);
+                for (_, answers) in by_every_backend(Method::Plain, &[candidate_in_R]) {
+                    worst.see(&candidate_in_R, &answers[0]);
+                }
                 worst.check("climb");
                 if worst.backward > record {
                     (record, F) = (worst.backward, candidate);
@@ -266,15 +357,27 @@ fn subnormal_matrices_keep_their_direction() {
 
 #[test]
 fn what_is_not_finite_gives_no_plausible_number() {
-    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for k in 0..9 {
-            let mut F = Random::new(4).matrix();
-            F[k / 3][k % 3] = bad;
-            assert!(svd::<f64>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
-            assert!(svd_signed_by_determinant::<f64>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
-            let F = rounded::<f32>(&F);
-            assert!(svd::<f32>(&F).stretches.iter().all(|s| s.is_nan()), "{F:?}");
+    fn check<E: Element>(method: Method) {
+        let mut matrices = Vec::new();
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for k in 0..9 {
+                for plain in [Random::new(4).matrix(), diagonal([1.0; 3]), [[0.0; 3]; 3]] {
+                    let mut F = rounded::<E>(&plain);
+                    F[k / 3][k % 3] = E::splat(bad);
+                    matrices.push(F);
+                }
+            }
         }
+        for (backend, answers) in by_every_backend(method, &matrices) {
+            for (F, answer) in matrices.iter().zip(answers) {
+                let stretches: [f64; 3] = answer.stretches.map(Into::into);
+                assert!(stretches.iter().all(|s| s.is_nan()), "{F:?} became {stretches:?}, {backend}");
+            }
+        }
+    }
+    for method in [Method::Plain, Method::SignedByDeterminant] {
+        check::<f64>(method);
+        check::<f32>(method);
     }
 }
 

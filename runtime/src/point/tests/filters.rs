@@ -1,6 +1,7 @@
 //! Filters against an eigensolver of the whole 9×9 matrix.
 
 use super::*;
+use crate::lanes::{Backend, Element, Kernel, Lanes};
 
 /// f(A) by nalgebra's eigensolver, which has never heard of stretches.
 fn by_eigensolver(A: &[[f64; 9]; 9], f: impl Fn(f64) -> f64) -> [[f64; 9]; 9] {
@@ -29,6 +30,10 @@ fn spectra() -> Vec<[f64; 3]> {
         [-1.0, 0.0, 0.0],
         [2.0, 0.5, -0.1],
         [-2.0, 1e-3, 0.3],
+        [-1.0, 2.0, 3.0],
+        [-2.0, -1.0, 3.0],
+        [-1.0, -1.0, 3.0],
+        [-1.0, 2.0, 2.0],
     ];
     for exponent in 1..18 {
         let e = 10f64.powi(-exponent);
@@ -40,7 +45,8 @@ fn spectra() -> Vec<[f64; 3]> {
             [-1.0, e, e * e],
             [-1.0, -e, e],
             [e, 1.0, -1.0],
-            [1.0, -1.0, 0.0],
+            [1.0, -1.0, e],
+            [1.0, 1.0, -e],
         ]);
     }
     spectra
@@ -52,7 +58,7 @@ fn hessians(random: &mut Random) -> Vec<[f64; 6]> {
     let graded = |[h11, h22, h33, h12, h13, h23]: [f64; 6], [a, b, c]: [f64; 3]| {
         [a * a * h11, b * b * h22, c * c * h33, a * b * h12, a * c * h13, b * c * h23]
     };
-    let mut all = Vec::new();
+    let mut all: Vec<_> = (0..200).map(|_| std::array::from_fn(|_| random.uniform(-1.0, 1.0))).collect();
     for spectrum in spectra() {
         let hessian = hessian_with(random, spectrum);
         all.push(hessian);
@@ -66,29 +72,44 @@ fn hessians(random: &mut Random) -> Vec<[f64; 6]> {
     all
 }
 
-/// A filter in precision R against the eigensolver in doubles; magnitudes are multiplied by a power of two on the way in
-/// and divided by it on the way out, which is exact.
+/// Filters the same blocks in all lanes.
+struct Project<'a, E> {
+    blocks: &'a Blocks<E>,
+    filter: Filter,
+}
+
+impl<E: Element> Kernel<E> for Project<'_, E> {
+    type Output = Blocks<E>;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> Blocks<E> {
+        let blocks = convert(self.blocks, |x| R::splat(x.into()));
+        convert(&project(&blocks, self.filter).0, |x: R| {
+            let mut all = vec![E::default(); R::LANES];
+            x.store(&mut all);
+            all[0]
+        })
+    }
+}
+
+fn convert<A: Real, B: Real>(blocks: &Blocks<A>, number: impl Fn(A) -> B) -> Blocks<B> {
+    Blocks {
+        gradient: blocks.gradient.map(&number),
+        hessian: blocks.hessian.map(&number),
+        flip: blocks.flip.map(&number),
+        twist: blocks.twist.map(&number),
+    }
+}
+
+/// A filter in precision E, on every back end, against the eigensolver in doubles; magnitudes are multiplied by a power of two
+/// on the way in and divided by it on the way out, which is exact.
 #[track_caller]
-fn check<R: Real + Into<f64>>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
-    let narrow = |x: f64| R::splat(x * magnitude);
-    let Blocks { gradient, hessian, flip, twist } = tangent.blocks;
-    let given = Blocks {
-        gradient: gradient.map(narrow),
-        hessian: hessian.map(narrow),
-        flip: flip.map(narrow),
-        twist: twist.map(narrow),
-    };
-    let (U, V) = (tangent.U, tangent.V);
-    let matrix = |blocks: &Blocks<R>| {
-        let wide = |x: R| -> f64 { x.into() / magnitude };
-        let blocks = Blocks {
-            gradient: blocks.gradient.map(wide),
-            hessian: blocks.hessian.map(wide),
-            flip: blocks.flip.map(wide),
-            twist: blocks.twist.map(wide),
-        };
-        // The filter works in the principal frames, the oracle in the world.
-        in_the_world(&U, &V, &dense(&blocks))
+fn check<E: Element>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
+    let given = convert(&tangent.blocks, |x| E::splat(x * magnitude));
+    // The filter works in the principal frames, the oracle in the world.
+    let matrix = |blocks: &Blocks<E>| {
+        let blocks = convert(blocks, |x| x.into() / magnitude);
+        in_the_world(&tangent.U, &tangent.V, &dense(&blocks))
     };
     let plain = matrix(&given);
     let expected = match filter {
@@ -96,12 +117,14 @@ fn check<R: Real + Into<f64>>(tangent: &Tangent<f64>, filter: Filter, magnitude:
         Filter::Clamp => by_eigensolver(&plain, |e| e.max(0.0)),
         Filter::Absolute => by_eigensolver(&plain, f64::abs),
     };
-    let error = difference(&matrix(&project(&given, filter).0), &expected);
     let norm = norm(plain.iter().flatten());
     // Backward errors of some 10 u ‖A‖ by us, and of some 60 by the sums of 81 products and the solver in doubles;
     // neither function amplifies these by more than ln 9 ≈ 2.
-    let bound = (25.0 * R::UNIT_ROUNDOFF + 75.0 * f64::UNIT_ROUNDOFF) * norm;
-    assert!(error <= bound, "{filter:?} of {:?}: {error:e} beside {norm:e}", tangent.blocks);
+    let bound = (25.0 * <E as Element>::UNIT_ROUNDOFF + 75.0 * <f64 as Element>::UNIT_ROUNDOFF) * norm;
+    for backend in Backend::available() {
+        let error = difference(&matrix(&backend.run(Project { blocks: &given, filter })), &expected);
+        assert!(error <= bound, "{filter:?} of {:?}: {error:e} beside {norm:e}, {backend}", tangent.blocks);
+    }
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! A search for matrices that hurt the decomposition most, and the worst it has found.
 //!
 //! `found.txt` holds one matrix per line: the kernel, the quantity, the precision, the error in eps when it was
-//! found, and nine entries as bit patterns, row by row. The search that writes such lines climbs on from them and from
-//! new starts. It takes the same few steps every time; `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
+//! found on the worst back end of a machine with AVX-512, and nine entries as bit patterns, row by row. The search that
+//! writes such lines climbs on from them and from new starts. It takes the same few steps every time;
+//! `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
 //!
 //! ```text
 //! PIOLA_SEARCH_SECONDS=1200 cargo test -p piola --lib search_for_the_worst -- --nocapture
@@ -13,7 +14,7 @@ use std::time::{Duration, Instant};
 use super::*;
 
 /// A real type whose bits can be read, written and mutated.
-trait Bits: Narrow {
+trait Bits: Element {
     const NAME: &'static str;
     const WIDTH: u32;
     /// Entries stay between 2^−RANGE and 2^RANGE in magnitude, or zero: no stretch is then subnormal.
@@ -47,14 +48,16 @@ impl Bits for f32 {
     }
 }
 
-const KERNELS: [&str; 2] = ["svd", "svd_signed_by_determinant"];
+const KERNELS: [(&str, Method); 2] =
+    [("svd", Method::Plain), ("svd_signed_by_determinant", Method::SignedByDeterminant)];
 const QUANTITIES: [&str; 3] = ["backward", "left", "right"];
 
-fn error<R: Narrow>(kernel: &str, quantity: &str, F: &Exact) -> f64 {
+/// The worst of all back ends.
+fn error<R: Bits>(method: Method, quantity: &str, F: &Exact) -> f64 {
     let mut worst = Worst::default();
-    match kernel {
-        "svd" => worst.see::<R>(F, svd),
-        _ => worst.see::<R>(F, svd_signed_by_determinant),
+    let F = rounded::<R>(F);
+    for (_, answers) in by_every_backend(method, &[F]) {
+        worst.see(&F, &answers[0]);
     }
     match quantity {
         "backward" => worst.backward,
@@ -158,12 +161,12 @@ struct Budget {
 }
 
 /// Climbs from one start after the other until the budget is spent; the worst matrix and its error.
-fn search<R: Bits>(kernel: &str, quantity: &str, budget: Budget, seed: u64) -> (f64, Exact) {
+fn search<R: Bits>(method: Method, quantity: &str, budget: Budget, seed: u64) -> (f64, Exact) {
     const PATIENCE: usize = 4_000;
     const ELITE: usize = 12;
     let as_held = |F: &Exact| exact(&rounded::<R>(F));
     let mut random = Random::new(seed);
-    let judged = |F: Exact| (error::<R>(kernel, quantity, &F), F);
+    let judged = |F: Exact| (error::<R>(method, quantity, &F), F);
     let mut elite: Vec<_> = Found::all().iter().filter_map(Found::matrix::<R>).map(judged).collect();
     let begin = Instant::now();
     let goes_on = |steps: usize| steps < budget.steps || begin.elapsed() < budget.time;
@@ -178,7 +181,7 @@ fn search<R: Bits>(kernel: &str, quantity: &str, budget: Budget, seed: u64) -> (
         if !is_in_range::<R>(&F) {
             continue;
         }
-        let mut record = error::<R>(kernel, quantity, &F);
+        let mut record = error::<R>(method, quantity, &F);
         let mut since = 0;
         while since < PATIENCE && goes_on(steps) {
             (steps, since) = (steps + 1, since + 1);
@@ -190,7 +193,7 @@ fn search<R: Bits>(kernel: &str, quantity: &str, budget: Budget, seed: u64) -> (
             if !is_in_range::<R>(&candidate) {
                 continue;
             }
-            let found = error::<R>(kernel, quantity, &candidate);
+            let found = error::<R>(method, quantity, &candidate);
             if found >= record {
                 if found > record {
                     since = 0;
@@ -205,8 +208,8 @@ fn search<R: Bits>(kernel: &str, quantity: &str, budget: Budget, seed: u64) -> (
     elite.into_iter().next().unwrap_or((0.0, [[0.0; 3]; 3]))
 }
 
-fn report<R: Bits>(kernel: &str, quantity: &str, budget: Budget, seed: u64) {
-    let (error, F) = search::<R>(kernel, quantity, budget, seed);
+fn report<R: Bits>((kernel, method): (&str, Method), quantity: &str, budget: Budget, seed: u64) {
+    let (error, F) = search::<R>(method, quantity, budget, seed);
     let bits: Vec<_> = F.iter().flatten().map(|&x| format!("{:x}", R::splat(x).bits())).collect();
     println!("{kernel} {quantity} {} {error:.3} {}", R::NAME, bits.join(" "));
     assert!(error <= BOUND, "{quantity} error of {kernel}: {error} eps for {F:?}");
@@ -229,9 +232,9 @@ fn search_for_the_worst() {
 fn the_worst_that_was_found_stays_within_the_bound() {
     fn check<R: Bits>(found: &Found) -> bool {
         let Some(F) = found.matrix::<R>() else { return false };
-        for kernel in KERNELS {
+        for (kernel, method) in KERNELS {
             for quantity in QUANTITIES {
-                let error = error::<R>(kernel, quantity, &F);
+                let error = error::<R>(method, quantity, &F);
                 assert!(error <= BOUND, "{quantity} error of {kernel}: {error} eps for {F:?}");
             }
         }
