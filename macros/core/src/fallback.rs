@@ -96,6 +96,43 @@ fn inert_type(
         }
 
         #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::material::Varying for #name<#(#generics),*> {
+            fn energy_of<R: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [R; 3],
+            ) -> R {
+                #unreachable
+            }
+            fn gradient_of<R: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [R; 3],
+            ) -> [R; 3] {
+                #unreachable
+            }
+            fn gradient_at_strains_of<R: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                strains: [R; 3],
+            ) -> [R; 3] {
+                #unreachable
+            }
+            fn blocks_of<R: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [R; 3],
+            ) -> ::piola::material::Blocks<R> {
+                #unreachable
+            }
+            fn admits_of<R: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [R; 3],
+            ) -> R::Mask {
+                #unreachable
+            }
+            fn inversion(&self) -> ::piola::Inversion {
+                #unreachable
+            }
+        }
+
+        #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Declared for #name<#(#generics),*> {
             const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
                 name: "",

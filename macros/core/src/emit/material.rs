@@ -1,7 +1,7 @@
 //! The implementation of `Material`: energy, gradient and blocks as straight-line programs.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::generics;
@@ -11,59 +11,77 @@ use crate::model::{Model, Variant, Volume};
 use crate::parse::Declaration;
 use crate::schedule::schedule;
 
-/// `impl Material`.
+/// `impl Material`, and `impl Varying` where all parameters are numbers.
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
-    let writer = Writer::new(declaration);
-    let stretches = &declaration.stretches;
-    let threshold = &writer.threshold;
-
-    let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
-                      result: &dyn Fn(&[TokenStream]) -> TokenStream| {
-        let body = |graph: &mut Graph, variant: &Variant| {
-            let program = schedule(graph, &select(variant));
-            let (statements, outputs) = writer.program(&program);
-            let result = result(&outputs);
-            quote!(#(#statements)* #result)
+    let constants = constants(model);
+    // What is not inlined into the function of a back end is not compiled for its instructions.
+    if declaration.has_functions() {
+        let own = Bodies::new(declaration, model, Writer::new(declaration));
+        let computed = own.methods(&quote!(&self), "");
+        return quote! {
+            #[allow(unused_variables, clippy::all)]
+            impl #bounds ::piola::Material for #name #arguments {
+                #computed
+                #constants
+            }
         };
-        let plain = body(&mut model.graph, &model.plain);
-        match &model.extended {
-            None => plain,
-            Some(extended) => {
-                let extended = body(&mut model.graph, extended);
-                quote! {
-                    match self.inversion {
-                        ::piola::Inversion::Refuse => { #plain }
-                        ::piola::Inversion::Extend { epsilon: #threshold } => {
-                            let #threshold = R::splat(#threshold);
-                            #extended
-                        }
-                    }
-                }
+    }
+    let writer = Writer::for_several(declaration);
+    let materials = writer.materials.clone();
+    let several = Bodies::new(declaration, model, writer);
+    let computed = several.methods(&quote!(#materials: &impl ::piola::material::Parameters<Self>), "_of");
+    let inversion = match declaration.options.extend {
+        Some(_) => quote!(self.inversion),
+        None => quote!(::piola::Inversion::Refuse),
+    };
+    let uniform = quote!(&::piola::material::Uniform(self));
+    let varying = quote!(<Self as ::piola::material::Varying>);
+    quote! {
+        impl #bounds ::piola::Material for #name #arguments {
+            #[inline(always)]
+            fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
+                #varying::energy_of(#uniform, stretches)
+            }
+
+            #[inline(always)]
+            fn gradient<R: ::piola::Real>(&self, stretches: [R; 3]) -> [R; 3] {
+                #varying::gradient_of(#uniform, stretches)
+            }
+
+            #[inline(always)]
+            fn gradient_at_strains<R: ::piola::Real>(&self, strains: [R; 3]) -> [R; 3] {
+                #varying::gradient_at_strains_of(#uniform, strains)
+            }
+
+            #[inline(always)]
+            fn blocks<R: ::piola::Real>(&self, stretches: [R; 3]) -> ::piola::material::Blocks<R> {
+                #varying::blocks_of(#uniform, stretches)
+            }
+
+            #[inline(always)]
+            fn admits<R: ::piola::Real>(&self, stretches: [R; 3]) -> R::Mask {
+                #varying::admits_of(#uniform, stretches)
+            }
+
+            #constants
+        }
+
+        #[allow(unused_variables, clippy::all)]
+        impl #bounds ::piola::material::Varying for #name #arguments {
+            #computed
+
+            #[inline]
+            fn inversion(&self) -> ::piola::Inversion {
+                #inversion
             }
         }
-    };
-    let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
-    let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
-    let blocks = bodies(
-        &|variant| [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat(),
-        &|outputs| {
-            let (gradient, hessian, flip, twist) =
-                (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
-            quote! {
-                ::piola::material::Blocks {
-                    gradient: [#(#gradient),*],
-                    hessian: [#(#hessian),*],
-                    flip: [#(#flip),*],
-                    twist: [#(#twist),*],
-                }
-            }
-        },
-    );
+    }
+}
 
-    let at_strains = at_strains(model, &writer, stretches);
-    let admits = admits(model, &writer, stretches);
+/// What a material says of itself without a point: whether it has a pole and where its domain ends.
+fn constants(model: &Model) -> TokenStream {
     let is_positive = model.volume == Volume::Positive;
     let plain_pole = model.plain.has_pole;
     let (has_pole, ends) = match &model.extended {
@@ -84,45 +102,115 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             (pole, if is_positive { refuses } else { quote!(false) })
         }
     };
-    let [l1, l2, l3] = stretches;
-    let strains = &writer.strains;
-    // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
-        #[allow(unused_variables, clippy::all)]
-        impl #bounds ::piola::Material for #name #arguments {
+        #[inline]
+        fn has_pole(&self) -> bool {
+            #has_pole
+        }
+
+        #[inline]
+        fn ends_at_zero_volume(&self) -> bool {
+            #ends
+        }
+    }
+}
+
+/// The methods that compute, for one way to read parameters.
+struct Bodies<'a> {
+    writer: Writer<'a>,
+    stretches: &'a [Ident; 3],
+    energy: TokenStream,
+    gradient: TokenStream,
+    at_strains: TokenStream,
+    blocks: TokenStream,
+    admits: TokenStream,
+}
+
+impl<'a> Bodies<'a> {
+    fn new(declaration: &'a Declaration, model: &mut Model, writer: Writer<'a>) -> Self {
+        let stretches = &declaration.stretches;
+        let threshold = &writer.threshold;
+        let inversion = writer.inversion();
+        let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
+                          result: &dyn Fn(&[TokenStream]) -> TokenStream| {
+            let body = |graph: &mut Graph, variant: &Variant| {
+                let program = schedule(graph, &select(variant));
+                let (statements, outputs) = writer.program(&program);
+                let result = result(&outputs);
+                quote!(#(#statements)* #result)
+            };
+            let plain = body(&mut model.graph, &model.plain);
+            match &model.extended {
+                None => plain,
+                Some(extended) => {
+                    let extended = body(&mut model.graph, extended);
+                    quote! {
+                        match #inversion {
+                            ::piola::Inversion::Refuse => { #plain }
+                            ::piola::Inversion::Extend { epsilon: #threshold } => {
+                                let #threshold = R::splat(#threshold);
+                                #extended
+                            }
+                        }
+                    }
+                }
+            }
+        };
+        let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
+        let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
+        let blocks = bodies(
+            &|variant| [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat(),
+            &|outputs| {
+                let (gradient, hessian, flip, twist) =
+                    (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
+                quote! {
+                    ::piola::material::Blocks {
+                        gradient: [#(#gradient),*],
+                        hessian: [#(#hessian),*],
+                        flip: [#(#flip),*],
+                        twist: [#(#twist),*],
+                    }
+                }
+            },
+        );
+
+        let at_strains = at_strains(model, &writer, stretches);
+        let admits = admits(model, &writer, stretches);
+        Self { writer, stretches, energy, gradient, at_strains, blocks, admits }
+    }
+
+    /// `receiver` is what parameters are read from, `ending` that of the methods' names.
+    fn methods(&self, receiver: &TokenStream, ending: &str) -> TokenStream {
+        let Self { writer, stretches: [l1, l2, l3], energy, gradient, at_strains, blocks, admits } = self;
+        let strains = &writer.strains;
+        let method = |name: &str| format_ident!("{name}{ending}");
+        let names = ["energy", "gradient", "gradient_at_strains", "blocks", "admits"];
+        let [energy_of, gradient_of, at_strains_of, blocks_of, admits_of] = names.map(method);
+        let stretches = quote!([#l1, #l2, #l3]: [R; 3]);
+        quote! {
             #[inline(always)]
-            fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
+            fn #energy_of<R: ::piola::Real>(#receiver, #stretches) -> R {
                 #energy
             }
 
             #[inline(always)]
-            fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
+            fn #gradient_of<R: ::piola::Real>(#receiver, #stretches) -> [R; 3] {
                 #gradient
             }
 
             #[inline(always)]
-            fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
-                #blocks
-            }
-
-            #[inline(always)]
-            fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
+            fn #at_strains_of<R: ::piola::Real>(#receiver, #strains: [R; 3]) -> [R; 3] {
                 #at_strains
             }
 
             #[inline(always)]
-            fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
+            fn #blocks_of<R: ::piola::Real>(#receiver, #stretches) -> ::piola::material::Blocks<R> {
+                #blocks
+            }
+
+            #[inline(always)]
+            fn #admits_of<R: ::piola::Real>(#receiver, #stretches) -> R::Mask {
                 #admits
-            }
-
-            #[inline]
-            fn has_pole(&self) -> bool {
-                #has_pole
-            }
-
-            #[inline]
-            fn ends_at_zero_volume(&self) -> bool {
-                #ends
             }
         }
     }
@@ -142,13 +230,20 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     if model.extended.is_none() {
         return quote!(#inside [#(#outputs),*]);
     }
+    let inversion = writer.inversion();
+    let gradient = match &writer.materials {
+        None => quote!(self.gradient(#stretches)),
+        Some(materials) => {
+            quote!(<Self as ::piola::material::Varying>::gradient_of(#materials, #stretches))
+        }
+    };
     quote! {
         #inside
         let inside = [#(#outputs),*];
-        if let ::piola::Inversion::Extend { epsilon: #threshold } = self.inversion {
+        if let ::piola::Inversion::Extend { epsilon: #threshold } = #inversion {
             let below = #strains[2].less(R::splat(#threshold - 1.0));
             if ::piola::lanes::Mask::any(below) {
-                let extended = self.gradient(#stretches);
+                let extended = #gradient;
                 return [
                     R::select(below, extended[0], inside[0]),
                     R::select(below, extended[1], inside[1]),
@@ -173,10 +268,11 @@ fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> Tok
         Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
         Volume::Nonzero => Some(quote!(R::splat(0.0).less(#smallest.abs()))),
     };
+    let inversion = writer.inversion();
     conditions.extend(inside.map(|inside| match &model.extended {
         None => inside,
         Some(_) => quote! {
-            match self.inversion {
+            match #inversion {
                 ::piola::Inversion::Refuse => #inside,
                 ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
             }

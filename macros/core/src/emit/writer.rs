@@ -17,14 +17,13 @@ pub(super) struct Writer<'a> {
     pub(super) threshold: Ident,
     /// The principal strains.
     pub(super) strains: Ident,
+    /// What parameters are read from, if not from `self`: the materials of several points.
+    pub(super) materials: Option<Ident>,
 }
 
 impl<'a> Writer<'a> {
+    /// Reads the parameters of `self`.
     pub(super) fn new(declaration: &'a Declaration) -> Self {
-        let is_taken = |name: &Ident| {
-            declaration.stretches.contains(name)
-                || declaration.parameters.iter().any(|other| other.name == *name)
-        };
         let is_number = |name: &str, prefix: &str| {
             name.strip_prefix(prefix)
                 .is_some_and(|rest| rest.is_empty() || rest.bytes().all(|b| b.is_ascii_digit()))
@@ -39,15 +38,34 @@ impl<'a> Writer<'a> {
             .into_iter()
             .find(|prefix| !declared.iter().any(|name| is_number(name, prefix)))
             .unwrap_or("emitted_value_");
-        let free = |candidates: &[&str]| {
-            let names = candidates.iter().map(|name| format_ident!("{name}"));
-            names
-                .into_iter()
-                .find(|name| !is_taken(name))
-                .unwrap_or_else(|| format_ident!("emitted_{}", candidates[0]))
-        };
+        let free = |candidates: &[&str]| free_name(declaration, candidates);
         let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
-        Self { declaration, prefix, index, threshold, strains: free(&["strains", "principal_strains"]) }
+        let strains = free(&["strains", "principal_strains"]);
+        Self { declaration, prefix, index, threshold, strains, materials: None }
+    }
+
+    /// Reads the parameters of the materials of several points, which no function can be.
+    pub(super) fn for_several(declaration: &'a Declaration) -> Self {
+        let materials = free_name(declaration, &["materials", "all_materials"]);
+        Self { materials: Some(materials), ..Self::new(declaration) }
+    }
+
+    /// How the materials meet what lies outside their domain.
+    pub(super) fn inversion(&self) -> TokenStream {
+        match &self.materials {
+            None => quote!(self.inversion),
+            Some(materials) => quote!(::piola::material::Parameters::first(#materials).inversion),
+        }
+    }
+
+    /// A field of the materials, as a number of type `R`.
+    fn field(&self, field: TokenStream) -> TokenStream {
+        match &self.materials {
+            None => quote!(R::splat(self.#field)),
+            Some(materials) => {
+                quote!(::piola::material::Parameters::read::<R>(#materials, |material| material.#field))
+            }
+        }
     }
 
     /// The statements of a program and its outputs as expressions.
@@ -108,11 +126,11 @@ impl<'a> Writer<'a> {
         let (name, expression) = match *op {
             Op::Parameter(k) => {
                 let parameter = parameter(k);
-                (parameter.clone(), quote!(R::splat(self.#parameter)))
+                (parameter.clone(), self.field(quote!(#parameter)))
             }
             Op::Entry(k) => {
                 let (parameter, index) = (parameter(k), &self.index);
-                (parameter.clone(), quote!(R::splat(self.#parameter[#index])))
+                (parameter.clone(), self.field(quote!(#parameter[#index])))
             }
             _ => (self.name(value), self.expression(op, names)),
         };
@@ -221,6 +239,18 @@ impl<'a> Writer<'a> {
         let kernel = format_ident!("{kernel}");
         quote!(::piola::quotient::#kernel(#(#arguments),*))
     }
+}
+
+/// The first of the names that the declaration has not taken.
+fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident {
+    let is_taken = |name: &Ident| {
+        declaration.stretches.contains(name) || declaration.parameters.iter().any(|other| other.name == *name)
+    };
+    candidates
+        .iter()
+        .map(|name| format_ident!("{name}"))
+        .find(|name| !is_taken(name))
+        .unwrap_or_else(|| format_ident!("emitted_{}", candidates[0]))
 }
 
 /// How each value is written where it is used.
