@@ -17,7 +17,7 @@
 
 use std::fmt;
 
-use crate::lanes::Real;
+use crate::lanes::{Mask, Real};
 
 mod varying;
 
@@ -67,6 +67,40 @@ pub trait Material: Send + Sync {
 
     /// Where the energy in use is defined.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
+
+    /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no stretch is named.
+    ///
+    /// The three methods below then give ψ and P without a singular value decomposition:
+    ///
+    /// ```text
+    /// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
+    /// ```
+    ///
+    /// Each number is as accurate, relative to the terms that it is a sum of, as by stretches: near rest these cancel, so that
+    /// P errs by u times the moduli, however small the strains; [`Material::gradient_at_strains`] knows more. The
+    /// range is that of I2 and J, which ends at the cube root of that of stretches.
+    const HAS_INVARIANTS: bool = false;
+
+    /// ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    #[inline(always)]
+    fn energy_by_invariants<R: Real>(&self, _: [R; 3]) -> R {
+        R::splat(f64::NAN)
+    }
+
+    /// W1, W2, WJ, Pa, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    #[inline(always)]
+    fn gradient_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 3] {
+        [R::splat(f64::NAN); 3]
+    }
+
+    /// Where \[I1, I2, J\] give the energy in use; nowhere without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    ///
+    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1. Elsewhere
+    /// [`Material::admits`] decides.
+    #[inline(always)]
+    fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(false)
+    }
 
     /// Whether some twist has a true pole at λi + λj = 0, where the stress itself jumps.
     ///

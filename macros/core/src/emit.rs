@@ -13,6 +13,7 @@ use material::material;
 
 mod constructor;
 mod declared;
+mod invariants;
 mod material;
 mod writer;
 

@@ -3,7 +3,7 @@
 //! `parse` reads the form of a declaration; `model` understands, checks and differentiates it; `emit` writes Rust. The
 //! energy travels as a hash-consed expression graph (`expr`), is differentiated once and twice (`diff`), divided into
 //! flip and twist quotients that never cancel (`quotient`), continued beyond its domain (`extension`), freed from
-//! implied cancellation (`simplify`) and ordered into operations and loops (`schedule`).
+//! implied cancellation (`simplify`), read once more by invariants where it can (`invariants`), and ordered into operations and loops (`schedule`).
 //!
 //! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
 
@@ -18,6 +18,7 @@ pub mod fallback;
 pub mod formula;
 pub mod increment;
 pub mod interpret;
+pub mod invariants;
 pub mod model;
 pub mod parse;
 pub mod quotient;

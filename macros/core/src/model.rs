@@ -10,6 +10,7 @@ use crate::expr::{Graph, Id};
 use crate::extension;
 use crate::increment::{Increments, at_rest};
 use crate::interpret::Point;
+use crate::invariants::{ByInvariants, by_invariants};
 use crate::parse::Declaration;
 use crate::quotient::Quotients;
 use crate::rational::Rational;
@@ -33,6 +34,8 @@ pub struct Model {
     pub at_strains: [Id; 3],
     /// Continued beyond its volumes.
     pub extended: Option<Variant>,
+    /// By invariants, if ψ is a function of these alone.
+    pub invariants: Option<ByInvariants>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
     /// The volumes J for which the energy is defined.
@@ -138,6 +141,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
         derive(&mut graph, extended, &samples, false)
     });
     let moduli = moduli(&mut graph, &plain);
+    let invariants = by_invariants(declaration, &mut graph);
     if graph.overflowed() {
         diagnostics.error(
             declaration.body.span(),
@@ -150,6 +154,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
         plain,
         at_strains,
         extended,
+        invariants,
         bounds,
         volume,
         moduli,
@@ -193,7 +198,7 @@ fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
 }
 
 /// `J > 0.0` or `J != 0.0`, the conditions that are spelled out for the sign of the last stretch.
-fn volume_condition(condition: &Expr) -> Option<Volume> {
+pub(crate) fn volume_condition(condition: &Expr) -> Option<Volume> {
     let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
     let is_zero = |e: &Expr| {
         matches!(e, Expr::Lit(lit) if match &lit.lit {

@@ -19,6 +19,8 @@ pub struct Resolver<'a> {
     declaration: &'a Declaration,
     graph: &'a mut Graph,
     diagnostics: &'a mut Diagnostics,
+    /// What the three stretches of the graph stand for.
+    arguments: Arguments,
     /// let-bindings in scope.
     bindings: HashMap<String, Id>,
     /// The index of the sum around, with the length of the lists it has indexed so far.
@@ -27,13 +29,33 @@ pub struct Resolver<'a> {
     used: HashSet<String>,
 }
 
+/// What an energy is a function of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Arguments {
+    /// λ1, λ2, λ3.
+    Stretches,
+    /// I1, I2, J.
+    Invariants,
+}
+
 impl<'a> Resolver<'a> {
     /// For the body and the conditions of one declaration.
     pub fn new(declaration: &'a Declaration, graph: &'a mut Graph, diagnostics: &'a mut Diagnostics) -> Self {
         for i in 0..3 {
             graph.stretch(i);
         }
-        Self { declaration, graph, diagnostics, bindings: HashMap::new(), index: None, used: HashSet::new() }
+        let arguments = Arguments::Stretches;
+        let (bindings, index, used) = (HashMap::new(), None, HashSet::new());
+        Self { declaration, graph, diagnostics, arguments, bindings, index, used }
+    }
+
+    /// The same with I1, I2, J in the places of the three stretches, whose names are mistakes.
+    pub fn of_invariants(
+        declaration: &'a Declaration,
+        graph: &'a mut Graph,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self { arguments: Arguments::Invariants, ..Self::new(declaration, graph, diagnostics) }
     }
 
     /// The energy of the body; unused names are mistakes.
@@ -189,6 +211,9 @@ impl<'a> Resolver<'a> {
             return bound;
         }
         if let Some(i) = self.declaration.stretches.iter().position(|stretch| stretch == name) {
+            if self.arguments == Arguments::Invariants {
+                return self.mistake(name.span(), &format!("`{text}` is no function of I1, I2 and J"));
+            }
             return self.graph.stretch(i);
         }
         if let Some(k) = self.declaration.parameters.iter().position(|parameter| parameter.name == *name) {
@@ -230,11 +255,14 @@ impl<'a> Resolver<'a> {
     fn word(&mut self, word: &str) -> Option<Id> {
         let graph = &mut *self.graph;
         let stretches = [0, 1, 2].map(|i| graph.stretch(i));
-        let squares = stretches.map(|stretch| graph.powi(stretch, 2));
-        let j = graph.product_of(&stretches);
-        let i1 = graph.sum_of(&squares);
-        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
-        let i2 = graph.sum_of(&pairs);
+        let [i1, i2, j] = match self.arguments {
+            Arguments::Invariants => stretches,
+            Arguments::Stretches => {
+                let squares = stretches.map(|stretch| graph.powi(stretch, 2));
+                let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
+                [graph.sum_of(&squares), graph.sum_of(&pairs), graph.product_of(&stretches)]
+            }
+        };
         let mut isochoric = |invariant: Id, numerator: i128| {
             let exponent = Rational::new(numerator, 3).map(Exponent::rational)?;
             let power = graph.power(j, exponent);

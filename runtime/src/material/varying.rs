@@ -4,7 +4,7 @@
 //! those of one material, at no cost; with [`Each`] every number gets those of a material of its own.
 
 use super::{Blocks, Inversion, Material};
-use crate::lanes::Real;
+use crate::lanes::{Mask, Real};
 
 /// A material whose parameters may differ from point to point: every declared one without functions as parameters.
 ///
@@ -47,6 +47,24 @@ pub trait Varying: Material + Sized {
 
     /// Where the energies in use are defined.
     fn admits_of<R: Real>(materials: &impl Parameters<Self>, stretches: [R; 3]) -> R::Mask;
+
+    /// ψ from the invariants, J/m³; NaN without [`HAS_INVARIANTS`](Material::HAS_INVARIANTS).
+    #[inline(always)]
+    fn energy_by_invariants_of<R: Real>(_: &impl Parameters<Self>, _: [R; 3]) -> R {
+        R::splat(f64::NAN)
+    }
+
+    /// W1, W2, WJ from the invariants, Pa; NaN without [`HAS_INVARIANTS`](Material::HAS_INVARIANTS).
+    #[inline(always)]
+    fn gradient_by_invariants_of<R: Real>(_: &impl Parameters<Self>, _: [R; 3]) -> [R; 3] {
+        [R::splat(f64::NAN); 3]
+    }
+
+    /// Where the invariants give the energies in use; nowhere without [`HAS_INVARIANTS`](Material::HAS_INVARIANTS).
+    #[inline(always)]
+    fn admits_invariants_of<R: Real>(_: &impl Parameters<Self>, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(false)
+    }
 
     /// What the material does outside its domain.
     fn inversion(&self) -> Inversion;

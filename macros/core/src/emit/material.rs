@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::generics;
+use super::invariants;
 use super::writer::Writer;
 use crate::expr::{Graph, Id};
 use crate::model::{Model, Variant, Volume};
@@ -20,18 +21,24 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     if declaration.has_functions() {
         let own = Bodies::new(declaration, model, Writer::new(declaration));
         let computed = own.methods(&quote!(&self), "");
+        let by_invariants = invariants::methods(model, &own.writer, &quote!(&self), "");
+        let constants = [constants, invariants::constant(model)];
         return quote! {
             #[allow(unused_variables, clippy::all)]
             impl #bounds ::piola::Material for #name #arguments {
                 #computed
-                #constants
+                #by_invariants
+                #(#constants)*
             }
         };
     }
     let writer = Writer::for_several(declaration);
     let materials = writer.materials.clone();
     let several = Bodies::new(declaration, model, writer);
-    let computed = several.methods(&quote!(#materials: &impl ::piola::material::Parameters<Self>), "_of");
+    let receiver = quote!(#materials: &impl ::piola::material::Parameters<Self>);
+    let computed = several.methods(&receiver, "_of");
+    let by_invariants = invariants::methods(model, &several.writer, &receiver, "_of");
+    let delegated = invariants::delegated(model);
     let inversion = match declaration.options.extend {
         Some(_) => quote!(self.inversion),
         None => quote!(::piola::Inversion::Refuse),
@@ -65,12 +72,14 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
                 #varying::admits_of(#uniform, stretches)
             }
 
+            #delegated
             #constants
         }
 
         #[allow(unused_variables, clippy::all)]
         impl #bounds ::piola::material::Varying for #name #arguments {
             #computed
+            #by_invariants
 
             #[inline]
             fn inversion(&self) -> ::piola::Inversion {

@@ -8,8 +8,11 @@ use crate::parse::Declaration;
 use crate::schedule::{Op, Program, Statement, Value};
 
 /// Writes programs with the names of one declaration.
+#[derive(Clone)]
 pub(super) struct Writer<'a> {
     declaration: &'a Declaration,
+    /// What the three stretches of the graph are called.
+    variables: [Ident; 3],
     /// Before the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
     index: Ident,
@@ -41,7 +44,13 @@ impl<'a> Writer<'a> {
         let free = |candidates: &[&str]| free_name(declaration, candidates);
         let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
         let strains = free(&["strains", "principal_strains"]);
-        Self { declaration, prefix, index, threshold, strains, materials: None }
+        let variables = declaration.stretches.clone();
+        Self { declaration, variables, prefix, index, threshold, strains, materials: None }
+    }
+
+    /// The same for programs in which stretches stand for other variables.
+    pub(super) fn with_variables(&self, variables: [Ident; 3]) -> Self {
+        Self { variables, ..self.clone() }
     }
 
     /// Reads the parameters of the materials of several points, which no function can be.
@@ -111,7 +120,7 @@ impl<'a> Writer<'a> {
         let parameter = |k: usize| &self.declaration.parameters[k].name;
         let inline = match *op {
             Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
-            Op::Stretch(i) => Some(self.declaration.stretches[i].to_token_stream()),
+            Op::Stretch(i) => Some(self.variables[i].to_token_stream()),
             Op::Strain(i) => {
                 let (strains, i) = (&self.strains, Literal::usize_unsuffixed(i));
                 Some(quote!(#strains[#i]))
