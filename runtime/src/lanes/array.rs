@@ -147,6 +147,15 @@ impl<P: Primitive, const N: usize> Primitive for Array<P, N> {
     }
 
     #[inline(always)]
+    fn is_zero(self) -> Self::Choice {
+        let mut choice = Self::Choice::splat(false);
+        for k in 0..N {
+            choice.0[k] = self.0[k].is_zero();
+        }
+        choice
+    }
+
+    #[inline(always)]
     fn choose(choice: Self::Choice, mut yes: Self, no: Self) -> Self {
         for k in 0..N {
             yes.0[k] = P::choose(choice.0[k], yes.0[k], no.0[k]);

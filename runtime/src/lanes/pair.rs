@@ -116,6 +116,11 @@ impl<P: Primitive> Primitive for Pair<P> {
     }
 
     #[inline(always)]
+    fn is_zero(self) -> Self::Choice {
+        Pair(self.0.is_zero(), self.1.is_zero())
+    }
+
+    #[inline(always)]
     fn choose(choice: Self::Choice, yes: Self, no: Self) -> Self {
         Self(P::choose(choice.0, yes.0, no.0), P::choose(choice.1, yes.1, no.1))
     }

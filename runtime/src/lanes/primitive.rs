@@ -78,10 +78,14 @@ pub trait Primitive:
     fn with_sign(self, sign: Self) -> Self;
     /// self < other.
     fn is_less(self, other: Self) -> Self::Choice;
+    /// self = ±0.
+    fn is_zero(self) -> Self::Choice;
     /// `yes` where the choice is set, `no` elsewhere.
     fn choose(choice: Self::Choice, yes: Self, no: Self) -> Self;
 
-    /// (m, e) with self = m 2ᵉ and ¾ ≤ m < 1½ for a normal self > 0; of anything else, anything.
+    /// (m, e) with self = m 2ᵉ and √½ ≤ m < √2, both rounded, for a finite self > 0.
+    ///
+    /// Of ±0 it is (1, −∞), of ∞ (1, ∞); of NaN and what is negative, m or e is NaN.
     fn split(self) -> (Self, Self);
     /// self · 2ᵉ, rounded once, for ½ ≤ self < 2 and an integer e between −2 bias and 2 bias.
     fn scale(self, exponent: Self) -> Self;
@@ -89,6 +93,30 @@ pub trait Primitive:
     fn leading_power(self) -> Self;
     /// 1/self for a power of two that is normal and whose reciprocal is.
     fn reciprocal_of_power(self) -> Self;
+}
+
+/// x > 0 times a power of two that makes subnormal numbers normal, and its exponent.
+#[inline(always)]
+pub(super) fn lift<P: Primitive>(x: P) -> (P, P) {
+    // 1/u is 2 to the number of digits.
+    let (power, exponent) = (1.0 / P::UNIT_ROUNDOFF, f64::from(<P::Format as Element>::DIGITS));
+    let is_tiny = x.is_less(constant(P::MIN_POSITIVE));
+    (P::choose(is_tiny, x * constant(power), x), P::choose(is_tiny, constant(exponent), constant(0.0)))
+}
+
+/// `exponent` where x is finite and positive, else what [`Primitive::split`] gives for it.
+#[inline(always)]
+pub(super) fn exponent_or_limit<P: Primitive>(x: P, exponent: P) -> P {
+    let zero = constant::<P>(0.0);
+    let limit = P::choose(x.is_less(zero), constant(f64::NAN), constant(f64::NEG_INFINITY));
+    let exponent = P::choose(zero.is_less(x), exponent, limit);
+    // Where the comparison fails, x is what is wanted: ∞ or NaN.
+    P::choose(x.is_less(constant(f64::INFINITY)), exponent, x)
+}
+
+/// 2ⁿ for n < 64.
+const fn power_of_two(n: u32) -> f64 {
+    (1u64 << n) as f64
 }
 
 /// `value` as a number of the format, at compile time where it is a literal.
@@ -101,8 +129,8 @@ impl<P: Primitive> Real for P {
     type Mask = P::Choice;
     type Logarithm = Logarithm<P>;
 
-    const UNIT_ROUNDOFF: f64 = <P::Format as Element>::UNIT_ROUNDOFF;
-    const MIN_POSITIVE: f64 = <P::Format as Element>::MIN_POSITIVE;
+    const UNIT_ROUNDOFF: f64 = 1.0 / power_of_two(<P::Format as Element>::DIGITS);
+    const MIN_POSITIVE: f64 = <P::Format as Element>::SMALLEST_NORMAL;
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -207,7 +235,7 @@ impl<P: Primitive> Real for P {
         }
         // Veltkamp's splitting and Dekker's product: each half has few enough bits for exact products.
         let split = |x: P| {
-            let big = constant::<P>(<P::Format as Element>::SPLITTER) * x;
+            let big = constant::<P>(power_of_two(<P::Format as Element>::DIGITS.div_ceil(2)) + 1.0) * x;
             let high = big - (big - x);
             (high, x - high)
         };
@@ -217,9 +245,9 @@ impl<P: Primitive> Real for P {
 
     #[inline(always)]
     fn power_of_two_scale(self) -> (Self, Self) {
-        let smallest = constant::<P>(<P::Format as Element>::MIN_POSITIVE);
+        let smallest = constant::<P>(Self::MIN_POSITIVE);
         // Both 2⁻ᵉ and 2ᵉ are normal numbers for |e| ≤ bias − 1.
-        let largest = constant::<P>(1.0 / <P::Format as Element>::MIN_POSITIVE);
+        let largest = constant::<P>(1.0 / Self::MIN_POSITIVE);
         let power = self.leading_power();
         let zero = constant::<P>(0.0);
         let is_ordinary = zero.is_less(self.magnitude()) & power.is_less(constant(f64::INFINITY));

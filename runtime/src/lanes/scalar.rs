@@ -2,21 +2,17 @@
 
 use std::fmt::Debug;
 
-use super::primitive::Primitive;
+use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::{Backend, Kernel, Mask};
 
 /// A format of floating-point numbers: `f64` or `f32`.
 pub trait Element:
     Primitive<Format = Self, Choice = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
 {
-    /// Unit roundoff u.
-    const UNIT_ROUNDOFF: f64;
+    /// Binary digits of the significand.
+    const DIGITS: u32;
     /// The smallest positive normal number.
-    const MIN_POSITIVE: f64;
-    /// The largest finite number.
-    const MAX: f64;
-    /// 2ˢ + 1, where s is half the number of bits rounded up.
-    const SPLITTER: f64;
+    const SMALLEST_NORMAL: f64;
     /// Adding and subtracting it rounds |x| ≤ 2⁵⁰ (`f32`: 2²¹) to the nearest integer.
     const ROUNDING: f64;
 
@@ -42,14 +38,12 @@ impl Mask for bool {
 macro_rules! scalar {
     (
         $Number:ident, $Bits:ident, $Signed:ident,
-        mantissa: $mantissa:literal, bias: $bias:literal, half_bits: $half:literal, line: $line:literal,
+        mantissa: $mantissa:literal, bias: $bias:literal, line: $line:literal,
         run: $run:path
     ) => {
         impl Element for $Number {
-            const UNIT_ROUNDOFF: f64 = $Number::EPSILON as f64 / 2.0;
-            const MIN_POSITIVE: f64 = $Number::MIN_POSITIVE as f64;
-            const MAX: f64 = $Number::MAX as f64;
-            const SPLITTER: f64 = ((1u64 << $half) + 1) as f64;
+            const DIGITS: u32 = $Number::MANTISSA_DIGITS;
+            const SMALLEST_NORMAL: f64 = $Number::MIN_POSITIVE as f64;
             const ROUNDING: f64 = (3u64 << ($mantissa - 1)) as f64;
             const LINE: usize = $line;
 
@@ -137,17 +131,24 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
+            fn is_zero(self) -> bool {
+                self == 0.0
+            }
+
+            #[inline(always)]
             fn choose(choice: bool, yes: Self, no: Self) -> Self {
                 if choice { yes } else { no }
             }
 
             #[inline(always)]
             fn split(self) -> (Self, Self) {
-                const THREE_QUARTERS: $Signed = (0.75 as $Number).to_bits() as $Signed;
-                let bits = self.to_bits() as $Signed;
-                let exponent = bits.wrapping_sub(THREE_QUARTERS) >> $mantissa;
+                // As integers, patterns of bits are in the order of the numbers, an exponent is worth 2 to the mantissa.
+                const SMALLEST: $Signed = std::$Number::consts::FRAC_1_SQRT_2.to_bits() as $Signed;
+                let (lifted, lift) = lift(self);
+                let bits = lifted.to_bits() as $Signed;
+                let exponent = bits.wrapping_sub(SMALLEST) >> $mantissa;
                 let m = $Number::from_bits(bits.wrapping_sub(exponent << $mantissa) as $Bits);
-                (m, exponent as $Number)
+                (m, exponent_or_limit(self, exponent as $Number - lift))
             }
 
             #[inline(always)]
@@ -177,12 +178,12 @@ macro_rules! scalar {
 
 scalar!(
     f64, u64, i64,
-    mantissa: 52, bias: 1023, half_bits: 27, line: 8,
+    mantissa: 52, bias: 1023, line: 8,
     run: super::backend::run_f64
 );
 scalar!(
     f32, u32, i32,
-    mantissa: 23, bias: 127, half_bits: 12, line: 16,
+    mantissa: 23, bias: 127, line: 16,
     run: super::backend::run_f32
 );
 

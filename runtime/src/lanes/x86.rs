@@ -10,7 +10,7 @@ use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::pair::Pair;
-use super::primitive::Primitive;
+use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::{Mask, PastCaches};
 
 mod transpose;
@@ -190,6 +190,9 @@ macro_rules! register {
     };
 }
 
+/// The mantissa of a negative number is NaN, that of −0 is positive.
+const POSITIVE_OR_NAN: _MM_MANTISSA_SIGN_ENUM = _MM_MANT_SIGN_NAN | _MM_MANT_SIGN_ZERO;
+
 /// What AVX-512 does alike in both formats.
 macro_rules! register_512 {
     (
@@ -216,6 +219,12 @@ macro_rules! register_512 {
                 fn is_less(self, other: Self) -> LaneBits<$lanes> {
                     // SAFETY: the processor has this instruction, or there would be no value of this type.
                     LaneBits(unsafe { $compare::<_CMP_LT_OQ>(self.0, other.0) }.into())
+                }
+
+                #[inline(always)]
+                fn is_zero(self) -> LaneBits<$lanes> {
+                    // SAFETY: the processor has this instruction, or there would be no value of this type.
+                    LaneBits(unsafe { $compare::<_CMP_EQ_OQ>(self.0, Self::fill(0.0).0) }.into())
                 }
 
                 #[inline(always)]
@@ -250,14 +259,15 @@ macro_rules! register_512 {
                 #[inline(always)]
                 fn split(self) -> (Self, Self) {
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
-                    unsafe {
-                        let m = $mantissa::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(self.0);
-                        // The exponent is that of a mantissa in [1, 2), one too small where it was halved.
-                        let e = Self($exponent(self.0));
-                        let one = Self::fill(1.0);
-                        let m = Self(m);
-                        (m, Self::choose(m.is_less(one), e + one, e))
-                    }
+                    let (m, e) = unsafe {
+                        let m = $mantissa::<_MM_MANT_NORM_1_2, POSITIVE_OR_NAN>(self.0);
+                        (Self(m), Self($exponent(self.0)))
+                    };
+                    // √2 and what is larger is halved: one comparison and two operations under its mask.
+                    let below = $Number::from_bits(std::$Number::consts::SQRT_2.to_bits() - 1);
+                    let is_large = Self::fill(below.into()).is_less(m);
+                    let (half, one) = (Self::fill(0.5), Self::fill(1.0));
+                    (Self::choose(is_large, m * half, m), Self::choose(is_large, e + one, e))
                 }
 
                 #[inline(always)]
@@ -384,6 +394,16 @@ macro_rules! register_256 {
             }
         }
 
+        impl $Register {
+            /// 2ᵉ, where it is normal.
+            #[inline(always)]
+            fn power_of_two(exponent: Self) -> Self {
+                let biased = exponent + Self::fill(<$Number as super::Element>::ROUNDING + $bias);
+                // SAFETY: the processor has these instructions, or there would be no value of this type.
+                Self(unsafe { $from_bits($shift_left::<$mantissa>($to_bits(biased.0))) })
+            }
+        }
+
         register! {
             $(#[$doc])*
             $Register($Raw) of $lanes $Number, choice $Choice,
@@ -399,6 +419,12 @@ macro_rules! register_256 {
                 fn is_less(self, other: Self) -> $Choice {
                     // SAFETY: the processor has this instruction, or there would be no value of this type.
                     $Choice(unsafe { $compare::<_CMP_LT_OQ>(self.0, other.0) })
+                }
+
+                #[inline(always)]
+                fn is_zero(self) -> $Choice {
+                    // SAFETY: the processor has this instruction, or there would be no value of this type.
+                    $Choice(unsafe { $compare::<_CMP_EQ_OQ>(self.0, Self::fill(0.0).0) })
                 }
 
                 #[inline(always)]
@@ -427,9 +453,10 @@ macro_rules! register_256 {
 
                 #[inline(always)]
                 fn split(self) -> (Self, Self) {
-                    let $split = self;
+                    let ($split, lift) = lift(self);
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
-                    unsafe { $split_body }
+                    let (m, e) = unsafe { $split_body };
+                    (m, exponent_or_limit(self, e - lift))
                 }
 
                 #[inline(always)]
@@ -437,12 +464,7 @@ macro_rules! register_256 {
                     let rounding = Self::fill(<$Number as super::Element>::ROUNDING);
                     // Two factors, since 2ᵉ itself may be out of range; the first product is exact.
                     let first = exponent.fused(Self::fill(0.5), rounding) - rounding;
-                    let biased = rounding + Self::fill($bias);
-                    let power = |e: Self| {
-                        // SAFETY: the processor has these instructions, or there would be no value of this type.
-                        Self(unsafe { $from_bits($shift_left::<$mantissa>($to_bits((e + biased).0))) })
-                    };
-                    self * power(first) * power(exponent - first)
+                    self * Self::power_of_two(first) * Self::power_of_two(exponent - first)
                 }
 
                 #[inline(always)]
@@ -471,7 +493,7 @@ register_256! {
     roots: |x| Self::fill(1.0) / x.root(), x.root(),
     split: |x| {
         // There is no arithmetic shift of 64 bits: 1024 is added to the exponent first.
-        let offset = _mm256_set1_epi64x((1024 << 52) - 0x3fe8_0000_0000_0000); // ¾
+        let offset = _mm256_set1_epi64x((1024 << 52) - std::f64::consts::FRAC_1_SQRT_2.to_bits() as i64);
         let shifted = _mm256_srli_epi64::<52>(_mm256_add_epi64(_mm256_castpd_si256(x.0), offset));
         let exponent = _mm256_sub_epi64(shifted, _mm256_set1_epi64x(1024));
         let m = _mm256_sub_epi64(_mm256_castpd_si256(x.0), _mm256_slli_epi64::<52>(exponent));
@@ -505,9 +527,9 @@ register_256! {
         x * y.fused(e * Self::fill(0.5), y)
     },
     split: |x| {
-        let three_quarters = _mm256_set1_epi32(0x3f40_0000);
+        let smallest = _mm256_set1_epi32(std::f32::consts::FRAC_1_SQRT_2.to_bits() as i32);
         let exponent =
-            _mm256_srai_epi32::<23>(_mm256_sub_epi32(_mm256_castps_si256(x.0), three_quarters));
+            _mm256_srai_epi32::<23>(_mm256_sub_epi32(_mm256_castps_si256(x.0), smallest));
         let m = _mm256_sub_epi32(_mm256_castps_si256(x.0), _mm256_slli_epi32::<23>(exponent));
         (Self(_mm256_castsi256_ps(m)), Self(_mm256_cvtepi32_ps(exponent)))
     },

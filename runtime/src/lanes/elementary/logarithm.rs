@@ -1,0 +1,105 @@
+//! ln x: to half a unit in the last place and a little more, or with ten digits beyond the format for powers.
+//!
+//! x = 2ᵉ m with √½ ≤ m < √2, and ln m = 2 artanh (t/2) = t + t³/12 + t⁵/80 + … for t = (m − 1)/((m + 1)/2).
+
+use super::{Primitive, is_single, ln_2, polynomial, product, quick_two_sum, residual};
+use crate::lanes::Real;
+
+/// ln x as the unevaluated sum of two numbers, |low| ≤ u |high|. Where high is infinite, low is anything.
+#[derive(Clone, Copy, Debug)]
+pub struct Logarithm<P> {
+    pub(super) high: P,
+    pub(super) low: P,
+}
+
+/// x = 2ᵉ m, and t with an error so small that ln m is linear in it.
+struct Reduced<P> {
+    e: P,
+    t: P,
+    t_low: P,
+}
+
+#[inline(always)]
+fn reduce<P: Primitive>(x: P) -> Reduced<P> {
+    let (one, half) = (P::fill(1.0), P::fill(0.5));
+    let (m, e) = x.split();
+    let f = m - one; // exact
+    let reciprocal = one / m.mul_add(half, half);
+    let t = f * reciprocal;
+    // f − t (1 + f/2), where f − t is exact because the two are within a factor of 2 of each other.
+    let rest = residual(t, f * -half, f - t);
+    Reduced { e, t, t_low: rest * reciprocal }
+}
+
+/// 1/12 = TWELFTH + what is below it in the format.
+const TWELFTH: f64 = 1.0 / 12.0;
+
+/// (2 artanh (t/2) − t − t³/12)/t⁵ as a polynomial in z = t², for t² < 0.1178.
+///
+/// z² times its error is below 2⁻⁶⁵ (`f32`: 2⁻³⁶).
+#[inline(always)]
+fn artanh_tail<P: Primitive>(z: P) -> P {
+    const SINGLE: [f64; 3] = [0.012_500_048, 0.002_230_244_7, 0.000_457_394_26];
+    const DOUBLE: [f64; 7] = [
+        0.012_500_000_000_000_705,
+        0.002_232_142_857_039_062_4,
+        0.000_434_027_783_590_562_4,
+        0.000_088_778_244_020_802_91,
+        0.000_018_782_662_249_224_19,
+        4.045_662_879_551_839e-6,
+        1.006_792_203_878_343_5e-6,
+    ];
+    polynomial(z, &SINGLE, &DOUBLE)
+}
+
+/// ln x to a relative error of 2⁻⁶² (`f32`: 2⁻³³).
+///
+/// The terms t and t³/12 are carried with their errors; what is left is below 2⁻¹¹ of the result and needs none.
+#[inline(always)]
+pub(in super::super) fn logarithm<P: Primitive>(x: P) -> Logarithm<P> {
+    let Reduced { e, t, t_low } = reduce(x);
+
+    let twelfth = P::fill(TWELFTH);
+    let twelfth_low =
+        P::fill(if is_single::<P>() { TWELFTH - (TWELFTH as f32) as f64 } else { 4.625_929_269_271_485e-18 });
+    let (square, square_low) = product(t, t);
+    let (cube, cube_low) = product(t, square);
+    let cube_low = t.mul_add(square_low, cube_low);
+    let (cubic, cubic_low) = product(twelfth, cube);
+    let cubic_low = twelfth.mul_add(cube_low, cubic_low);
+    // d ln m/dt = 1/(1 − t²/4) = 1 + t²/4 + …, to 2⁻¹² by the chord-like line 1 + 0.2561 t².
+    let t_low = (t_low * square).mul_add(P::fill(0.2561), t_low);
+
+    // e HIGH + t + cubic, and the error of these two sums: each difference is exact.
+    let (ln_2, ln_2_low) = ln_2::<P>();
+    let high = e.mul_add(ln_2, t) + cubic;
+    let low = (e.mul_add(ln_2, -high) + t) + cubic;
+    let low = e.mul_add(ln_2_low, low) + (t_low + cubic_low);
+    let tail = square.mul_add(artanh_tail(square), twelfth_low);
+    let (high, low) = quick_two_sum(high, without_nan(cube.mul_add(tail, low)));
+    Logarithm { high, low }
+}
+
+/// A correction below 1, and 1 instead of the NaN that ∞ − ∞ makes of it where the logarithm is infinite.
+#[inline(always)]
+fn without_nan<P: Primitive>(correction: P) -> P {
+    correction.smaller(P::fill(1.0))
+}
+
+/// ln x.
+#[inline(always)]
+pub(in super::super) fn ln<P: Primitive>(x: P) -> P {
+    let Reduced { e, t, t_low } = reduce(x);
+    let (ln_2, ln_2_low) = ln_2::<P>();
+    let high = e.mul_add(ln_2, t);
+    let low = e.mul_add(ln_2_low, e.mul_add(ln_2, -high) + t) + t_low;
+    let square = t * t;
+    let tail = square.mul_add(artanh_tail(square), P::fill(TWELFTH));
+    high + without_nan((t * square).mul_add(tail, low))
+}
+
+/// ln a − ln b.
+#[inline(always)]
+pub(in super::super) fn logarithm_of_ratio<P: Primitive>(a: Logarithm<P>, b: Logarithm<P>) -> P {
+    (a.high - b.high) + (a.low - b.low)
+}
