@@ -139,7 +139,7 @@ impl Worst {
         assert!(s1 >= s2 && s2 >= s3.abs(), "unordered {stretches:?} of {F:?}");
         assert!((determinant_of_rotation(&U) - 1.0).abs() < 1e-4, "det U = −1 for {F:?}");
         assert!((determinant_of_rotation(&V) - 1.0).abs() < 1e-4, "det V = −1 for {F:?}");
-        let eps = 2.0 * <R as Element>::UNIT_ROUNDOFF;
+        let eps = 2.0 * R::UNIT_ROUNDOFF;
         self.left = self.left.max(orthogonality(&U) / eps);
         self.right = self.right.max(orthogonality(&V) / eps);
         if s1 > 0.0 {

@@ -120,7 +120,7 @@ fn check<E: Element>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
     let norm = norm(plain.iter().flatten());
     // Backward errors of some 10 u ‖A‖ by us, and of some 60 by the sums of 81 products and the solver in doubles;
     // neither function amplifies these by more than ln 9 ≈ 2.
-    let bound = (25.0 * <E as Element>::UNIT_ROUNDOFF + 75.0 * <f64 as Element>::UNIT_ROUNDOFF) * norm;
+    let bound = (25.0 * <E as Real>::UNIT_ROUNDOFF + 75.0 * <f64 as Real>::UNIT_ROUNDOFF) * norm;
     for backend in Backend::available() {
         let error = difference(&matrix(&backend.run(Project { blocks: &given, filter })), &expected);
         assert!(error <= bound, "{filter:?} of {:?}: {error:e} beside {norm:e}, {backend}", tangent.blocks);
