@@ -1,11 +1,11 @@
 //! Each point with parameters of its own gets what it would get alone.
 
 use piola::Inversion;
-use piola::lanes::{Array, Lanes};
+use piola::lanes::{Lanes, Pair};
 use piola::material::{Blocks, Each, Inadmissible, Varying};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
 
-type Four = Array<f64, 4>;
+type Four = Pair<Pair<f64>>;
 
 /// Stretches of four points, one of them inverted.
 const STRETCHES: [[f64; 4]; 3] = [[1.5, 1.2, 1.0, 1.1], [1.1, 1.2, 1.0, 0.9], [0.8, 0.7, 1.0, -0.3]];

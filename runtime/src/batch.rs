@@ -277,9 +277,9 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 
     fn decompose(&self, F: &[E], rows: &mut Rows<E, 9>, count: usize, points: &mut Points<E>) {
-        let F = Source::new(self.backend, self.layout, F, rows);
+        rows.fill(self.backend, self.layout, F);
         let is_signed = self.energy.ends_at_zero_volume();
-        E::decompose(self.backend, Decompose { F, count, is_signed, points });
+        E::decompose(self.backend, Decompose { F: rows, count, is_signed, points });
     }
 
     /// The filtered blocks of a tile.

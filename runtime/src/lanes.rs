@@ -14,7 +14,6 @@
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-mod array;
 mod backend;
 mod elementary;
 mod pair;
@@ -23,8 +22,8 @@ mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use array::Array;
 pub use backend::{Backend, Kernel};
+pub use pair::Pair;
 pub use scalar::Element;
 
 /// A real number, or several that are computed with side by side.

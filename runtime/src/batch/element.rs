@@ -59,7 +59,7 @@ impl ElementTile {
         }
         f64::deform(backend, Deform { edges: &mut rows, rest, count });
         let is_signed = energy.ends_at_zero_volume();
-        f64::decompose(backend, Decompose { F: Source::Rows(&rows), count, is_signed, points });
+        f64::decompose(backend, Decompose { F: &rows, count, is_signed, points });
         let mut densities = Rows::zero();
         let verdict = energy.energies(self.stretched(), &mut densities);
         for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.rest.0[9]) {

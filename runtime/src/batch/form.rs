@@ -38,8 +38,8 @@ fn put<R: Lanes>(to: &mut [R::Element], k: usize, number: R) {
 
 #[inline(always)]
 pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Element]) {
-    for (k, number) in numbers.into_iter().enumerate() {
-        put(to, k, number);
+    for k in 0..N {
+        put(to, k, numbers[k]);
     }
 }
 
@@ -182,8 +182,8 @@ impl<R: Real> Rest<R> {
 #[inline(always)]
 fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
     let mut largest = R::splat(0.0);
-    for number in numbers {
-        largest = number.abs().max(largest);
+    for k in 0..N {
+        largest = numbers[k].abs().max(largest);
     }
     largest
 }

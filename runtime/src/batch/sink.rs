@@ -31,7 +31,7 @@ impl Layout {
 pub(super) enum Source<'a, E, const N: usize> {
     /// As they lie in a slice of [`Layout::Lines`].
     Lines(&'a [E]),
-    /// Turned by [`turn`].
+    /// Filled by [`Rows::fill`].
     Rows(&'a Rows<E, N>),
 }
 
@@ -41,7 +41,7 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
         match layout {
             Layout::Lines => Self::Lines(from),
             Layout::Points => {
-                backend.run(Turn { from, rows: &mut *rows });
+                rows.fill(backend, layout, from);
                 Self::Rows(rows)
             }
         }
@@ -55,10 +55,26 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
             Self::Lines(from) => {
                 let from = &from[at / E::LINE * N * E::LINE + at % E::LINE..];
                 let mut numbers = [R::splat(0.0); N];
-                for (k, number) in numbers.iter_mut().enumerate() {
-                    *number = R::load(&from[k * E::LINE..]);
+                for k in 0..N {
+                    numbers[k] = R::load(&from[k * E::LINE..]);
                 }
                 numbers
+            }
+        }
+    }
+}
+
+impl<E: Element, const N: usize> Rows<E, N> {
+    /// From a tile's part of a slice.
+    pub(super) fn fill(&mut self, backend: Backend, layout: Layout, from: &[E]) {
+        match layout {
+            Layout::Points => backend.run(Turn { from, rows: self }),
+            Layout::Lines => {
+                for (line, numbers) in from.chunks_exact(N * E::LINE).enumerate() {
+                    for (row, numbers) in self.0.iter_mut().zip(numbers.chunks_exact(E::LINE)) {
+                        row[line * E::LINE..][..E::LINE].copy_from_slice(numbers);
+                    }
+                }
             }
         }
     }

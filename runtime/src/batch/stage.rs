@@ -91,7 +91,7 @@ impl Marks {
 
 /// The deformation gradients of a tile into frames and stretches.
 pub(super) struct Decompose<'a, E> {
-    pub(super) F: Source<'a, E, 9>,
+    pub(super) F: &'a Rows<E, 9>,
     pub(super) count: usize,
     /// Whether the sign of det F decides over the domain.
     pub(super) is_signed: bool,
@@ -105,12 +105,12 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
     fn run<R: Lanes<Element = E>>(self) {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
-            for_each_group!(R, count, |at| {
-                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<R>(at))));
+            for_each_group!(R::Interleaved, count, |at| {
+                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<R::Interleaved>(at))));
             });
         } else {
-            for_each_group!(R, count, |at| {
-                points.set(at, &svd(&to_matrix(F.get_all::<R>(at))));
+            for_each_group!(R::Interleaved, count, |at| {
+                points.set(at, &svd(&to_matrix(F.get_all::<R::Interleaved>(at))));
             });
         }
     }

@@ -28,8 +28,8 @@ impl<E: Element, const N: usize> Rows<E, N> {
     #[inline(always)]
     pub(crate) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
-        for (k, number) in numbers.iter_mut().enumerate() {
-            *number = self.get(k, at);
+        for k in 0..N {
+            numbers[k] = self.get(k, at);
         }
         numbers
     }
@@ -41,8 +41,8 @@ impl<E: Element, const N: usize> Rows<E, N> {
 
     #[inline(always)]
     pub(crate) fn set_all<R: Lanes<Element = E>>(&mut self, at: usize, values: [R; N]) {
-        for (k, value) in values.into_iter().enumerate() {
-            self.set(k, at, value);
+        for k in 0..N {
+            self.set(k, at, values[k]);
         }
     }
 }

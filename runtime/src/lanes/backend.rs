@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::{Array, Element, Lanes};
+use super::{Element, Lanes, Pair};
 
 /// A computation with lanes of any back end.
 ///
@@ -103,7 +103,7 @@ impl fmt::Display for Backend {
 }
 
 macro_rules! runners {
-    ($run:ident, $Number:ident, $F512:ident, $F256:ident, portable: $portable:literal) => {
+    ($run:ident, $Number:ident, $F512:ident, $F256:ident, $Portable:ty) => {
         #[inline]
         pub(super) fn $run<K: Kernel<$Number>>(backend: Backend, kernel: K) -> K::Output {
             #[cfg(target_arch = "x86_64")]
@@ -128,10 +128,10 @@ macro_rules! runners {
             }
             #[cfg(not(target_arch = "x86_64"))]
             let Instructions::Portable = backend.0;
-            kernel.run::<Array<$Number, $portable>>()
+            kernel.run::<$Portable>()
         }
     };
 }
 
-runners!(run_f64, f64, F64x8, F64x4, portable: 4);
-runners!(run_f32, f32, F32x16, F32x8, portable: 8);
+runners!(run_f64, f64, F64x8, F64x4, Pair<f64>);
+runners!(run_f32, f32, F32x16, F32x8, Pair<Pair<f32>>);

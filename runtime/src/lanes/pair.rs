@@ -1,16 +1,20 @@
-//! Interleaving: two independent batches in one body keep a processor busy while each waits for its own last result.
+//! Two of a kind, and pairs of pairs.
 //!
-//! A structure instead of an [`Array`](super::Array) of two, because a kernel has hundreds of operations and each would
-//! be a loop for the compiler to unroll.
+//! Of scalars they are the portable back end, which a compiler turns into what vector instructions the target has. Of
+//! registers they are interleaving: independent batches in one body keep a processor busy while each waits for its own
+//! last result.
+//!
+//! A structure and not an array, because a kernel has thousands of operations, and each would be a loop: compilers take minutes to
+//! unroll so many.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::primitive::Primitive;
 use super::{Mask, PastCaches};
 
-/// Two registers, or two pairs of them, computed with in turns.
+/// Two numbers, two registers, or two pairs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<T>(T, T);
+pub struct Pair<T>(T, T);
 
 macro_rules! operators {
     ($($Operator:ident $method:ident),*) => {$(

@@ -137,11 +137,14 @@ macro_rules! register {
 
             #[inline(always)]
             fn turn(from: &[$Number], from_stride: usize, to: &mut [$Number], to_stride: usize) {
-                let rows = std::array::from_fn(|i| Self::read(&from[i * from_stride..]).0);
+                let mut rows = [Self::fill(0.0).0; $lanes];
+                for i in 0..$lanes {
+                    rows[i] = Self::read(&from[i * from_stride..]).0;
+                }
                 // SAFETY: the processor has the instructions, or there would be no value of this type.
                 let columns = unsafe { $turn(rows) };
-                for (j, column) in columns.into_iter().enumerate() {
-                    Self(column).write(&mut to[j * to_stride..]);
+                for j in 0..$lanes {
+                    Self(columns[j]).write(&mut to[j * to_stride..]);
                 }
             }
 

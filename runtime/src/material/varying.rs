@@ -13,7 +13,7 @@ use crate::lanes::{Mask, Real};
 /// one is taken for all.
 ///
 /// ```
-/// use piola::lanes::{Array, Lanes};
+/// use piola::lanes::{Lanes, Pair};
 /// use piola::material::{Each, Varying};
 /// use piola::{Material, material};
 ///
@@ -25,7 +25,7 @@ use crate::lanes::{Mask, Real};
 ///
 /// # fn main() -> Result<(), piola::material::Inadmissible> {
 /// let springs = [Springs::new(1.0)?, Springs::new(2.0)?];
-/// let stretches = [[1.5, 1.5], [1.0, 1.0], [1.0, 0.5]].map(|lanes| Array::<f64, 2>::load(&lanes));
+/// let stretches = [[1.5, 1.5], [1.0, 1.0], [1.0, 0.5]].map(|lanes| Pair::<f64>::load(&lanes));
 /// let mut energies = [0.0; 2];
 /// Springs::energy_of(&Each(&springs), stretches).store(&mut energies);
 /// assert_eq!(energies, [springs[0].energy([1.5, 1.0, 1.0]), springs[1].energy([1.5, 1.0, 0.5])]);

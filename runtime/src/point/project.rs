@@ -59,19 +59,23 @@ pub enum Filter {
 }
 
 impl Filter {
-    /// What becomes of an eigenvalue.
+    /// The slope of the filter as a function of negative eigenvalues; for positive ones it is 1.
     #[inline(always)]
-    fn of<R: Real>(self, eigenvalue: R) -> R {
-        match self {
-            Self::None => eigenvalue,
-            // Not `max`, which would turn NaN into a plausible zero.
-            Self::Clamp => {
-                let zero = R::splat(0.0);
-                R::select(eigenvalue.less(zero), zero, eigenvalue)
-            }
-            Self::Absolute => eigenvalue.abs(),
-        }
+    fn slope<R: Real>(self) -> R {
+        R::splat(match self {
+            Self::None => 1.0,
+            Self::Clamp => 0.0,
+            Self::Absolute => -1.0,
+        })
     }
+}
+
+/// What becomes of an eigenvalue by a filter of this slope.
+#[inline(always)]
+fn filtered<R: Real>(eigenvalue: R, slope: R) -> R {
+    // Not `max`, which would turn NaN into a plausible zero; and no zero is negative.
+    let zero = R::splat(0.0);
+    R::select(eigenvalue.less(zero), eigenvalue.mul_add(slope, zero), eigenvalue)
 }
 
 /// The filtered map, and whether an eigenvalue was negative by more than the rounding of the largest one.
@@ -81,24 +85,26 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     if filter == Filter::None {
         return (*blocks, R::Mask::splat(false));
     }
-    let (hessian, smallest) = project_symmetric(blocks.hessian, filter);
-    let quotients = || blocks.flip.into_iter().chain(blocks.twist);
-    let smallest = quotients().fold(smallest, |smallest, x| x.min(smallest));
-    let largest = blocks.hessian.into_iter().chain(quotients()).fold(R::splat(0.0), |m, x| x.abs().max(m));
-    let filtered = smallest.less(R::splat(-16.0 * R::UNIT_ROUNDOFF) * largest);
-    let projected = Blocks {
-        gradient: blocks.gradient,
-        hessian,
-        flip: blocks.flip.map(|flip| filter.of(flip)),
-        twist: blocks.twist.map(|twist| filter.of(twist)),
-    };
-    (projected, filtered)
+    let slope = filter.slope();
+    let Blocks { gradient, hessian, mut flip, mut twist } = *blocks;
+    let mut largest = R::splat(0.0);
+    for k in 0..6 {
+        largest = hessian[k].abs().max(largest);
+    }
+    let (hessian, mut smallest) = project_symmetric(hessian, slope);
+    for k in 0..3 {
+        smallest = flip[k].min(twist[k].min(smallest));
+        largest = flip[k].abs().max(twist[k].abs().max(largest));
+        (flip[k], twist[k]) = (filtered(flip[k], slope), filtered(twist[k], slope));
+    }
+    let is_filtered = smallest.less(R::splat(-16.0 * R::UNIT_ROUNDOFF) * largest);
+    (Blocks { gradient, hessian, flip, twist }, is_filtered)
 }
 
 /// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it is
 /// positive beyond doubt, zero.
 #[inline(always)]
-fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
+fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let [a11, a22, a33, a12, a13, a23] = A;
     let diagonal = a11.abs().max(a22.abs()).max(a33.abs());
     let largest = diagonal.max(a12.abs()).max(a13.abs()).max(a23.abs());
@@ -112,7 +118,7 @@ fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
     if !(!definite).any() {
         return (A, zero);
     }
-    let ([p11, p22, p33, p12, p13, p23], smallest) = filtered_indefinite(scaled, filter);
+    let ([p11, p22, p33, p12, p13, p23], smallest) = filtered_indefinite(scaled, slope);
     let indefinite = !definite & smallest.less(zero);
     let projected = [
         R::select(indefinite, p11 * back, a11),
@@ -128,7 +134,7 @@ fn project_symmetric<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
 /// The filtered matrix and its smallest eigenvalue before, by the formulas of the module's text, for a matrix of magnitude
 /// 1 to 2 that is not positive definite.
 #[inline(always)]
-fn filtered_indefinite<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
+fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let [a11, a22, a33, a12, a13, a23] = A;
     let half = R::splat(0.5);
     let trace = a11 + a22 + a33;
@@ -144,11 +150,11 @@ fn filtered_indefinite<R: Real>(A: [R; 6], filter: Filter) -> ([R; 6], R) {
     let r = half_square(t11, t22, t33, t12, t13, t23).sqrt();
 
     let (larger, smaller) = (m + r, m - r);
-    let (f_larger, f_smaller) = (filter.of(larger), filter.of(smaller));
+    let (f_larger, f_smaller) = (filtered(larger, slope), filtered(smaller, slope));
     // The difference is zero where r is.
     let k = (f_larger - f_smaller) / (r + r).max(R::splat(R::MIN_POSITIVE));
     let b = half * (f_larger + f_smaller) - k * m;
-    let a = filter.of(nu) - k * nu - b;
+    let a = filtered(nu, slope) - k * nu - b;
     let answer = [
         k.mul_add(a11, a.mul_add(p11, b)),
         k.mul_add(a22, a.mul_add(p22, b)),
@@ -173,10 +179,10 @@ fn eigenvalue_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6]) -> R {
     let one = R::splat(1.0);
     let q = (a11 + a22 + a33) * R::splat(1.0 / 3.0);
     let (c11, c22, c33) = (a11 - q, a22 - q, a33 - q);
-    // A multiple of the identity is of one sign, and its p must only be finite and not zero.
+    // Below u² this is that of a multiple of the identity, whose p may be anything from 0 to u.
     let floor = R::splat(R::UNIT_ROUNDOFF * R::UNIT_ROUNDOFF);
-    let p_squared = (half_square(c11, c22, c33, a12, a13, a23) * R::splat(1.0 / 3.0)).max(floor);
-    let inverse = p_squared.reciprocal_sqrt();
+    let p_squared = half_square(c11, c22, c33, a12, a13, a23) * R::splat(1.0 / 3.0);
+    let inverse = p_squared.max(floor).reciprocal_sqrt();
     let p = p_squared * inverse;
 
     let det = c11.mul_add(
@@ -185,7 +191,10 @@ fn eigenvalue_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6]) -> R {
     );
     let two_x = det * (inverse * inverse * inverse);
     let x = (two_x.abs() * R::splat(0.5)).min(one);
-    let mut y = COSINE_OF_A_THIRD.iter().rev().fold(R::splat(0.0), |y, &c| y.mul_add(x, R::splat(c)));
+    let mut y = R::splat(0.0);
+    for k in (0..COSINE_OF_A_THIRD.len()).rev() {
+        y = y.mul_add(x, R::splat(COSINE_OF_A_THIRD[k]));
+    }
     for _ in 0..newton_steps(R::UNIT_ROUNDOFF) {
         let squared = y * y;
         let residual = y.mul_add(squared - R::splat(3.0), -(x + x));

@@ -1,7 +1,7 @@
 //! Squares of numbers turned in registers.
 //!
 //! Neighbours are paired within each 128 bits first, until these hold entries of one column; then blocks of 128 bits are
-//! brought to their places.
+//! brought to their places. Macros and loops instead of closures, which nothing can force the compiler to inline.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module above")]
 
@@ -22,16 +22,62 @@ macro_rules! turn_blocks {
     }};
 }
 
+/// Four rows of single precision turned within each 128 bits: element j holds entries j, j + 4, j + 8, … of all four.
+macro_rules! turn_quads {
+    (
+        $low:ident, $high:ident, $low_pairs:ident, $high_pairs:ident, $to_pairs:ident, $from_pairs:ident,
+        $rows:expr, $start:expr
+    ) => {{
+        let (a, b, c, d) = ($rows[$start], $rows[$start + 1], $rows[$start + 2], $rows[$start + 3]);
+        let (ab_low, ab_high) = ($to_pairs($low(a, b)), $to_pairs($high(a, b)));
+        let (cd_low, cd_high) = ($to_pairs($low(c, d)), $to_pairs($high(c, d)));
+        [
+            $from_pairs($low_pairs(ab_low, cd_low)),
+            $from_pairs($high_pairs(ab_low, cd_low)),
+            $from_pairs($low_pairs(ab_high, cd_high)),
+            $from_pairs($high_pairs(ab_high, cd_high)),
+        ]
+    }};
+}
+
+macro_rules! turn_quads_512 {
+    ($rows:expr, $start:expr) => {
+        turn_quads!(
+            _mm512_unpacklo_ps, _mm512_unpackhi_ps, _mm512_unpacklo_pd, _mm512_unpackhi_pd, _mm512_castps_pd,
+            _mm512_castpd_ps, $rows, $start
+        )
+    };
+}
+
+macro_rules! turn_quads_256 {
+    ($rows:expr, $start:expr) => {
+        turn_quads!(
+            _mm256_unpacklo_ps, _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpackhi_pd, _mm256_castps_pd,
+            _mm256_castpd_ps, $rows, $start
+        )
+    };
+}
+
 /// The transpose of an 8×8 matrix.
 ///
 /// # Safety
 /// The processor has AVX-512.
 #[inline(always)]
-pub(super) unsafe fn turn_f64x8(rows: [__m512d; 8]) -> [__m512d; 8] {
+pub(super) unsafe fn turn_f64x8([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m512d; 8] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
-        let low = [0, 2, 4, 6].map(|k| _mm512_unpacklo_pd(rows[k], rows[k + 1]));
-        let high = [0, 2, 4, 6].map(|k| _mm512_unpackhi_pd(rows[k], rows[k + 1]));
+        let low = [
+            _mm512_unpacklo_pd(a, b),
+            _mm512_unpacklo_pd(c, d),
+            _mm512_unpacklo_pd(e, f),
+            _mm512_unpacklo_pd(g, h),
+        ];
+        let high = [
+            _mm512_unpackhi_pd(a, b),
+            _mm512_unpackhi_pd(c, d),
+            _mm512_unpackhi_pd(e, f),
+            _mm512_unpackhi_pd(g, h),
+        ];
         let (even, odd) = (turn_blocks!(_mm512_shuffle_f64x2, low), turn_blocks!(_mm512_shuffle_f64x2, high));
         [even[0], odd[0], even[1], odd[1], even[2], odd[2], even[3], odd[3]]
     }
@@ -45,26 +91,22 @@ pub(super) unsafe fn turn_f64x8(rows: [__m512d; 8]) -> [__m512d; 8] {
 pub(super) unsafe fn turn_f32x16(rows: [__m512; 16]) -> [__m512; 16] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
-        let as_doubles = |x| _mm512_castps_pd(x);
-        // Column 4b + j of four rows each is in block b of `quads[j]`.
-        let quads: [[__m512; 4]; 4] = std::array::from_fn(|q| {
-            let [a, b, c, d] = [rows[4 * q], rows[4 * q + 1], rows[4 * q + 2], rows[4 * q + 3]];
-            let (ab_low, ab_high) =
-                (as_doubles(_mm512_unpacklo_ps(a, b)), as_doubles(_mm512_unpackhi_ps(a, b)));
-            let (cd_low, cd_high) =
-                (as_doubles(_mm512_unpacklo_ps(c, d)), as_doubles(_mm512_unpackhi_ps(c, d)));
-            [
-                _mm512_unpacklo_pd(ab_low, cd_low),
-                _mm512_unpackhi_pd(ab_low, cd_low),
-                _mm512_unpacklo_pd(ab_high, cd_high),
-                _mm512_unpackhi_pd(ab_high, cd_high),
-            ]
-            .map(|x| _mm512_castpd_ps(x))
-        });
-        let columns: [[__m512; 4]; 4] = std::array::from_fn(|j| {
-            turn_blocks!(_mm512_shuffle_f32x4, [quads[0][j], quads[1][j], quads[2][j], quads[3][j]])
-        });
-        std::array::from_fn(|column| columns[column % 4][column / 4])
+        // Column 4b + j of four rows each is in block b of element j.
+        let quads = [
+            turn_quads_512!(rows, 0),
+            turn_quads_512!(rows, 4),
+            turn_quads_512!(rows, 8),
+            turn_quads_512!(rows, 12),
+        ];
+        let mut columns = rows;
+        for j in 0..4 {
+            let blocks = [quads[0][j], quads[1][j], quads[2][j], quads[3][j]];
+            let turned = turn_blocks!(_mm512_shuffle_f32x4, blocks);
+            for b in 0..4 {
+                columns[4 * b + j] = turned[b];
+            }
+        }
+        columns
     }
 }
 
@@ -95,29 +137,13 @@ pub(super) unsafe fn turn_f64x4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
 pub(super) unsafe fn turn_f32x8(rows: [__m256; 8]) -> [__m256; 8] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
-        let as_doubles = |x| _mm256_castps_pd(x);
-        // Column 4b + j of four rows each is in block b of `quads[j]`.
-        let quads: [[__m256; 4]; 2] = std::array::from_fn(|q| {
-            let [a, b, c, d] = [rows[4 * q], rows[4 * q + 1], rows[4 * q + 2], rows[4 * q + 3]];
-            let (ab_low, ab_high) =
-                (as_doubles(_mm256_unpacklo_ps(a, b)), as_doubles(_mm256_unpackhi_ps(a, b)));
-            let (cd_low, cd_high) =
-                (as_doubles(_mm256_unpacklo_ps(c, d)), as_doubles(_mm256_unpackhi_ps(c, d)));
-            [
-                _mm256_unpacklo_pd(ab_low, cd_low),
-                _mm256_unpackhi_pd(ab_low, cd_low),
-                _mm256_unpacklo_pd(ab_high, cd_high),
-                _mm256_unpackhi_pd(ab_high, cd_high),
-            ]
-            .map(|x| _mm256_castpd_ps(x))
-        });
-        std::array::from_fn(|column| {
-            let (upper, lower) = (quads[0][column % 4], quads[1][column % 4]);
-            if column < 4 {
-                _mm256_permute2f128_ps::<0x20>(upper, lower)
-            } else {
-                _mm256_permute2f128_ps::<0x31>(upper, lower)
-            }
-        })
+        // Column 4b + j of four rows each is in block b of element j.
+        let (upper, lower) = (turn_quads_256!(rows, 0), turn_quads_256!(rows, 4));
+        let mut columns = rows;
+        for j in 0..4 {
+            columns[j] = _mm256_permute2f128_ps::<0x20>(upper[j], lower[j]);
+            columns[4 + j] = _mm256_permute2f128_ps::<0x31>(upper[j], lower[j]);
+        }
+        columns
     }
 }

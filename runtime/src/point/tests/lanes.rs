@@ -3,9 +3,9 @@
 use super::measures::every_number;
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
-use crate::lanes::{Array, Lanes};
+use crate::lanes::{Lanes, Pair};
 
-type Two = Array<f64, 2>;
+type Two = Pair<f64>;
 
 /// The two numbers.
 fn parts(both: Two) -> [f64; 2] {
