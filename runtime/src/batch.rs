@@ -51,6 +51,7 @@ mod jobs;
 mod sink;
 mod stage;
 mod tile;
+mod workspace;
 
 pub use energy::{Energy, TileOf, Verdict};
 pub use sink::Layout;
@@ -62,6 +63,7 @@ pub(crate) use form::STIFFEST;
 use jobs::Work;
 use sink::{Sink, Source};
 use stage::{Decompose, Judge, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
+use workspace::Workspace;
 
 /// A material and how to compute with it.
 #[derive(Clone, Copy)]
@@ -102,9 +104,9 @@ impl<'a, E: Stages> Batch<'a, E> {
     pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
         let count = self.count(&[("F", F.len(), 9), ("energies", energies.len(), 1)])?;
         let work = Work { inputs: [(F, 9)], outputs: [(energies, 1)] };
-        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let ((rows, points, values), [F], [energies]) = (tile.scratch, tile.inputs, tile.outputs);
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+            let Workspace { F: rows, points, energies: values, .. } = tile.workspace;
+            let ([F], [energies]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let verdict = self.energy.energies(self.tile(points, tile.start, tile.count), values);
             energies.copy_from_slice(&values.0[0][..tile.count]);
@@ -119,12 +121,12 @@ impl<'a, E: Stages> Batch<'a, E> {
     pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
         let count = self.count(&[("F", F.len(), 9), ("P", P.len(), 9)])?;
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9)] };
-        let scratch = || (Rows::zero(), Points::new(), Rows::zero());
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let ((rows, points, gradients), [F], [P]) = (tile.scratch, tile.inputs, tile.outputs);
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+            let Workspace { F: rows, points, gradients, line, .. } = tile.workspace;
+            let ([F], [P]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let refused = self.energy.gradients(self.tile(points, tile.start, tile.count), gradients);
-            let kernel = Stress { points, gradients, count: tile.count, P: self.sink(P) };
+            let kernel = Stress { points, gradients, count: tile.count, line, P: self.sink(P) };
             Marks { refused, ..E::stress(self.backend, kernel) }
         }))
     }
@@ -162,13 +164,14 @@ impl<'a, E: Stages> Batch<'a, E> {
         let lengths = [("factors", factors.len(), FACTORS), ("dF", dF.len(), 9), ("dP", dP.len(), 9)];
         let count = self.count(&lengths)?;
         let work = Work { inputs: [(factors, FACTORS), (dF, 9)], outputs: [(dP, 9)] };
-        let scratch = || (Rows::zero(), Rows::zero());
-        jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let ((stored, increments), [factors, dF], [dP]) = (tile.scratch, tile.inputs, tile.outputs);
+        jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+            let Workspace { F: increments, factors: stored, line, .. } = tile.workspace;
+            let ([factors, dF], [dP]) = (tile.inputs, tile.outputs);
             let kernel = Product {
                 stored: Source::new(self.backend, self.layout, factors, stored),
                 dF: Source::new(self.backend, self.layout, dF, increments),
                 count: tile.count,
+                line,
                 dP: self.sink(dP),
             };
             E::product(self.backend, kernel);
@@ -222,9 +225,9 @@ impl<'a, E: Stages> Batch<'a, E> {
         let lengths = [("F", F.len(), 9), ("P", P.len(), 9), (name, tangents.len(), numbers)];
         let count = self.count(&lengths)?;
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
-        let scratch = || (Rows::zero(), Points::new(), Rows::zero(), PastCaches::new());
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let (rows, points, blocks, order) = tile.scratch;
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+            let order = PastCaches::new();
+            let Workspace { F: rows, points, blocks, line, .. } = tile.workspace;
             let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
@@ -234,8 +237,9 @@ impl<'a, E: Stages> Batch<'a, E> {
                 rest: Source::Rows(&Rows([])),
                 count: tile.count,
                 has_pole: self.energy.has_pole(),
+                line,
                 first: self.sink(P),
-                second: self.large_sink(tangents, order),
+                second: self.large_sink(tangents, &order),
             };
             E::tangent(self.backend, form, kernel).or(judged)
         }))
@@ -257,9 +261,9 @@ impl<'a, E: Stages> Batch<'a, E> {
         ])?;
         let work =
             Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
-        let scratch = || (Rows::zero(), Rows::zero(), Points::new(), Rows::zero(), PastCaches::new());
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &scratch, &|tile| {
-            let (rows, shapes, points, blocks, order) = tile.scratch;
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+            let order = PastCaches::new();
+            let Workspace { F: rows, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
@@ -269,8 +273,9 @@ impl<'a, E: Stages> Batch<'a, E> {
                 rest: Source::new(self.backend, self.layout, rest, shapes),
                 count: tile.count,
                 has_pole: self.energy.has_pole(),
+                line,
                 first: self.sink(gradients),
-                second: self.large_sink(stiffnesses, order),
+                second: self.large_sink(stiffnesses, &order),
             };
             E::stiffness(self.backend, form, kernel).or(judged)
         }))

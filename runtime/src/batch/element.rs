@@ -6,6 +6,7 @@ use super::energy::{Energy, TileOf, Verdict};
 use super::sink::{Layout, Sink, Source};
 use super::stage::{Decompose, Deform, Forces, Judge, Points, Respond, Stages, StiffnessForm};
 use super::tile::Rows;
+use super::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::Filter;
@@ -49,37 +50,41 @@ impl ElementTile {
         energies: &mut [f64],
     ) -> Verdict {
         let Self { backend, count, ref rest, ref mut points } = *self;
-        let mut rows = Rows::zero();
-        for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
-            for a in 0..3 {
-                rows.0[3 * a][lane] = x1[a] - x0[a];
-                rows.0[3 * a + 1][lane] = x2[a] - x0[a];
-                rows.0[3 * a + 2][lane] = x3[a] - x0[a];
-            }
-        }
-        f64::deform(backend, Deform { edges: &mut rows, rest, count });
         let is_signed = energy.ends_at_zero_volume();
-        f64::decompose(backend, Decompose { F: &rows, count, is_signed, points });
-        let mut densities = Rows::zero();
-        let verdict = energy.energies(self.stretched(), &mut densities);
-        for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.rest.0[9]) {
-            *energy = volume * density;
-        }
-        verdict
+        f64::with_workspace(|Workspace { F: rows, .. }| {
+            for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
+                for a in 0..3 {
+                    rows.0[3 * a][lane] = x1[a] - x0[a];
+                    rows.0[3 * a + 1][lane] = x2[a] - x0[a];
+                    rows.0[3 * a + 2][lane] = x3[a] - x0[a];
+                }
+            }
+            f64::deform(backend, Deform { edges: rows, rest, count });
+            f64::decompose(backend, Decompose { F: rows, count, is_signed, points });
+        });
+        f64::with_workspace(|Workspace { energies: densities, .. }| {
+            let verdict = energy.energies(self.stretched(), densities);
+            for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.rest.0[9]) {
+                *energy = volume * density;
+            }
+            verdict
+        })
     }
 
     /// Gradients of the energies evaluated last, N, 12 numbers each.
     pub(crate) fn gradients(&self, energy: &dyn Energy<f64>, gradients: &mut [f64]) -> Marks {
-        let mut principal = Rows::zero();
-        let refused = energy.gradients(self.stretched(), &mut principal);
-        let kernel = Forces {
-            points: &self.points,
-            gradients: &principal,
-            rest: Source::Rows(&self.rest),
-            count: self.count,
-            to: by_elements(gradients),
-        };
-        Marks { refused, ..f64::forces(self.backend, kernel) }
+        f64::with_workspace(|Workspace { gradients: principal, line, .. }| {
+            let refused = energy.gradients(self.stretched(), principal);
+            let kernel = Forces {
+                points: &self.points,
+                gradients: principal,
+                rest: Source::Rows(&self.rest),
+                count: self.count,
+                line,
+                to: by_elements(gradients),
+            };
+            Marks { refused, ..f64::forces(self.backend, kernel) }
+        })
     }
 
     /// Gradients, and filtered stiffnesses as the blocks of node pairs, N/m, 90 numbers each.
@@ -92,20 +97,22 @@ impl ElementTile {
     ) -> Marks {
         let Self { backend, count, rest, points } = self;
         let (has_pole, count) = (energy.has_pole(), *count);
-        let mut blocks = Rows::zero();
-        let refused = energy.blocks(self.stretched(), &mut blocks);
-        let judged = f64::judge(*backend, Judge { points, blocks: &mut blocks, count, filter, has_pole });
-        let kernel = Respond {
-            points,
-            blocks: &blocks,
-            rest: Source::Rows(rest),
-            count,
-            has_pole,
-            first: by_elements(gradients),
-            second: by_elements(stiffnesses),
-        };
-        let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(judged);
-        Marks { refused, ..marks }
+        f64::with_workspace(|Workspace { blocks, line, .. }| {
+            let refused = energy.blocks(self.stretched(), blocks);
+            let judged = f64::judge(*backend, Judge { points, blocks, count, filter, has_pole });
+            let kernel = Respond {
+                points,
+                blocks,
+                rest: Source::Rows(rest),
+                count,
+                has_pole,
+                line,
+                first: by_elements(gradients),
+                second: by_elements(stiffnesses),
+            };
+            let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(judged);
+            Marks { refused, ..marks }
+        })
     }
 
     fn stretched(&self) -> TileOf<'_, f64> {

@@ -5,6 +5,7 @@
 use super::stage::to_numbers;
 use crate::lanes::{Element, Lanes, Real};
 use crate::material::Blocks;
+use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
 
 /// A point's stress and judged tangent.
@@ -52,15 +53,15 @@ pub(super) struct FullTangent;
 impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        for x in 0..3 {
-            for y in 0..3 {
+        thrice!(x => {
+            thrice!(y => {
                 let (row, column) = (3 * a + x, 3 * c + y);
                 put(self.1, 9 * row + column, block[x][y]);
                 if a != c {
                     put(self.1, 9 * column + row, block[x][y]);
                 }
-            }
-        }
+            });
+        });
     }
 }
 
@@ -83,11 +84,13 @@ pub(super) struct PackedTangent;
 impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        for x in 0..3 {
-            for y in if a == c { x } else { 0 }..3 {
-                put(self.1, packed(9, 3 * a + x, 3 * c + y), block[x][y]);
-            }
-        }
+        thrice!(x => {
+            thrice!(y => {
+                if a != c || x <= y {
+                    put(self.1, packed(9, 3 * a + x, 3 * c + y), block[x][y]);
+                }
+            });
+        });
     }
 }
 
@@ -168,14 +171,10 @@ impl<R: Real> Rest<R> {
     #[inline(always)]
     fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         let factor = self.volume.sqrt();
-        let mut W = self.inverse;
-        for row in &mut W {
-            let [a, b, c] = [factor * row[0], factor * row[1], factor * row[2]];
-            for l in 0..3 {
-                row[l] = a.mul_add(V[0][l], b.mul_add(V[1][l], c * V[2][l]));
-            }
-        }
-        W
+        three!(n => {
+            let row = three!(x => factor * self.inverse[n][x]);
+            three!(l => row[0].mul_add(V[0][l], row[1].mul_add(V[1][l], row[2] * V[2][l])))
+        })
     }
 }
 
@@ -234,18 +233,14 @@ pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -
 #[inline(always)]
 pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Element]) {
     let rest = Rest::new(*rest);
-    for a in 0..3 {
-        let row = stress[a];
-        let row = [row[0] * rest.volume, row[1] * rest.volume, row[2] * rest.volume];
-        let mut sum = R::splat(0.0);
-        for n in 0..3 {
-            let node = rest.inverse[n];
-            let gradient = row[0].mul_add(node[0], row[1].mul_add(node[1], row[2] * node[2]));
-            put(to, 3 * (n + 1) + a, gradient);
-            sum = sum + gradient;
-        }
-        put(to, a, -sum);
-    }
+    thrice!(a => {
+        let row = three!(x => stress[a][x] * rest.volume);
+        let [g1, g2, g3] = three!(n => dot(row, rest.inverse[n]));
+        put(to, a, -(g1 + g2 + g3));
+        put(to, 3 + a, g1);
+        put(to, 6 + a, g2);
+        put(to, 9 + a, g3);
+    });
 }
 
 /// Where the entries of an element's stiffness go.
@@ -275,23 +270,23 @@ impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Element> {
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1; for a ≠ c it stands for
         // its mirror image too.
-        let mut all = R::splat(0.0);
-        for x in 0..3 {
-            let row = block[x][0] + block[x][1] + block[x][2];
-            all = all + row;
-            self.put([x + 1, a], [0, c], -row);
+        let rows = three!(x => block[x][0] + block[x][1] + block[x][2]);
+        self.put([0, a], [0, c], rows[0] + rows[1] + rows[2]);
+        thrice!(x => {
+            self.put([x + 1, a], [0, c], -rows[x]);
             self.put([x + 1, a], [x + 1, c], block[x][x]);
-            for y in 0..x {
-                self.put([x + 1, a], [y + 1, c], block[x][y]);
-                if a != c {
-                    self.put([x + 1, c], [y + 1, a], block[y][x]);
+            thrice!(y => {
+                if y < x {
+                    self.put([x + 1, a], [y + 1, c], block[x][y]);
+                    if a != c {
+                        self.put([x + 1, c], [y + 1, a], block[y][x]);
+                    }
                 }
-            }
+            });
             if a != c {
                 self.put([x + 1, c], [0, a], -(block[0][x] + block[1][x] + block[2][x]));
             }
-        }
-        self.put([0, a], [0, c], all);
+        });
     }
 }
 

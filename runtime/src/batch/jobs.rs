@@ -1,8 +1,9 @@
 //! The tiles of a call, one after the other or shared among threads.
 
 use super::Survey;
-use super::stage::Marks;
+use super::stage::{Marks, Stages};
 use super::tile::TILE;
+use super::workspace::Workspace;
 use crate::lanes::Element;
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
@@ -39,9 +40,8 @@ impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
 }
 
 /// A tile of a call.
-pub(super) struct Tile<'a, E, S, const I: usize, const O: usize> {
-    /// What lies between the stages, for any tile.
-    pub(super) scratch: &'a mut S,
+pub(super) struct Tile<'a, E, const I: usize, const O: usize> {
+    pub(super) workspace: &'a mut Workspace<E>,
     /// Number of the first point.
     pub(super) start: usize,
     /// How many points.
@@ -51,12 +51,11 @@ pub(super) struct Tile<'a, E, S, const I: usize, const O: usize> {
 }
 
 /// Runs `body` for each tile of `count` points and adds up what it says, in the order of the points.
-pub(super) fn for_each_tile<E: Element, S, const I: usize, const O: usize>(
+pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     threads: bool,
-    scratch: &(impl Fn() -> S + Sync),
-    body: &(impl Fn(Tile<'_, E, S, I, O>) -> Marks + Sync),
+    body: &(impl Fn(Tile<'_, E, I, O>) -> Marks + Sync),
 ) -> Survey {
     let tiles = points.len().div_ceil(TILE);
     if threads && tiles > GRAIN {
@@ -64,19 +63,27 @@ pub(super) fn for_each_tile<E: Element, S, const I: usize, const O: usize>(
         let middle = points.start + half * TILE;
         let (first, later) = work.split(half);
         let (first, later) = rayon::join(
-            || for_each_tile(first, points.start..middle, threads, scratch, body),
-            || for_each_tile(later, middle..points.end, threads, scratch, body),
+            || for_each_tile(first, points.start..middle, threads, body),
+            || for_each_tile(later, middle..points.end, threads, body),
         );
         return first.and(later);
     }
-    let mut scratch = scratch();
+    E::with_workspace(|workspace| one_after_the_other(work, points, workspace, body))
+}
+
+fn one_after_the_other<E: Element, const I: usize, const O: usize>(
+    work: Work<'_, E, I, O>,
+    points: std::ops::Range<usize>,
+    workspace: &mut Workspace<E>,
+    body: &impl Fn(Tile<'_, E, I, O>) -> Marks,
+) -> Survey {
     let mut survey = Survey::NONE;
     let mut rest = work;
     for start in points.clone().step_by(TILE) {
         let (tile, later) = rest.split(1);
         rest = later;
         let marks = body(Tile {
-            scratch: &mut scratch,
+            workspace,
             start,
             count: TILE.min(points.end - start),
             inputs: tile.inputs.map(|(slice, _)| slice),

@@ -1,6 +1,7 @@
 //! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
 
-use super::tile::{Rows, TILE};
+use super::tile::{ROW, Rows};
+use super::workspace::Line;
 use crate::lanes::{Backend, Element, Kernel, Lanes, PastCaches};
 
 /// How N numbers of each of many points lie in a slice.
@@ -54,6 +55,7 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
             Self::Rows(rows) => rows.get_all(at),
             Self::Lines(from) => {
                 let from = &from[at / E::LINE * N * E::LINE + at % E::LINE..];
+                let from = &from[..(N.max(1) - 1) * E::LINE + R::LANES];
                 let mut numbers = [R::splat(0.0); N];
                 for k in 0..N {
                     numbers[k] = R::load(&from[k * E::LINE..]);
@@ -100,8 +102,8 @@ impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
             while k < N {
                 // The last square overlaps the one before where N is no multiple.
                 k = k.min(N - R::LANES);
-                let to = &mut rows.0.as_flattened_mut()[k * TILE + at..];
-                R::transpose(&from[at * N + k..], N, to, TILE);
+                let to = &mut rows.0.as_flattened_mut()[k * ROW + at..];
+                R::transpose(&from[at * N + k..], N, to, ROW);
                 k += R::LANES;
             }
             at += R::LANES;
@@ -123,31 +125,22 @@ pub(super) struct Sink<'a, E> {
     pub(super) past_caches: Option<&'a PastCaches>,
 }
 
-/// Numbers of one line on their way to a slice that cannot take them as they come.
-#[repr(C, align(64))]
-pub(super) struct Scratch<E, const N: usize>([[E; 16]; N]);
-
-impl<E: Element, const N: usize> Scratch<E, N> {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self([[E::default(); 16]; N])
-    }
-}
-
 impl<E: Element> Sink<'_, E> {
     /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`] must follow.
     #[inline(always)]
-    pub(super) fn place<'a, const N: usize>(
+    pub(super) fn place<'a, R: Lanes<Element = E>, const N: usize>(
         &'a mut self,
-        scratch: &'a mut Scratch<E, N>,
+        line: &'a mut Line<E>,
         at: usize,
     ) -> &'a mut [E] {
-        let (line, offset) = (at / E::LINE, at % E::LINE);
-        if self.is_direct() {
-            &mut self.to[line * N * E::LINE + offset..]
+        let offset = at % E::LINE;
+        let from = if self.is_direct() {
+            &mut self.to[at / E::LINE * N * E::LINE + offset..]
         } else {
-            &mut scratch.0.as_flattened_mut()[offset..]
-        }
+            &mut line.0.as_flattened_mut()[offset..]
+        };
+        // A constant length makes one check of all those to come.
+        &mut from[..(N - 1) * E::LINE + R::LANES]
     }
 
     #[inline(always)]
@@ -159,20 +152,20 @@ impl<E: Element> Sink<'_, E> {
     #[inline(always)]
     pub(super) fn finish<R: Lanes<Element = E>, const N: usize>(
         &mut self,
-        scratch: &Scratch<E, N>,
+        line: &Line<E>,
         at: usize,
         count: usize,
     ) {
         if self.is_direct() {
             return;
         }
-        let (line, offset) = (at / E::LINE, at % E::LINE);
-        let scratch = scratch.0.as_flattened();
+        let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
+        let line = &line.0.as_flattened()[..N * E::LINE];
         if let (Layout::Lines, Some(order)) = (self.layout, self.past_caches) {
-            let to = &mut self.to[line * N * E::LINE..];
+            let to = &mut self.to[start..][..N * E::LINE];
             for k in 0..N {
-                let start = k * E::LINE + offset;
-                R::load(&scratch[start..]).stream(&mut to[start..], order);
+                let place = k * E::LINE + offset;
+                R::load(&line[place..]).stream(&mut to[place..], order);
             }
             return;
         }
@@ -182,13 +175,13 @@ impl<E: Element> Sink<'_, E> {
             while k < N {
                 // The last square overlaps the one before where N is no multiple.
                 k = k.min(N - R::LANES);
-                R::transpose(&scratch[k * E::LINE + offset..], E::LINE, &mut to[k..], N);
+                R::transpose(&line[k * E::LINE + offset..], E::LINE, &mut to[k..], N);
                 k += R::LANES;
             }
         } else {
             for (lane, numbers) in to.chunks_exact_mut(N).take(R::LANES).enumerate() {
                 for (k, number) in numbers.iter_mut().enumerate() {
-                    *number = scratch[k * E::LINE + offset + lane];
+                    *number = line[k * E::LINE + offset + lane];
                 }
             }
         }

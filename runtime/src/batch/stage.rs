@@ -5,13 +5,16 @@
 
 #![expect(non_snake_case, reason = "F, U, V, P as in the literature")]
 
+use std::cell::Cell;
+
 use super::energy::{self, from_numbers};
 use super::form::{
     BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, Response,
     gradient_is_finite, put_all, put_gradient,
 };
-use super::sink::{Scratch, Sink, Source};
+use super::sink::{Sink, Source};
 use super::tile::{Rows, first_bits, for_each_group};
+use super::workspace::{Line, Workspace};
 use crate::lanes::{Backend, Element, Kernel, Lanes, Mask};
 use crate::point::{
     Filter, Matrix3, Svd, Tangent, judge, multiply, stress, stress_is_finite, svd, svd_signed_by_determinant,
@@ -144,6 +147,7 @@ pub(super) struct Forces<'a, E> {
     pub(super) gradients: &'a Rows<E, 3>,
     pub(super) rest: Source<'a, E, 10>,
     pub(super) count: usize,
+    pub(super) line: &'a mut Line<E>,
     pub(super) to: Sink<'a, E>,
 }
 
@@ -152,8 +156,7 @@ impl<E: Element> Kernel<E> for Forces<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) -> Marks {
-        let Self { points, gradients, rest, count, mut to } = self;
-        let mut scratch = Scratch::<E, 12>::new();
+        let Self { points, gradients, rest, count, line, mut to } = self;
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
@@ -161,8 +164,8 @@ impl<E: Element> Kernel<E> for Forces<'_, E> {
             let rest = rest.get_all(at);
             let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, &rest);
             marks.nonfinite |= R::bits(!is_finite) << at;
-            put_gradient(&stress, &rest, to.place(&mut scratch, at));
-            to.finish::<R, 12>(&scratch, at, count);
+            put_gradient(&stress, &rest, to.place::<R, 12>(line, at));
+            to.finish::<R, 12>(line, at, count);
         });
         marks.of_first(count)
     }
@@ -173,6 +176,7 @@ pub(super) struct Stress<'a, E> {
     pub(super) points: &'a Points<E>,
     pub(super) gradients: &'a Rows<E, 3>,
     pub(super) count: usize,
+    pub(super) line: &'a mut Line<E>,
     pub(super) P: Sink<'a, E>,
 }
 
@@ -181,15 +185,14 @@ impl<E: Element> Kernel<E> for Stress<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) -> Marks {
-        let Self { points, gradients, count, mut P } = self;
-        let mut scratch = Scratch::<E, 9>::new();
+        let Self { points, gradients, count, line, mut P } = self;
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, gradients.get_all(at));
             marks.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
-            put_all(to_numbers(stress), P.place(&mut scratch, at));
-            P.finish::<R, 9>(&scratch, at, count);
+            put_all(to_numbers(stress), P.place::<R, 9>(line, at));
+            P.finish::<R, 9>(line, at, count);
         });
         marks.of_first(count)
     }
@@ -232,6 +235,7 @@ pub(super) struct Respond<'a, E, const REST: usize> {
     pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
     pub(super) has_pole: bool,
+    pub(super) line: &'a mut Line<E>,
     pub(super) first: Sink<'a, E>,
     pub(super) second: Sink<'a, E>,
 }
@@ -249,9 +253,7 @@ where
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) -> Marks {
-        let Respond { points, blocks, rest, count, has_pole, mut first, mut second } = self.0;
-        let (mut first_scratch, mut second_scratch) =
-            (Scratch::<E, FIRST>::new(), Scratch::<E, SECOND>::new());
+        let Respond { points, blocks, rest, count, has_pole, line, mut first, mut second } = self.0;
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
@@ -268,10 +270,10 @@ where
             F::prepare(&mut response, &rest, has_pole);
             marks.bounded |= R::bits(response.bounded) << at;
             marks.nonfinite |= R::bits(response.nonfinite) << at;
-            F::first(&response, &rest, first.place(&mut first_scratch, at));
-            first.finish::<R, FIRST>(&first_scratch, at, count);
-            F::second(&response, &rest, second.place(&mut second_scratch, at));
-            second.finish::<R, SECOND>(&second_scratch, at, count);
+            F::first(&response, &rest, first.place::<R, FIRST>(line, at));
+            first.finish::<R, FIRST>(line, at, count);
+            F::second(&response, &rest, second.place::<R, SECOND>(line, at));
+            second.finish::<R, SECOND>(line, at, count);
         });
         marks.of_first(count)
     }
@@ -282,6 +284,7 @@ pub(super) struct Product<'a, E> {
     pub(super) stored: Source<'a, E, 30>,
     pub(super) dF: Source<'a, E, 9>,
     pub(super) count: usize,
+    pub(super) line: &'a mut Line<E>,
     pub(super) dP: Sink<'a, E>,
 }
 
@@ -290,13 +293,12 @@ impl<E: Element> Kernel<E> for Product<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) {
-        let Self { stored, dF, count, mut dP } = self;
-        let mut scratch = Scratch::<E, 9>::new();
+        let Self { stored, dF, count, line, mut dP } = self;
         for_each_group!(R, count, |at| {
             let tangent = Factored::restore(stored.get_all::<R>(at));
             let product = tangent.apply(&to_matrix(dF.get_all(at)));
-            put_all(to_numbers(product), dP.place(&mut scratch, at));
-            dP.finish::<R, 9>(&scratch, at, count);
+            put_all(to_numbers(product), dP.place::<R, 9>(line, at));
+            dP.finish::<R, 9>(line, at, count);
         });
     }
 }
@@ -336,6 +338,9 @@ pub trait Stages: Element {
     fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Marks;
     #[doc(hidden)]
     fn product(backend: Backend, kernel: Product<'_, Self>);
+    /// Lends this thread's workspace; allocates one where it is lent already, or none was before.
+    #[doc(hidden)]
+    fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
 }
 
 macro_rules! stages {
@@ -380,6 +385,16 @@ macro_rules! stages {
 
             fn product(backend: Backend, kernel: Product<'_, Self>) {
                 backend.run(kernel);
+            }
+
+            fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T {
+                thread_local!(static SPARE: Cell<Option<Box<Workspace<$Number>>>> = const { Cell::new(None) });
+                // At the end of a thread there is no keeping any more.
+                let spare = SPARE.try_with(Cell::take).ok().flatten();
+                let mut workspace = spare.unwrap_or_else(Workspace::new);
+                let result = body(&mut workspace);
+                let _ = SPARE.try_with(|spare| spare.set(Some(workspace)));
+                result
             }
         }
     )*};

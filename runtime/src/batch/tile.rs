@@ -8,14 +8,18 @@ use crate::lanes::{Element, Lanes};
 /// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
 pub(crate) const TILE: usize = 64;
 
+/// Places of a row, more than points: rows as far apart as a power of two would compete for the same places of the innermost
+/// cache, and loads would wait for stores to addresses that only look the same.
+pub(super) const ROW: usize = 80;
+
 /// N numbers of each point of a tile.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Rows<E, const N: usize>(pub(crate) [[E; TILE]; N]);
+pub struct Rows<E, const N: usize>(pub(crate) [[E; ROW]; N]);
 
 impl<E: Element, const N: usize> Rows<E, N> {
     pub(crate) fn zero() -> Self {
-        Self([[E::default(); TILE]; N])
+        Self([[E::default(); ROW]; N])
     }
 
     /// Number k of the points from `at` on.

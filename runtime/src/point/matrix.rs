@@ -28,7 +28,27 @@ macro_rules! three {
         ]
     };
 }
-pub(crate) use three;
+
+/// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a constant from the
+/// beginning.
+macro_rules! thrice {
+    ($i:ident => $body:block) => {{
+        {
+            let $i = 0_usize;
+            $body
+        }
+        {
+            let $i = 1_usize;
+            $body
+        }
+        {
+            let $i = 2_usize;
+            $body
+        }
+    }};
+}
+
+pub(crate) use {three, thrice};
 
 /// x·y.
 #[inline(always)]

@@ -6,7 +6,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 use super::Matrix3;
-use super::matrix::multiply_transposed;
+use super::matrix::{multiply_transposed, three};
 use super::svd::Svd;
 use crate::lanes::Real;
 
@@ -14,11 +14,6 @@ use crate::lanes::Real;
 #[inline(always)]
 #[must_use]
 pub fn stress<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    let mut scaled = svd.U;
-    for row in &mut scaled {
-        for k in 0..3 {
-            row[k] = row[k] * gradient[k];
-        }
-    }
+    let scaled = three!(i => three!(k => svd.U[i][k] * gradient[k]));
     multiply_transposed(&scaled, &svd.V)
 }

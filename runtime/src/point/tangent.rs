@@ -94,7 +94,7 @@
 #![expect(non_snake_case, reason = "U, V, W, dF, dP as in the essay above")]
 
 use super::Matrix3;
-use super::matrix::{dot, to_principal, to_world};
+use super::matrix::{dot, three, thrice, to_principal, to_world};
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
@@ -149,17 +149,18 @@ impl<R: Real> Blocks<R> {
     #[must_use]
     pub fn apply(&self, increment: &Matrix3<R>) -> Matrix3<R> {
         let [h11, h22, h33, h12, h13, h23] = self.hessian;
-        let [d1, d2, d3] = [increment[0][0], increment[1][1], increment[2][2]];
-        let mut answer = *increment;
-        answer[0][0] = h11.mul_add(d1, h12.mul_add(d2, h13 * d3));
-        answer[1][1] = h12.mul_add(d1, h22.mul_add(d2, h23 * d3));
-        answer[2][2] = h13.mul_add(d1, h23.mul_add(d2, h33 * d3));
-        for (pair, &(i, j)) in PAIRS.iter().enumerate() {
+        let [[d1, ..], [_, d2, _], [.., d3]] = *increment;
+        let [[up12, down12], [up13, down13], [up23, down23]] = three!(pair => {
+            let (i, j) = PAIRS[pair];
             let (a, b) = self.straight_and_crossed(pair);
-            answer[i][j] = a.mul_add(increment[i][j], b * increment[j][i]);
-            answer[j][i] = a.mul_add(increment[j][i], b * increment[i][j]);
-        }
-        answer
+            let (up, down) = (increment[i][j], increment[j][i]);
+            [a.mul_add(up, b * down), a.mul_add(down, b * up)]
+        });
+        [
+            [h11.mul_add(d1, h12.mul_add(d2, h13 * d3)), up12, up13],
+            [down12, h12.mul_add(d1, h22.mul_add(d2, h23 * d3)), up23],
+            [down13, down23, h13.mul_add(d1, h23.mul_add(d2, h33 * d3))],
+        ]
     }
 
     /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 of a pair.
@@ -190,62 +191,39 @@ pub trait Assemble<R> {
 /// About 490 multiplications and additions.
 #[inline(always)]
 pub fn contract<R: Real>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut impl Assemble<R>) {
-    let zero = R::splat(0.0);
+    let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
+    let [(a12, b12), (a13, b13), (a23, b23)] = three!(pair => blocks.straight_and_crossed(pair));
+    let alpha = [[h11, a12, a13], [a12, h22, a23], [a13, a23, h33]];
+    let (mixed, beta) = ([h12, h13, h23], [b12, b13, b23]);
 
-    let mut alpha = [[zero; 3]; 3];
-    let mut beta = [zero; 3];
-    for k in 0..3 {
-        alpha[k][k] = blocks.hessian[k];
-    }
-    for (pair, &(i, j)) in PAIRS.iter().enumerate() {
-        let (a, b) = blocks.straight_and_crossed(pair);
-        alpha[i][j] = a;
-        alpha[j][i] = a;
-        beta[pair] = b;
-    }
+    // `straight[x][y][m]` = Wxm Wym, `crossed[x][y][pair]` = ψij Wxi Wyj + bij Wxj Wyi.
+    let straight = three!(x => three!(y => three!(m => W[x.min(y)][m] * W[x.max(y)][m])));
+    let crossed = three!(x => three!(y => three!(pair => {
+        let (i, j) = PAIRS[pair];
+        mixed[pair].mul_add(W[x][i] * W[y][j], beta[pair] * (W[x][j] * W[y][i]))
+    })));
 
-    // For x ≤ y: `straight[x][y][m]` = Wxm Wym. For all x, y: `crossed[x][y][pair]` = ψij Wxi Wyj + bij Wxj Wyi.
-    let mut straight = [[[zero; 3]; 3]; 3];
-    let mut crossed = [[[zero; 3]; 3]; 3];
-    for x in 0..3 {
-        for y in x..3 {
-            for m in 0..3 {
-                straight[x][y][m] = W[x][m] * W[y][m];
-            }
-            for (pair, &(i, j)) in PAIRS.iter().enumerate() {
-                let (h, b) = (blocks.hessian[3 + pair], beta[pair]);
-                let (direct, swapped) = (W[x][i] * W[y][j], W[x][j] * W[y][i]);
-                crossed[x][y][pair] = h.mul_add(direct, b * swapped);
-                crossed[y][x][pair] = h.mul_add(swapped, b * direct);
-            }
-        }
-    }
-
-    for a in 0..3 {
-        for c in a..3 {
-            let products = [U[a][0] * U[c][0], U[a][1] * U[c][1], U[a][2] * U[c][2]];
-            let weights = [dot(products, alpha[0]), dot(products, alpha[1]), dot(products, alpha[2])];
-            let (mut direct, mut swapped) = ([zero; 3], [zero; 3]);
-            for (pair, &(i, j)) in PAIRS.iter().enumerate() {
-                (direct[pair], swapped[pair]) = (U[a][i] * U[c][j], U[a][j] * U[c][i]);
-            }
-            let mut block = [[zero; 3]; 3];
-            for x in 0..3 {
-                for y in x..3 {
+    thrice!(a => {
+        thrice!(c => {
+            if a <= c {
+                let products = three!(m => U[a][m] * U[c][m]);
+                let weights = three!(l => dot(products, alpha[l]));
+                let [(d12, s12), (d13, s13), (d23, s23)] = three!(pair => {
+                    let (i, j) = PAIRS[pair];
+                    (U[a][i] * U[c][j], U[a][j] * U[c][i])
+                });
+                let block = three!(x => three!(y => {
+                    // The same number on both sides of the diagonal where a = c; taking it twice makes the symmetry exact
+                    // with or without fused operations.
+                    let (x, y) = if a == c { (x.min(y), x.max(y)) } else { (x, y) };
+                    let (here, there) = (crossed[x][y], crossed[y][x]);
                     let common = dot(weights, straight[x][y]);
-                    let (mut upper, mut lower) = (common, common);
-                    for pair in 0..3 {
-                        let (here, there) = (crossed[x][y][pair], crossed[y][x][pair]);
-                        upper = direct[pair].mul_add(here, swapped[pair].mul_add(there, upper));
-                        lower = direct[pair].mul_add(there, swapped[pair].mul_add(here, lower));
-                    }
-                    block[x][y] = upper;
-                    // The same number where a = c; copying it makes the symmetry exact with or without fused
-                    // operations.
-                    block[y][x] = if a == c { upper } else { lower };
-                }
+                    let with12 = d12.mul_add(here[0], s12.mul_add(there[0], common));
+                    let with13 = d13.mul_add(here[1], s13.mul_add(there[1], with12));
+                    d23.mul_add(here[2], s23.mul_add(there[2], with13))
+                }));
+                to.block(a, c, &block);
             }
-            to.block(a, c, &block);
-        }
-    }
+        });
+    });
 }

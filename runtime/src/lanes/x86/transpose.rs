@@ -43,8 +43,14 @@ macro_rules! turn_quads {
 macro_rules! turn_quads_512 {
     ($rows:expr, $start:expr) => {
         turn_quads!(
-            _mm512_unpacklo_ps, _mm512_unpackhi_ps, _mm512_unpacklo_pd, _mm512_unpackhi_pd, _mm512_castps_pd,
-            _mm512_castpd_ps, $rows, $start
+            _mm512_unpacklo_ps,
+            _mm512_unpackhi_ps,
+            _mm512_unpacklo_pd,
+            _mm512_unpackhi_pd,
+            _mm512_castps_pd,
+            _mm512_castpd_ps,
+            $rows,
+            $start
         )
     };
 }
@@ -52,8 +58,14 @@ macro_rules! turn_quads_512 {
 macro_rules! turn_quads_256 {
     ($rows:expr, $start:expr) => {
         turn_quads!(
-            _mm256_unpacklo_ps, _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpackhi_pd, _mm256_castps_pd,
-            _mm256_castpd_ps, $rows, $start
+            _mm256_unpacklo_ps,
+            _mm256_unpackhi_ps,
+            _mm256_unpacklo_pd,
+            _mm256_unpackhi_pd,
+            _mm256_castps_pd,
+            _mm256_castpd_ps,
+            $rows,
+            $start
         )
     };
 }

@@ -1,0 +1,39 @@
+//! What lies between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear memory.
+
+use super::stage::Points;
+use super::tile::Rows;
+use crate::lanes::Element;
+
+/// Room for one tile of any call.
+#[derive(Debug)]
+pub struct Workspace<E> {
+    /// Deformation gradients, or increments of them.
+    pub(super) F: Rows<E, 9>,
+    pub(super) points: Points<E>,
+    pub(super) energies: Rows<E, 1>,
+    pub(super) gradients: Rows<E, 3>,
+    pub(super) blocks: Rows<E, 15>,
+    pub(super) rest: Rows<E, 10>,
+    pub(super) factors: Rows<E, 30>,
+    pub(super) line: Line<E>,
+}
+
+/// Up to 144 numbers of one line of points, on their way to a slice that cannot take them as they come.
+#[derive(Debug)]
+#[repr(C, align(64))]
+pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
+
+impl<E: Element> Workspace<E> {
+    pub(super) fn new() -> Box<Self> {
+        Box::new(Self {
+            F: Rows::zero(),
+            points: Points::new(),
+            energies: Rows::zero(),
+            gradients: Rows::zero(),
+            blocks: Rows::zero(),
+            rest: Rows::zero(),
+            factors: Rows::zero(),
+            line: Line([[E::default(); 16]; 144]),
+        })
+    }
+}
