@@ -62,7 +62,7 @@ pub use tile::Rows;
 pub(crate) use form::STIFFEST;
 use jobs::Work;
 use sink::{Sink, Source};
-use stage::{Decompose, Judge, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
+use stage::{Decompose, Forces, Judge, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
 use workspace::Workspace;
 
 /// A material and how to compute with it.
@@ -126,7 +126,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             let ([F], [P]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let refused = self.energy.gradients(self.tile(points, tile.start, tile.count), gradients);
-            let kernel = Stress { points, gradients, count: tile.count, line, P: self.sink(P) };
+            let kernel = Stress { points, gradients: &gradients.0, count: tile.count, line, P: self.sink(P) };
             Marks { refused, ..E::stress(self.backend, kernel) }
         }))
     }
@@ -165,7 +165,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         let count = self.count(&lengths)?;
         let work = Work { inputs: [(factors, FACTORS), (dF, 9)], outputs: [(dP, 9)] };
         jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let Workspace { F: increments, factors: stored, line, .. } = tile.workspace;
+            let Workspace { dF: increments, factors: stored, line, .. } = tile.workspace;
             let ([factors, dF], [dP]) = (tile.inputs, tile.outputs);
             let kernel = Product {
                 stored: Source::new(self.backend, self.layout, factors, stored),
@@ -231,17 +231,12 @@ impl<'a, E: Stages> Batch<'a, E> {
             let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
-            let kernel = Respond {
-                points,
-                blocks,
-                rest: Source::Rows(&Rows([])),
-                count: tile.count,
-                has_pole: self.energy.has_pole(),
-                line,
-                first: self.sink(P),
-                second: self.large_sink(tangents, &order),
-            };
-            E::tangent(self.backend, form, kernel).or(judged)
+            let (points, count) = (&*points, tile.count);
+            let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
+            let stressed = E::stress(self.backend, kernel);
+            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(tangents, &order));
+            let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
+            E::tangent(self.backend, form, kernel).or(stressed).or(judged)
         }))
     }
 
@@ -267,17 +262,14 @@ impl<'a, E: Stages> Batch<'a, E> {
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
             self.decompose(F, rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
-            let kernel = Respond {
-                points,
-                blocks,
-                rest: Source::new(self.backend, self.layout, rest, shapes),
-                count: tile.count,
-                has_pole: self.energy.has_pole(),
-                line,
-                first: self.sink(gradients),
-                second: self.large_sink(stiffnesses, &order),
-            };
-            E::stiffness(self.backend, form, kernel).or(judged)
+            let (points, count) = (&*points, tile.count);
+            let rest = Source::new(self.backend, self.layout, rest, shapes);
+            let to = self.sink(gradients);
+            let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
+            let forced = E::forces(self.backend, kernel);
+            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(stiffnesses, &order));
+            let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
+            E::stiffness(self.backend, form, kernel).or(forced).or(judged)
         }))
     }
 

@@ -166,17 +166,23 @@ pub trait Lanes: Real {
     /// Where there are fewer.
     fn store(self, to: &mut [Self::Element]);
 
-    /// Like [`Lanes::store`], past the caches where the back end can and the place is aligned to the register.
+    /// Copies numbers past the caches where the back end can and both slices consist of whole aligned registers.
     ///
     /// # Panics
-    /// Where there are fewer.
-    fn stream(self, to: &mut [Self::Element], order: &PastCaches);
+    /// Where the lengths differ.
+    fn stream(from: &[Self::Element], to: &mut [Self::Element], order: &PastCaches);
 
-    /// Transposes a square: entry (i, j), i, j < LANES, from `from[i from_stride + j]` to `to[j to_stride + i]`.
+    /// Transposes a matrix: entry (i, j) of the given size from `from[i from_stride + j]` to `to[j to_stride + i]`.
     ///
     /// # Panics
     /// Where an entry is outside.
-    fn transpose(from: &[Self::Element], from_stride: usize, to: &mut [Self::Element], to_stride: usize);
+    fn transpose(
+        size: [usize; 2],
+        from: &[Self::Element],
+        from_stride: usize,
+        to: &mut [Self::Element],
+        to_stride: usize,
+    );
 
     /// The lanes in which a mask is set, as bits: lane 0 is the lowest.
     fn bits(mask: Self::Mask) -> u64;

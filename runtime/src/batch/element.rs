@@ -3,9 +3,8 @@
 //! One decomposition of each element serves the energy, the gradient and the stiffness.
 
 use super::energy::{Energy, TileOf, Verdict};
-use super::sink::{Layout, Sink, Source};
+use super::sink::{Layout, Lines, Sink};
 use super::stage::{Decompose, Deform, Forces, Judge, Points, Respond, Stages, StiffnessForm};
-use super::tile::Rows;
 use super::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
@@ -19,18 +18,21 @@ pub(crate) use super::tile::TILE;
 pub(crate) struct ElementTile {
     backend: Backend,
     count: usize,
-    rest: Rows<f64, 10>,
+    rest: Lines<f64, 10>,
+    volumes: [f64; TILE],
     points: Points<f64>,
 }
 
 impl ElementTile {
     pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
-        let mut tile = Self { backend, count: 0, rest: Rows::zero(), points: Points::new() };
+        let mut tile =
+            Self { backend, count: 0, rest: Lines::zero(), volumes: [0.0; TILE], points: Points::new() };
         for (lane, shape) in shapes.enumerate() {
             let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
-            for (row, &number) in tile.rest.0.iter_mut().zip(numbers) {
-                row[lane] = number;
+            for (k, &number) in numbers.enumerate() {
+                tile.rest.set(lane, k, number);
             }
+            tile.volumes[lane] = shape.volume;
             tile.count = lane + 1;
         }
         tile
@@ -49,7 +51,7 @@ impl ElementTile {
         corners: impl Iterator<Item = [[f64; 3]; 4]>,
         energies: &mut [f64],
     ) -> Verdict {
-        let Self { backend, count, ref rest, ref mut points } = *self;
+        let Self { backend, count, ref rest, ref mut points, .. } = *self;
         let is_signed = energy.ends_at_zero_volume();
         f64::with_workspace(|Workspace { F: rows, .. }| {
             for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
@@ -59,12 +61,12 @@ impl ElementTile {
                     rows.0[3 * a + 2][lane] = x3[a] - x0[a];
                 }
             }
-            f64::deform(backend, Deform { edges: rows, rest, count });
+            f64::deform(backend, Deform { edges: rows, rest: rest.source(), count });
             f64::decompose(backend, Decompose { F: rows, count, is_signed, points });
         });
         f64::with_workspace(|Workspace { energies: densities, .. }| {
             let verdict = energy.energies(self.stretched(), densities);
-            for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.rest.0[9]) {
+            for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.volumes) {
                 *energy = volume * density;
             }
             verdict
@@ -77,8 +79,8 @@ impl ElementTile {
             let refused = energy.gradients(self.stretched(), principal);
             let kernel = Forces {
                 points: &self.points,
-                gradients: principal,
-                rest: Source::Rows(&self.rest),
+                gradients: &principal.0,
+                rest: self.rest.source(),
                 count: self.count,
                 line,
                 to: by_elements(gradients),
@@ -95,22 +97,18 @@ impl ElementTile {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> Marks {
-        let Self { backend, count, rest, points } = self;
+        let Self { backend, count, rest, points, .. } = self;
         let (has_pole, count) = (energy.has_pole(), *count);
         f64::with_workspace(|Workspace { blocks, line, .. }| {
             let refused = energy.blocks(self.stretched(), blocks);
             let judged = f64::judge(*backend, Judge { points, blocks, count, filter, has_pole });
-            let kernel = Respond {
-                points,
-                blocks,
-                rest: Source::Rows(rest),
-                count,
-                has_pole,
-                line,
-                first: by_elements(gradients),
-                second: by_elements(stiffnesses),
-            };
-            let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(judged);
+            let (blocks, rest) = (&*blocks, rest.source());
+            let to = by_elements(gradients);
+            let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
+            let forced = f64::forces(*backend, kernel);
+            let to = by_elements(stiffnesses);
+            let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
+            let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(forced).or(judged);
             Marks { refused, ..marks }
         })
     }

@@ -3,32 +3,29 @@
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
 use super::stage::to_numbers;
-use crate::lanes::{Element, Lanes, Real};
+use crate::lanes::{Element, Lanes, Mask, Real};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
 
-/// A point's stress and judged tangent.
-pub(super) struct Response<R: Real> {
-    pub(super) stress: Matrix3<R>,
-    pub(super) tangent: Tangent<R>,
+/// What there is to say of tangents beside their numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Remarks<R: Real> {
     pub(super) bounded: R::Mask,
     pub(super) nonfinite: R::Mask,
 }
 
-/// Two outputs of FIRST and SECOND numbers, from a point and REST numbers of its rest shape.
-pub(super) trait Form<const REST: usize, const FIRST: usize, const SECOND: usize> {
-    /// Completes what there is to say of the point, and its blocks where the form asks for more than the filter does.
+/// N numbers from a point's judged tangent and REST numbers of its rest shape.
+pub(super) trait Form<const REST: usize, const N: usize> {
+    /// Changes blocks where the form asks for more than the filter does.
     #[inline(always)]
-    fn prepare<R: Real>(response: &mut Response<R>, rest: &[R; REST], has_pole: bool) {
-        let _ = (response, rest, has_pole);
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Remarks<R> {
+        let _ = (blocks, rest, has_pole);
+        Remarks { bounded: R::Mask::splat(false), nonfinite: R::Mask::splat(false) }
     }
 
-    /// Puts number k of the first output at k LINE.
-    fn first<R: Lanes>(response: &Response<R>, rest: &[R; REST], to: &mut [R::Element]);
-
-    /// Puts number k of the second output at k LINE.
-    fn second<R: Lanes>(response: &Response<R>, rest: &[R; REST], to: &mut [R::Element]);
+    /// Puts number k at k LINE.
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut [R::Element]);
 }
 
 /// Puts number k at k LINE.
@@ -47,7 +44,7 @@ pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::El
 /// A place that takes the blocks of [`contract`]; F says where.
 struct Blocks3<'a, F, E>(F, &'a mut [E]);
 
-/// P and all 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
+/// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
 pub(super) struct FullTangent;
 
 impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
@@ -65,20 +62,15 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
     }
 }
 
-impl Form<0, 9, 81> for FullTangent {
+impl Form<0, 81> for FullTangent {
     #[inline(always)]
-    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
-        put_all(to_numbers(response.stress), to);
-    }
-
-    #[inline(always)]
-    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
-        let Tangent { U, V, blocks } = &response.tangent;
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
+        let Tangent { U, V, blocks } = tangent;
         contract(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
-/// P and the 45 entries of dP/dF on and above the diagonal, row by row.
+/// The 45 entries of dP/dF on and above the diagonal, row by row.
 pub(super) struct PackedTangent;
 
 impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
@@ -94,15 +86,10 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
     }
 }
 
-impl Form<0, 9, 45> for PackedTangent {
+impl Form<0, 45> for PackedTangent {
     #[inline(always)]
-    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
-        put_all(to_numbers(response.stress), to);
-    }
-
-    #[inline(always)]
-    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
-        let Tangent { U, V, blocks } = &response.tangent;
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
+        let Tangent { U, V, blocks } = tangent;
         contract(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
@@ -113,7 +100,7 @@ pub(super) const fn packed(size: usize, row: usize, column: usize) -> usize {
     row * size - row * (row + 1) / 2 + column
 }
 
-/// P, and dP/dF as what it is made of: U, V, ψij, flips, twists.
+/// dP/dF as what it is made of: U, V, ψij, flips, twists.
 pub(super) struct Factored;
 
 impl Factored {
@@ -136,16 +123,11 @@ impl Factored {
     }
 }
 
-impl Form<0, 9, 30> for Factored {
+impl Form<0, 30> for Factored {
     #[inline(always)]
-    fn first<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
-        put_all(to_numbers(response.stress), to);
-    }
-
-    #[inline(always)]
-    fn second<R: Lanes>(response: &Response<R>, _: &[R; 0], to: &mut [R::Element]) {
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
         let line = <R::Element as Element>::LINE;
-        let Tangent { U, V, blocks } = &response.tangent;
+        let Tangent { U, V, blocks } = tangent;
         put_all(to_numbers(*U), to);
         put_all(to_numbers(*V), &mut to[9 * line..]);
         put_all(blocks.hessian, &mut to[18 * line..]);
@@ -197,26 +179,21 @@ pub(crate) const STIFFEST: f64 = 1e6;
 /// has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the factors of a matrix that
 /// holds it beside ordinary entries lose all digits of those. A stiffness [`STIFFEST`] times the others is rigid enough.
 #[inline(always)]
-fn blunt<R: Real>(response: &mut Response<R>) {
-    let blocks = &mut response.tangent.blocks;
+fn blunt<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     let limit = R::splat(STIFFEST) * largest([largest(blocks.hessian), largest(blocks.flip)]);
-    for twist in &mut blocks.twist {
-        // Not `min`, which would turn NaN into a plausible number.
-        let is_blunted = limit.less(*twist);
-        *twist = R::select(is_blunted, limit, *twist);
-        response.bounded = response.bounded | is_blunted;
-    }
+    // Not `min`, which would turn NaN into a plausible number.
+    let is_blunt = three!(pair => limit.less(blocks.twist[pair]));
+    blocks.twist = three!(pair => R::select(is_blunt[pair], limit, blocks.twist[pair]));
+    is_blunt[0] | is_blunt[1] | is_blunt[2]
 }
 
-/// Marks as not finite what may overflow on the way from the tangent to the stiffness: its entries are sums of at most 27
-/// products of an entry of the tangent and two of W, or sums of nine such entries.
+/// Whether no number can overflow on the way from the tangent to the stiffness: its entries are sums of at most 27 products
+/// of an entry of the tangent and two of W, or sums of nine such entries.
 #[inline(always)]
-fn mark_overflow<R: Real>(response: &mut Response<R>, rest: &Rest<R>) {
-    let blocks = &response.tangent.blocks;
+fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
     let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
     let shape = largest(to_numbers(rest.inverse));
-    let stiffness = (shape * rest.volume) * R::splat(1024.0) * (shape * tangent);
-    response.nonfinite = response.nonfinite | !stiffness.is_finite();
+    ((shape * rest.volume) * R::splat(1024.0) * (shape * tangent)).is_finite()
 }
 
 /// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the stress, Dm⁻¹ and
@@ -302,24 +279,16 @@ macro_rules! stiffness_form {
             }
         }
 
-        impl Form<10, 12, $numbers> for $Form {
+        impl Form<10, $numbers> for $Form {
             #[inline(always)]
-            fn prepare<R: Real>(response: &mut Response<R>, rest: &[R; 10], has_pole: bool) {
-                if has_pole {
-                    blunt(response);
-                }
-                response.nonfinite = response.nonfinite | !gradient_is_finite(&response.stress, rest);
-                mark_overflow(response, &Rest::new(*rest));
+            fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
+                let bounded = if has_pole { blunt(blocks) } else { R::Mask::splat(false) };
+                Remarks { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)) }
             }
 
             #[inline(always)]
-            fn first<R: Lanes>(response: &Response<R>, rest: &[R; 10], to: &mut [R::Element]) {
-                put_gradient(&response.stress, rest, to);
-            }
-
-            #[inline(always)]
-            fn second<R: Lanes>(response: &Response<R>, rest: &[R; 10], to: &mut [R::Element]) {
-                let Tangent { U, V, blocks } = &response.tangent;
+            fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Element]) {
+                let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
                 contract(U, &W, blocks, &mut Stiffness(Self, to));
             }

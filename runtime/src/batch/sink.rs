@@ -1,6 +1,6 @@
 //! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
 
-use super::tile::{ROW, Rows};
+use super::tile::{ROW, Rows, TILE};
 use super::workspace::Line;
 use crate::lanes::{Backend, Element, Kernel, Lanes, PastCaches};
 
@@ -27,23 +27,26 @@ impl Layout {
     }
 }
 
-/// N numbers of each point of a tile, where lanes can load them.
+/// N numbers of each point of a tile in [`Layout::Lines`], where lanes can load them.
 #[derive(Clone, Copy)]
-pub(super) enum Source<'a, E, const N: usize> {
-    /// As they lie in a slice of [`Layout::Lines`].
-    Lines(&'a [E]),
-    /// Filled by [`Rows::fill`].
-    Rows(&'a Rows<E, N>),
+pub(super) struct Source<'a, E, const N: usize>(&'a [E]);
+
+impl<E> Source<'_, E, 0> {
+    pub(super) const NONE: Self = Self(&[]);
 }
 
 impl<'a, E: Element, const N: usize> Source<'a, E, N> {
-    /// From a tile's part of a slice; `rows` is where points are turned to.
-    pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], rows: &'a mut Rows<E, N>) -> Self {
+    /// From a tile's part of a slice; `lines` is where points are turned to.
+    pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
-            Layout::Lines => Self::Lines(from),
+            Layout::Lines => Self(from),
             Layout::Points => {
-                rows.fill(backend, layout, from);
-                Self::Rows(rows)
+                for (from, to) in
+                    from.chunks(E::LINE * N).zip(lines.0.as_flattened_mut().chunks_mut(E::LINE * N))
+                {
+                    backend.run(Turn::<E, N> { from, to, stride: E::LINE });
+                }
+                lines.source()
             }
         }
     }
@@ -51,18 +54,33 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
     /// The numbers of the points from `at` on.
     #[inline(always)]
     pub(super) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
-        match self {
-            Self::Rows(rows) => rows.get_all(at),
-            Self::Lines(from) => {
-                let from = &from[at / E::LINE * N * E::LINE + at % E::LINE..];
-                let from = &from[..(N.max(1) - 1) * E::LINE + R::LANES];
-                let mut numbers = [R::splat(0.0); N];
-                for k in 0..N {
-                    numbers[k] = R::load(&from[k * E::LINE..]);
-                }
-                numbers
+        let mut numbers = [R::splat(0.0); N];
+        if N > 0 {
+            let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..][..(N - 1) * E::LINE + R::LANES];
+            for k in 0..N {
+                numbers[k] = R::load(&from[k * E::LINE..]);
             }
         }
+        numbers
+    }
+}
+
+/// Room for the points of a tile in [`Layout::Lines`].
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Lines<E, const N: usize>([[E; N]; TILE]);
+
+impl<E: Element, const N: usize> Lines<E, N> {
+    pub(super) fn zero() -> Self {
+        Self([[E::default(); N]; TILE])
+    }
+
+    pub(super) fn set(&mut self, point: usize, k: usize, number: E) {
+        self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
+    }
+
+    pub(super) fn source(&self) -> Source<'_, E, N> {
+        Source(self.0.as_flattened())
     }
 }
 
@@ -70,7 +88,9 @@ impl<E: Element, const N: usize> Rows<E, N> {
     /// From a tile's part of a slice.
     pub(super) fn fill(&mut self, backend: Backend, layout: Layout, from: &[E]) {
         match layout {
-            Layout::Points => backend.run(Turn { from, rows: self }),
+            Layout::Points => {
+                backend.run(Turn::<E, N> { from, to: self.0.as_flattened_mut(), stride: ROW });
+            }
             Layout::Lines => {
                 for (line, numbers) in from.chunks_exact(N * E::LINE).enumerate() {
                     for (row, numbers) in self.0.iter_mut().zip(numbers.chunks_exact(E::LINE)) {
@@ -82,10 +102,11 @@ impl<E: Element, const N: usize> Rows<E, N> {
     }
 }
 
-/// Into the rows of a tile from a slice of points.
+/// Number k of each point to the places from k stride on.
 struct Turn<'a, E, const N: usize> {
     from: &'a [E],
-    rows: &'a mut Rows<E, N>,
+    to: &'a mut [E],
+    stride: usize,
 }
 
 impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
@@ -93,26 +114,8 @@ impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) {
-        let Self { from, rows } = self;
-        let count = from.len() / N;
-        let whole = if N < R::LANES { 0 } else { count - count % R::LANES };
-        let mut at = 0;
-        while at < whole {
-            let mut k = 0;
-            while k < N {
-                // The last square overlaps the one before where N is no multiple.
-                k = k.min(N - R::LANES);
-                let to = &mut rows.0.as_flattened_mut()[k * ROW + at..];
-                R::transpose(&from[at * N + k..], N, to, ROW);
-                k += R::LANES;
-            }
-            at += R::LANES;
-        }
-        for (point, numbers) in from.chunks_exact(N).enumerate().skip(whole) {
-            for (row, number) in rows.0.iter_mut().zip(numbers) {
-                row[point] = *number;
-            }
-        }
+        let Self { from, to, stride } = self;
+        R::transpose([from.len() / N, N], from, N, to, stride);
     }
 }
 
@@ -161,28 +164,15 @@ impl<E: Element> Sink<'_, E> {
         }
         let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
         let line = &line.0.as_flattened()[..N * E::LINE];
-        if let (Layout::Lines, Some(order)) = (self.layout, self.past_caches) {
-            let to = &mut self.to[start..][..N * E::LINE];
-            for k in 0..N {
-                let place = k * E::LINE + offset;
-                R::load(&line[place..]).stream(&mut to[place..], order);
-            }
-            return;
-        }
-        let to = &mut self.to[at * N..];
-        if N >= R::LANES && at + R::LANES <= count {
-            let mut k = 0;
-            while k < N {
-                // The last square overlaps the one before where N is no multiple.
-                k = k.min(N - R::LANES);
-                R::transpose(&line[k * E::LINE + offset..], E::LINE, &mut to[k..], N);
-                k += R::LANES;
-            }
-        } else {
-            for (lane, numbers) in to.chunks_exact_mut(N).take(R::LANES).enumerate() {
-                for (k, number) in numbers.iter_mut().enumerate() {
-                    *number = line[k * E::LINE + offset + lane];
+        match (self.layout, self.past_caches) {
+            (Layout::Lines, Some(order)) => {
+                if offset + R::LANES == E::LINE {
+                    R::stream(line, &mut self.to[start..][..N * E::LINE], order);
                 }
+            }
+            _ => {
+                let points = R::LANES.min(count - at);
+                R::transpose([N, points], &line[offset..], E::LINE, &mut self.to[at * N..], N);
             }
         }
     }

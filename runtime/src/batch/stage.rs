@@ -9,13 +9,14 @@ use std::cell::Cell;
 
 use super::energy::{self, from_numbers};
 use super::form::{
-    BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, Response,
+    BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
     gradient_is_finite, put_all, put_gradient,
 };
 use super::sink::{Sink, Source};
-use super::tile::{Rows, first_bits, for_each_group};
+use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::{Line, Workspace};
-use crate::lanes::{Backend, Element, Kernel, Lanes, Mask};
+use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::point::matrix::three;
 use crate::point::{
     Filter, Matrix3, Svd, Tangent, judge, multiply, stress, stress_is_finite, svd, svd_signed_by_determinant,
 };
@@ -123,7 +124,7 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
 pub(super) struct Deform<'a, E> {
     /// Ds: row a, column k is coordinate a of node k + 1 less that of node 0.
     pub(super) edges: &'a mut Rows<E, 9>,
-    pub(super) rest: &'a Rows<E, 10>,
+    pub(super) rest: Source<'a, E, 10>,
     pub(super) count: usize,
 }
 
@@ -144,7 +145,8 @@ impl<E: Element> Kernel<E> for Deform<'_, E> {
 /// Frames and ψi into the gradients of elements.
 pub(super) struct Forces<'a, E> {
     pub(super) points: &'a Points<E>,
-    pub(super) gradients: &'a Rows<E, 3>,
+    /// ψi in the first three rows.
+    pub(super) gradients: &'a [Row<E>],
     pub(super) rest: Source<'a, E, 10>,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
@@ -160,7 +162,7 @@ impl<E: Element> Kernel<E> for Forces<'_, E> {
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
-            let stress = stress(&svd, gradients.get_all(at));
+            let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             let rest = rest.get_all(at);
             let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, &rest);
             marks.nonfinite |= R::bits(!is_finite) << at;
@@ -174,7 +176,8 @@ impl<E: Element> Kernel<E> for Forces<'_, E> {
 /// Frames and ψi into P.
 pub(super) struct Stress<'a, E> {
     pub(super) points: &'a Points<E>,
-    pub(super) gradients: &'a Rows<E, 3>,
+    /// ψi in the first three rows.
+    pub(super) gradients: &'a [Row<E>],
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
     pub(super) P: Sink<'a, E>,
@@ -189,7 +192,7 @@ impl<E: Element> Kernel<E> for Stress<'_, E> {
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
-            let stress = stress(&svd, gradients.get_all(at));
+            let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             marks.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
             put_all(to_numbers(stress), P.place::<R, 9>(line, at));
             P.finish::<R, 9>(line, at, count);
@@ -228,7 +231,7 @@ impl<E: Element> Kernel<E> for Judge<'_, E> {
     }
 }
 
-/// Frames and judged blocks into a pair of outputs.
+/// Frames and judged blocks into tangents or stiffnesses.
 pub(super) struct Respond<'a, E, const REST: usize> {
     pub(super) points: &'a Points<E>,
     pub(super) blocks: &'a Rows<E, 15>,
@@ -236,44 +239,32 @@ pub(super) struct Respond<'a, E, const REST: usize> {
     pub(super) count: usize,
     pub(super) has_pole: bool,
     pub(super) line: &'a mut Line<E>,
-    pub(super) first: Sink<'a, E>,
-    pub(super) second: Sink<'a, E>,
+    pub(super) to: Sink<'a, E>,
 }
 
-/// [`Respond`] with outputs of a form.
-struct Shaped<'a, E, F, const REST: usize, const FIRST: usize, const SECOND: usize>(Respond<'a, E, REST>, F);
+/// [`Respond`] with an output of a form.
+struct Shaped<'a, E, F, const REST: usize, const N: usize>(Respond<'a, E, REST>, F);
 
-impl<E, F, const REST: usize, const FIRST: usize, const SECOND: usize> Kernel<E>
-    for Shaped<'_, E, F, REST, FIRST, SECOND>
+impl<E, F, const REST: usize, const N: usize> Kernel<E> for Shaped<'_, E, F, REST, N>
 where
     E: Element,
-    F: Form<REST, FIRST, SECOND>,
+    F: Form<REST, N>,
 {
     type Output = Marks;
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) -> Marks {
-        let Respond { points, blocks, rest, count, has_pole, line, mut first, mut second } = self.0;
+        let Respond { points, blocks, rest, count, has_pole, line, mut to } = self.0;
         let mut marks = Marks::default();
         for_each_group!(R, count, |at| {
-            let svd = points.get::<R>(at);
-            let blocks = from_numbers(blocks.get_all(at));
-            let stress = stress(&svd, blocks.gradient);
-            let is_finite = stress_is_finite(svd.stretches, &stress);
+            let Svd { U, V, .. } = points.get::<R>(at);
+            let mut blocks = from_numbers(blocks.get_all(at));
             let rest = rest.get_all(at);
-            let mut response = Response {
-                stress,
-                tangent: Tangent { U: svd.U, V: svd.V, blocks },
-                bounded: R::Mask::splat(false),
-                nonfinite: !is_finite,
-            };
-            F::prepare(&mut response, &rest, has_pole);
-            marks.bounded |= R::bits(response.bounded) << at;
-            marks.nonfinite |= R::bits(response.nonfinite) << at;
-            F::first(&response, &rest, first.place::<R, FIRST>(line, at));
-            first.finish::<R, FIRST>(line, at, count);
-            F::second(&response, &rest, second.place::<R, SECOND>(line, at));
-            second.finish::<R, SECOND>(line, at, count);
+            let remarks = F::prepare(&mut blocks, &rest, has_pole);
+            marks.bounded |= R::bits(remarks.bounded) << at;
+            marks.nonfinite |= R::bits(remarks.nonfinite) << at;
+            F::put_all(&Tangent { U, V, blocks }, &rest, to.place::<R, N>(line, at));
+            to.finish::<R, N>(line, at, count);
         });
         marks.of_first(count)
     }

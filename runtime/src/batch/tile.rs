@@ -12,10 +12,13 @@ pub(crate) const TILE: usize = 64;
 /// cache, and loads would wait for stores to addresses that only look the same.
 pub(super) const ROW: usize = 80;
 
+/// A number of each point of a tile.
+pub(super) type Row<E> = [E; ROW];
+
 /// N numbers of each point of a tile.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Rows<E, const N: usize>(pub(crate) [[E; ROW]; N]);
+pub struct Rows<E, const N: usize>(pub(crate) [Row<E>; N]);
 
 impl<E: Element, const N: usize> Rows<E, N> {
     pub(crate) fn zero() -> Self {

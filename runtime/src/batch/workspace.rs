@@ -1,5 +1,6 @@
 //! What lies between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear memory.
 
+use super::sink::Lines;
 use super::stage::Points;
 use super::tile::Rows;
 use crate::lanes::Element;
@@ -7,14 +8,14 @@ use crate::lanes::Element;
 /// Room for one tile of any call.
 #[derive(Debug)]
 pub struct Workspace<E> {
-    /// Deformation gradients, or increments of them.
     pub(super) F: Rows<E, 9>,
+    pub(super) dF: Lines<E, 9>,
     pub(super) points: Points<E>,
     pub(super) energies: Rows<E, 1>,
     pub(super) gradients: Rows<E, 3>,
     pub(super) blocks: Rows<E, 15>,
-    pub(super) rest: Rows<E, 10>,
-    pub(super) factors: Rows<E, 30>,
+    pub(super) rest: Lines<E, 10>,
+    pub(super) factors: Lines<E, 30>,
     pub(super) line: Line<E>,
 }
 
@@ -27,12 +28,13 @@ impl<E: Element> Workspace<E> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             F: Rows::zero(),
+            dF: Lines::zero(),
             points: Points::new(),
             energies: Rows::zero(),
             gradients: Rows::zero(),
             blocks: Rows::zero(),
-            rest: Rows::zero(),
-            factors: Rows::zero(),
+            rest: Lines::zero(),
+            factors: Lines::zero(),
             line: Line([[E::default(); 16]; 144]),
         })
     }

@@ -9,8 +9,8 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use super::Mask;
 use super::primitive::Primitive;
-use super::{Mask, PastCaches};
 
 /// Two numbers, two registers, or two pairs.
 #[derive(Clone, Copy, Debug)]
@@ -100,13 +100,6 @@ impl<P: Primitive> Primitive for Pair<P> {
         let (first, second) = to[..Self::COUNT].split_at_mut(P::COUNT);
         self.0.write(first);
         self.1.write(second);
-    }
-
-    #[inline(always)]
-    fn write_past_caches(self, to: &mut [P::Format], order: &PastCaches) {
-        let (first, second) = to[..Self::COUNT].split_at_mut(P::COUNT);
-        self.0.write_past_caches(first, order);
-        self.1.write_past_caches(second, order);
     }
 
     #[inline(always)]

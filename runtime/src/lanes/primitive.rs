@@ -43,16 +43,22 @@ pub trait Primitive:
     fn read(from: &[Self::Format]) -> Self;
     /// Into the first [`COUNT`](Self::COUNT) numbers of a slice; panics where there are fewer.
     fn write(self, to: &mut [Self::Format]);
-    /// Past the caches where `to` is aligned to the register and there is such an instruction, else as `write`.
-    #[inline(always)]
-    fn write_past_caches(self, to: &mut [Self::Format], _: &PastCaches) {
-        self.write(to);
+    /// See [`Lanes::stream`].
+    #[inline]
+    fn copy_past_caches(from: &[Self::Format], to: &mut [Self::Format], _: &PastCaches) {
+        to.copy_from_slice(from);
     }
-    /// Entry (i, j) from `from[i from_stride + j]` to `to[j to_stride + i]`, i, j < COUNT.
-    #[inline(always)]
-    fn turn(from: &[Self::Format], from_stride: usize, to: &mut [Self::Format], to_stride: usize) {
-        for i in 0..Self::COUNT {
-            for j in 0..Self::COUNT {
+    /// See [`Lanes::transpose`].
+    #[inline(never)]
+    fn turn(
+        [rows, columns]: [usize; 2],
+        from: &[Self::Format],
+        from_stride: usize,
+        to: &mut [Self::Format],
+        to_stride: usize,
+    ) {
+        for i in 0..rows {
+            for j in 0..columns {
                 to[j * to_stride + i] = from[i * from_stride + j];
             }
         }
@@ -273,13 +279,19 @@ impl<P: Primitive> Lanes for P {
     }
 
     #[inline(always)]
-    fn stream(self, to: &mut [P::Format], order: &PastCaches) {
-        self.write_past_caches(to, order);
+    fn stream(from: &[P::Format], to: &mut [P::Format], order: &PastCaches) {
+        P::copy_past_caches(from, to, order);
     }
 
     #[inline(always)]
-    fn transpose(from: &[P::Format], from_stride: usize, to: &mut [P::Format], to_stride: usize) {
-        P::turn(from, from_stride, to, to_stride);
+    fn transpose(
+        size: [usize; 2],
+        from: &[P::Format],
+        from_stride: usize,
+        to: &mut [P::Format],
+        to_stride: usize,
+    ) {
+        P::turn(size, from, from_stride, to, to_stride);
     }
 
     #[inline(always)]

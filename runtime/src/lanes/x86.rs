@@ -69,7 +69,7 @@ macro_rules! register {
     (
         $(#[$doc:meta])*
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, choice $Choice:ty,
-        fill $fill:ident, load $load:ident, store $store:ident, stream $stream:ident, turn $turn:path,
+        features $features:literal, fill $fill:ident, load $load:ident, store $store:ident, stream $stream:ident, turn $turn:path,
         add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident, fused $fused:ident,
         root $root:ident, larger $max:ident, smaller $min:ident, xor $xor:ident, and_not $and_not:ident,
         { $($rest:item)* }
@@ -89,6 +89,55 @@ macro_rules! register {
             fn neg(self) -> Self {
                 // SAFETY: the processor has this instruction, or there would be no value of this type.
                 Self(unsafe { $xor(self.0, $fill(-0.0)) })
+            }
+        }
+
+        // Functions of their own: inlined into every kernel they would only take its registers.
+        impl $Register {
+            #[target_feature(enable = $features)]
+            fn copy_registers_past_caches(from: &[$Number], to: &mut [$Number]) {
+                let is_aligned = to.as_ptr().cast::<$Register>().is_aligned();
+                if !is_aligned || to.len() % $lanes != 0 || from.len() != to.len() {
+                    return to.copy_from_slice(from);
+                }
+                let (to_registers, from_registers) =
+                    (to.as_chunks_mut::<$lanes>().0, from.as_chunks::<$lanes>().0);
+                for (to, from) in to_registers.iter_mut().zip(from_registers) {
+                    // SAFETY: as many numbers are writable at the pointer as the register holds, and it is aligned to it.
+                    unsafe { $stream(to.as_mut_ptr(), Self::read(from).0) }
+                }
+            }
+
+            /// A matrix of at least one square, square by square; the last one of a row or column overlaps the one before.
+            #[target_feature(enable = $features)]
+            fn turn_squares(
+                [rows, columns]: [usize; 2],
+                from: &[$Number],
+                from_stride: usize,
+                to: &mut [$Number],
+                to_stride: usize,
+            ) {
+                let mut i = 0;
+                while i < rows {
+                    i = i.min(rows - $lanes);
+                    let mut j = 0;
+                    while j < columns {
+                        j = j.min(columns - $lanes);
+                        let from = &from[i * from_stride + j..][..($lanes - 1) * from_stride + $lanes];
+                        let to = &mut to[j * to_stride + i..][..($lanes - 1) * to_stride + $lanes];
+                        let mut square = [Self::fill(0.0).0; $lanes];
+                        for k in 0..$lanes {
+                            square[k] = Self::read(&from[k * from_stride..]).0;
+                        }
+                        // SAFETY: this function has the condition of that one.
+                        let square = unsafe { $turn(square) };
+                        for k in 0..$lanes {
+                            Self(square[k]).write(&mut to[k * to_stride..]);
+                        }
+                        j += $lanes;
+                    }
+                    i += $lanes;
+                }
             }
         }
 
@@ -125,27 +174,24 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn write_past_caches(self, to: &mut [$Number], _: &PastCaches) {
-                let to = &mut to[..$lanes];
-                if to.as_ptr().cast::<$Register>().is_aligned() {
-                    // SAFETY: as many numbers are writable at the pointer as the register holds, and it is aligned to it.
-                    unsafe { $stream(to.as_mut_ptr(), self.0) }
-                } else {
-                    self.write(to);
-                }
+            fn copy_past_caches(from: &[$Number], to: &mut [$Number], _: &PastCaches) {
+                // SAFETY: the processor has the instructions, or nobody would name this type.
+                unsafe { Self::copy_registers_past_caches(from, to) }
             }
 
             #[inline(always)]
-            fn turn(from: &[$Number], from_stride: usize, to: &mut [$Number], to_stride: usize) {
-                let mut rows = [Self::fill(0.0).0; $lanes];
-                for i in 0..$lanes {
-                    rows[i] = Self::read(&from[i * from_stride..]).0;
+            fn turn(
+                size: [usize; 2],
+                from: &[$Number],
+                from_stride: usize,
+                to: &mut [$Number],
+                to_stride: usize,
+            ) {
+                if size[0] < $lanes || size[1] < $lanes {
+                    return <$Number as Primitive>::turn(size, from, from_stride, to, to_stride);
                 }
-                // SAFETY: the processor has the instructions, or there would be no value of this type.
-                let columns = unsafe { $turn(rows) };
-                for j in 0..$lanes {
-                    Self(columns[j]).write(&mut to[j * to_stride..]);
-                }
+                // SAFETY: the processor has the instructions, or nobody would name this type.
+                unsafe { Self::turn_squares(size, from, from_stride, to, to_stride) }
             }
 
             #[inline(always)]
@@ -313,7 +359,7 @@ register_512! {
         let series = e.fused(Self::fill(0.3125), Self::fill(0.375)).fused(e, Self::fill(0.5));
         y.fused(e * series, y)
     },
-    fill _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd, turn transpose::turn_f64x8,
+    features "avx512f", fill _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd, turn transpose::turn_f64x8,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd, fused _mm512_fmadd_pd,
     root _mm512_sqrt_pd, larger _mm512_max_pd, smaller _mm512_min_pd,
     xor _mm512_xor_pd, and_not _mm512_andnot_pd,
@@ -332,7 +378,7 @@ register_512! {
         let e = (-(x * y)).fused(y, Self::fill(1.0));
         y.fused(e * Self::fill(0.5), y)
     },
-    fill _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps, turn transpose::turn_f32x16,
+    features "avx512f", fill _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps, turn transpose::turn_f32x16,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps, fused _mm512_fmadd_ps,
     root _mm512_sqrt_ps, larger _mm512_max_ps, smaller _mm512_min_ps,
     xor _mm512_xor_ps, and_not _mm512_andnot_ps,
@@ -505,7 +551,7 @@ register_256! {
         (Self(_mm256_castsi256_pd(m)), Self(_mm256_castsi256_pd(e)) - rounding)
     },
     xor _mm256_xor_pd, and_not _mm256_andnot_pd,
-    fill _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd, stream _mm256_stream_pd, turn transpose::turn_f64x4,
+    features "avx2,fma", fill _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd, stream _mm256_stream_pd, turn transpose::turn_f64x4,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd, fused _mm256_fmadd_pd,
     root _mm256_sqrt_pd, larger _mm256_max_pd, smaller _mm256_min_pd,
 }
@@ -537,7 +583,7 @@ register_256! {
         (Self(_mm256_castsi256_ps(m)), Self(_mm256_cvtepi32_ps(exponent)))
     },
     xor _mm256_xor_ps, and_not _mm256_andnot_ps,
-    fill _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps, stream _mm256_stream_ps, turn transpose::turn_f32x8,
+    features "avx2,fma", fill _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps, stream _mm256_stream_ps, turn transpose::turn_f32x8,
     add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps, fused _mm256_fmadd_ps,
     root _mm256_sqrt_ps, larger _mm256_max_ps, smaller _mm256_min_ps,
 }
