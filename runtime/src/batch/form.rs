@@ -54,9 +54,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
             thrice!(y => {
                 let (row, column) = (3 * a + x, 3 * c + y);
                 put(self.1, 9 * row + column, block[x][y]);
-                if a != c {
-                    put(self.1, 9 * column + row, block[x][y]);
-                }
+                put(self.1, 9 * column + row, block[x][y]);
             });
         });
     }
@@ -79,7 +77,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
         thrice!(x => {
             thrice!(y => {
                 if a != c || x <= y {
-                    put(self.1, packed(9, 3 * a + x, 3 * c + y), block[x][y]);
+                    put(self.1, PACKED_9[3 * a + x][3 * c + y], block[x][y]);
                 }
             });
         });
@@ -94,11 +92,23 @@ impl Form<0, 45> for PackedTangent {
     }
 }
 
-/// Where entry (row, column), row ≤ column, of a symmetric matrix is when its upper triangle is stored row by row.
-#[inline(always)]
-pub(super) const fn packed(size: usize, row: usize, column: usize) -> usize {
-    row * size - row * (row + 1) / 2 + column
+/// Where the entries of a symmetric matrix are when its upper triangle is stored row by row.
+const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
+    let mut places = [[0; SIZE]; SIZE];
+    let (mut place, mut row) = (0, 0);
+    while row < SIZE {
+        let mut column = row;
+        while column < SIZE {
+            (places[row][column], places[column][row]) = (place, place);
+            (place, column) = (place + 1, column + 1);
+        }
+        row += 1;
+    }
+    places
 }
+
+pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
+pub(super) static PACKED_12: [[usize; 12]; 12] = packed();
 
 /// dP/dF as what it is made of: U, V, ψij, flips, twists.
 pub(super) struct Factored;
@@ -222,8 +232,8 @@ pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
 
 /// Where the entries of an element's stiffness go.
 trait Places {
-    /// The one or two places of the entry between coordinate a of node i and c of node j, i ≥ j.
-    fn places(i: usize, a: usize, j: usize, c: usize) -> [usize; 2];
+    /// The place of the entry between coordinate a of node i and c of node j, i ≥ j, and that of its mirror image.
+    fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>);
 }
 
 /// The stiffness from the blocks of the tangent: [`contract`] with W in place of V, with no 9×12 product.
@@ -234,9 +244,9 @@ struct Stiffness<'a, F, E>(F, &'a mut [E]);
 impl<F: Places, E: Element> Stiffness<'_, F, E> {
     #[inline(always)]
     fn put<R: Lanes<Element = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
-        let [place, mirrored] = F::places(i, a, j, c);
+        let (place, mirrored) = F::places(i, a, j, c);
         put(self.1, place, entry);
-        if mirrored != place {
+        if let Some(mirrored) = mirrored {
             put(self.1, mirrored, entry);
         }
     }
@@ -245,24 +255,20 @@ impl<F: Places, E: Element> Stiffness<'_, F, E> {
 impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Element> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1; for a ≠ c it stands for
-        // its mirror image too.
+        // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for its mirror image
+        // too, which for a = c is itself.
         let rows = three!(x => block[x][0] + block[x][1] + block[x][2]);
         self.put([0, a], [0, c], rows[0] + rows[1] + rows[2]);
         thrice!(x => {
             self.put([x + 1, a], [0, c], -rows[x]);
+            self.put([x + 1, c], [0, a], -(block[0][x] + block[1][x] + block[2][x]));
             self.put([x + 1, a], [x + 1, c], block[x][x]);
             thrice!(y => {
                 if y < x {
                     self.put([x + 1, a], [y + 1, c], block[x][y]);
-                    if a != c {
-                        self.put([x + 1, c], [y + 1, a], block[y][x]);
-                    }
+                    self.put([x + 1, c], [y + 1, a], block[y][x]);
                 }
             });
-            if a != c {
-                self.put([x + 1, c], [0, a], -(block[0][x] + block[1][x] + block[2][x]));
-            }
         });
     }
 }
@@ -274,7 +280,7 @@ macro_rules! stiffness_form {
 
         impl Places for $Form {
             #[inline(always)]
-            fn places($i: usize, $a: usize, $j: usize, $c: usize) -> [usize; 2] {
+            fn places($i: usize, $a: usize, $j: usize, $c: usize) -> (usize, Option<usize>) {
                 $places
             }
         }
@@ -300,7 +306,7 @@ stiffness_form! {
     /// All 144 entries: unknown 3i+a is coordinate a of node i, entry (row, column) at 12 row + column.
     FullStiffness of 144, |i, a, j, c| {
         let (row, column) = (3 * i + a, 3 * j + c);
-        [12 * row + column, 12 * column + row]
+        (12 * row + column, Some(12 * column + row))
     }
 }
 
@@ -308,7 +314,7 @@ stiffness_form! {
     /// The 78 entries on and above the diagonal, row by row.
     PackedStiffness of 78, |i, a, j, c| {
         let (row, column) = (3 * i + a, 3 * j + c);
-        [packed(12, row.min(column), row.max(column)); 2]
+        (PACKED_12[row][column], None)
     }
 }
 
@@ -316,6 +322,6 @@ stiffness_form! {
     /// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
     BlockStiffness of 90, |i, a, j, c| {
         let start = 9 * (i * (i + 1) / 2 + j);
-        [start + 3 * a + c, if i == j { start + 3 * c + a } else { start + 3 * a + c }]
+        (start + 3 * a + c, (i == j).then_some(start + 3 * c + a))
     }
 }

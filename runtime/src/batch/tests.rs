@@ -196,7 +196,7 @@ fn check_point<E: Number>(
         for l in 0..9 {
             worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
             if l >= k {
-                let entry = number(layout, &found.packed, 45, p, form::packed(9, k, l));
+                let entry = number(layout, &found.packed, 45, p, form::PACKED_9[k][l]);
                 assert!(entry == found.full[81 * p + 9 * k + l]);
             }
         }
@@ -226,7 +226,7 @@ fn check_point<E: Number>(
             let mine = found.stiffnesses[144 * p + 12 * row + column];
             worst.see(mine, entry, shape * shape * stiff * size * size);
             if column >= row {
-                assert!(mine == found.packed_stiffnesses[78 * p + form::packed(12, row, column)]);
+                assert!(mine == found.packed_stiffnesses[78 * p + form::PACKED_12[row][column]]);
             }
         }
     }
