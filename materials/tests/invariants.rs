@@ -17,7 +17,7 @@ impl Visitor for Judge {
 
     fn visit<M: Declared + 'static>(self, material: M) -> bool {
         if !M::HAS_INVARIANTS {
-            assert!(!material.admits_invariants([3.0, 3.0, 1.0]));
+            assert!(!material.admits_invariants([3.0, 3.0, 1.0f64]));
             return false;
         }
         let name = M::DESCRIPTION.name;
@@ -68,7 +68,7 @@ fn below_the_threshold_invariants_do_not_hold() -> Result<(), piola::material::I
         assert!(!extended.admits_invariants([first, 0.0, volume]), "{l3}");
         assert_eq!(rubber.admits_invariants([first, 0.0, volume]), volume > 0.0, "{l3}");
     }
-    assert!(extended.admits_invariants([3.0, 3.0, 1.0]));
+    assert!(extended.admits_invariants([3.0, 3.0, 1.0f64]));
     assert!(!extended.admits_invariants([f64::NAN, 3.0, 1.0]));
     Ok(())
 }

@@ -35,6 +35,12 @@
 //! **Status.** A point that cannot be computed is no error of a call: its numbers mean nothing, and a [`Survey`] counts such
 //! points and names the first.
 //!
+//! **Parameters.** A material is the same for all points; with [`Each`](crate::material::Each) every point has its own.
+//!
+//! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
+//! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or out of their range
+//! takes the way of all others.
+//!
 //! This module knows no sparsity and no particular material.
 
 #![expect(non_snake_case, reason = "F, P, dF, dP as in the literature")]
@@ -60,9 +66,13 @@ pub use tile::Rows;
 
 #[cfg(test)]
 pub(crate) use form::STIFFEST;
-use jobs::Work;
+use jobs::{Tile, Work};
 use sink::{Sink, Source};
-use stage::{Decompose, Forces, Judge, Marks, Product, Respond, StiffnessForm, Stress, TangentForm};
+use stage::{
+    Decompose, Forces, Invariants, Judge, Marks, Product, Respond, StiffnessForm, Stress, StressByInvariants,
+    TangentForm,
+};
+use tile::first_bits;
 use workspace::Workspace;
 
 /// A material and how to compute with it.
@@ -105,12 +115,20 @@ impl<'a, E: Stages> Batch<'a, E> {
         let count = self.count(&[("F", F.len(), 9), ("energies", energies.len(), 1)])?;
         let work = Work { inputs: [(F, 9)], outputs: [(energies, 1)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let Workspace { F: rows, points, energies: values, .. } = tile.workspace;
-            let ([F], [energies]) = (tile.inputs, tile.outputs);
-            self.decompose(F, rows, tile.count, points);
-            let verdict = self.energy.energies(self.tile(points, tile.start, tile.count), values);
-            energies.copy_from_slice(&values.0[0][..tile.count]);
-            Marks { refused: verdict.refused, nonfinite: verdict.nonfinite, ..Marks::default() }
+            let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
+            let by_invariants = self.energies_by_invariants(F, start, count, workspace);
+            energies.copy_from_slice(&workspace.energies_by_invariants.0[0][..count]);
+            if by_invariants == first_bits(count) {
+                return Marks::default();
+            }
+            let Workspace { F, points, energies: values, .. } = workspace;
+            self.decompose(F, count, points);
+            let verdict = self.energy.energies(self.tile(&points.stretches, start, count), values);
+            for point in (0..count).filter(|point| by_invariants >> point & 1 == 0) {
+                energies[point] = values.0[0][point];
+            }
+            let Verdict { refused, nonfinite } = verdict;
+            Marks { refused, nonfinite, ..Marks::default() }.without(by_invariants)
         }))
     }
 
@@ -122,12 +140,25 @@ impl<'a, E: Stages> Batch<'a, E> {
         let count = self.count(&[("F", F.len(), 9), ("P", P.len(), 9)])?;
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let Workspace { F: rows, points, gradients, line, .. } = tile.workspace;
-            let ([F], [P]) = (tile.inputs, tile.outputs);
-            self.decompose(F, rows, tile.count, points);
-            let refused = self.energy.gradients(self.tile(points, tile.start, tile.count), gradients);
-            let kernel = Stress { points, gradients: &gradients.0, count: tile.count, line, P: self.sink(P) };
-            Marks { refused, ..E::stress(self.backend, kernel) }
+            let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
+            let by_invariants = self.stresses_by_invariants(F, P, start, count, workspace);
+            if by_invariants == first_bits(count) {
+                return Marks::default();
+            }
+            // The points that the invariants have served keep what they got.
+            let Workspace { F, points, gradients, line, stress, .. } = workspace;
+            stress.copy_from(P);
+            self.decompose(F, count, points);
+            let refused = self.energy.gradients(self.tile(&points.stretches, start, count), gradients);
+            let kernel = Stress { points, gradients: &gradients.0, count, line, P: self.sink(&mut *P) };
+            let marks = Marks { refused, ..E::stress(self.backend, kernel) };
+            for point in (0..count).filter(|point| by_invariants >> point & 1 == 1) {
+                for k in 0..9 {
+                    let place = self.layout.index::<E>(point, 9, k);
+                    P[place] = stress.0.as_flattened()[place];
+                }
+            }
+            marks.without(by_invariants)
         }))
     }
 
@@ -229,7 +260,8 @@ impl<'a, E: Stages> Batch<'a, E> {
             let order = PastCaches::new();
             let Workspace { F: rows, points, blocks, line, .. } = tile.workspace;
             let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
-            self.decompose(F, rows, tile.count, points);
+            rows.fill(self.backend, self.layout, F);
+            self.decompose(rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
             let (points, count) = (&*points, tile.count);
             let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
@@ -260,7 +292,8 @@ impl<'a, E: Stages> Batch<'a, E> {
             let order = PastCaches::new();
             let Workspace { F: rows, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
-            self.decompose(F, rows, tile.count, points);
+            rows.fill(self.backend, self.layout, F);
+            self.decompose(rows, tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
             let (points, count) = (&*points, tile.count);
             let rest = Source::new(self.backend, self.layout, rest, shapes);
@@ -273,22 +306,59 @@ impl<'a, E: Stages> Batch<'a, E> {
         }))
     }
 
-    fn decompose(&self, F: &[E], rows: &mut Rows<E, 9>, count: usize, points: &mut Points<E>) {
+    /// Fills F, and ψ of the points that invariants serve, which are returned.
+    fn energies_by_invariants(&self, F: &[E], start: usize, count: usize, to: &mut Workspace<E>) -> u64 {
+        let Workspace { F: rows, invariants, energies_by_invariants, .. } = to;
         rows.fill(self.backend, self.layout, F);
+        if !self.energy.has_invariants() {
+            return 0;
+        }
+        let in_range = E::invariants(self.backend, Invariants { F: rows, count, invariants });
+        let tile = self.tile(invariants, start, count);
+        in_range & self.energy.energies_by_invariants(tile, energies_by_invariants)
+    }
+
+    /// Fills F, and P of the points that invariants serve, which are returned.
+    fn stresses_by_invariants(
+        &self,
+        F: &[E],
+        P: &mut [E],
+        start: usize,
+        count: usize,
+        to: &mut Workspace<E>,
+    ) -> u64 {
+        let Workspace { F: rows, invariants, gradients, line, .. } = to;
+        rows.fill(self.backend, self.layout, F);
+        if !self.energy.has_invariants() {
+            return 0;
+        }
+        let in_range = E::invariants(self.backend, Invariants { F: rows, count, invariants });
+        let taken =
+            in_range & self.energy.gradients_by_invariants(self.tile(invariants, start, count), gradients);
+        if taken == 0 {
+            return 0;
+        }
+        let P = self.sink(P);
+        let kernel = StressByInvariants { F: rows, invariants, gradients, count, line, P };
+        taken & E::stress_by_invariants(self.backend, kernel)
+    }
+
+    /// Frames and stretches of the deformation gradients in a workspace.
+    fn decompose(&self, F: &Rows<E, 9>, count: usize, points: &mut Points<E>) {
         let is_signed = self.energy.ends_at_zero_volume();
-        E::decompose(self.backend, Decompose { F: rows, count, is_signed, points });
+        E::decompose(self.backend, Decompose { F, count, is_signed, points });
     }
 
     /// The filtered blocks of a tile.
     fn blocks(&self, points: &Points<E>, start: usize, count: usize, blocks: &mut Rows<E, 15>) -> Marks {
-        let refused = self.energy.blocks(self.tile(points, start, count), blocks);
+        let refused = self.energy.blocks(self.tile(&points.stretches, start, count), blocks);
         let has_pole = self.energy.has_pole();
         let kernel = Judge { points, blocks, count, filter: self.filter, has_pole };
         Marks { refused, ..E::judge(self.backend, kernel) }
     }
 
-    fn tile<'t>(&self, points: &'t Points<E>, start: usize, count: usize) -> TileOf<'t, E> {
-        TileOf { backend: self.backend, start, count, stretches: &points.stretches }
+    fn tile<'t>(&self, arguments: &'t Rows<E, 3>, start: usize, count: usize) -> TileOf<'t, E> {
+        TileOf { backend: self.backend, start, count, arguments }
     }
 
     fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
@@ -308,7 +378,8 @@ impl<'a, E: Stages> Batch<'a, E> {
             Layout::Lines => E::LINE,
         };
         let count = length / numbers / group * group;
-        let misfit = slices.iter().find(|(_, length, numbers)| *length != count * numbers);
+        let parameters = self.energy.points().map(|points| ("materials", points, 1));
+        let misfit = slices.iter().chain(&parameters).find(|(_, length, numbers)| *length != count * numbers);
         match misfit {
             None => Ok(count),
             Some(&(slice, found, numbers)) => {

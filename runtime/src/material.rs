@@ -21,7 +21,7 @@ use crate::lanes::{Mask, Real};
 
 mod varying;
 
-pub use varying::{Each, Parameters, Uniform, Varying};
+pub use varying::{Each, Mixed, Parameters, Uniform, Varying};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];

@@ -20,6 +20,7 @@ use crate::material::{Blocks, Material, Status};
 use crate::quotient::pole_floor;
 
 pub mod gradient;
+pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
 pub mod project;
@@ -166,11 +167,16 @@ pub(crate) fn energy_is_finite<R: Real>(stretches: [R; 3], energy: R) -> R::Mask
     stretches_in_range(stretches) & energy.is_finite()
 }
 
+/// Whether no entry is infinite or NaN.
+#[inline(always)]
+pub(crate) fn entries_are_finite<R: Real>(A: &Matrix3<R>) -> R::Mask {
+    none_infinite([none_infinite(A[0]), none_infinite(A[1]), none_infinite(A[2])]).is_finite()
+}
+
 /// Whether stretches and stress mean something.
 #[inline(always)]
 pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R::Mask {
-    let sum = none_infinite([none_infinite(P[0]), none_infinite(P[1]), none_infinite(P[2])]);
-    stretches_in_range(stretches) & sum.is_finite()
+    stretches_in_range(stretches) & entries_are_finite(P)
 }
 
 /// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.

@@ -114,7 +114,7 @@ impl ElementTile {
     }
 
     fn stretched(&self) -> TileOf<'_, f64> {
-        TileOf { backend: self.backend, start: 0, count: self.count, stretches: &self.points.stretches }
+        TileOf { backend: self.backend, start: 0, count: self.count, arguments: &self.points.stretches }
     }
 }
 

@@ -68,7 +68,7 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
 /// Room for the points of a tile in [`Layout::Lines`].
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Lines<E, const N: usize>([[E; N]; TILE]);
+pub(super) struct Lines<E, const N: usize>(pub(super) [[E; N]; TILE]);
 
 impl<E: Element, const N: usize> Lines<E, N> {
     pub(super) fn zero() -> Self {
@@ -77,6 +77,11 @@ impl<E: Element, const N: usize> Lines<E, N> {
 
     pub(super) fn set(&mut self, point: usize, k: usize, number: E) {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
+    }
+
+    /// A tile's part of a slice as it is.
+    pub(super) fn copy_from(&mut self, from: &[E]) {
+        self.0.as_flattened_mut()[..from.len()].copy_from_slice(from);
     }
 
     pub(super) fn source(&self) -> Source<'_, E, N> {

@@ -16,9 +16,11 @@ use super::sink::{Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::{Line, Workspace};
 use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::three;
 use crate::point::{
-    Filter, Matrix3, Svd, Tangent, judge, multiply, stress, stress_is_finite, svd, svd_signed_by_determinant,
+    Filter, Matrix3, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
+    svd_signed_by_determinant,
 };
 
 /// Frames and stretches of a tile's deformation gradients.
@@ -81,9 +83,17 @@ impl Marks {
         }
     }
 
+    /// Without what is said of these points.
+    pub(super) fn without(self, points: u64) -> Self {
+        self.of(!points)
+    }
+
     /// Without what the lanes beyond the last point say.
     fn of_first(self, count: usize) -> Self {
-        let points = first_bits(count);
+        self.of(first_bits(count))
+    }
+
+    fn of(self, points: u64) -> Self {
         Self {
             refused: self.refused & points,
             bounded: self.bounded & points,
@@ -117,6 +127,59 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
                 points.set(at, &svd(&to_matrix(F.get_all::<R::Interleaved>(at))));
             });
         }
+    }
+}
+
+/// The deformation gradients of a tile into I1, I2, J.
+pub(super) struct Invariants<'a, E> {
+    pub(super) F: &'a Rows<E, 9>,
+    pub(super) count: usize,
+    pub(super) invariants: &'a mut Rows<E, 3>,
+}
+
+impl<E: Element> Kernel<E> for Invariants<'_, E> {
+    /// The points in range.
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> u64 {
+        let Self { F, count, invariants: to } = self;
+        let mut in_range = 0;
+        for_each_group!(R, count, |at| {
+            let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)));
+            to.set_all(at, numbers);
+            in_range |= R::bits(is_in_range) << at;
+        });
+        in_range & first_bits(count)
+    }
+}
+
+/// F, I1 and W1, W2, WJ into P.
+pub(super) struct StressByInvariants<'a, E> {
+    pub(super) F: &'a Rows<E, 9>,
+    pub(super) invariants: &'a Rows<E, 3>,
+    pub(super) gradients: &'a Rows<E, 3>,
+    pub(super) count: usize,
+    pub(super) line: &'a mut Line<E>,
+    pub(super) P: Sink<'a, E>,
+}
+
+impl<E: Element> Kernel<E> for StressByInvariants<'_, E> {
+    /// The points whose stress is finite.
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = E>>(self) -> u64 {
+        let Self { F, invariants, gradients, count, line, mut P } = self;
+        let mut finite = 0;
+        for_each_group!(R, count, |at| {
+            let (F, I1) = (to_matrix(F.get_all::<R>(at)), invariants.get(0, at));
+            let stress = stress_by_invariants(&F, I1, gradients.get_all(at));
+            finite |= R::bits(entries_are_finite(&stress)) << at;
+            put_all(to_numbers(stress), P.place::<R, 9>(line, at));
+            P.finish::<R, 9>(line, at, count);
+        });
+        finite & first_bits(count)
     }
 }
 
@@ -318,6 +381,10 @@ pub trait Stages: Element {
     #[doc(hidden)]
     fn deform(backend: Backend, kernel: Deform<'_, Self>);
     #[doc(hidden)]
+    fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64;
+    #[doc(hidden)]
+    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64;
+    #[doc(hidden)]
     fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks;
     #[doc(hidden)]
     fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Marks;
@@ -344,6 +411,14 @@ macro_rules! stages {
 
             fn deform(backend: Backend, kernel: Deform<'_, Self>) {
                 backend.run(kernel);
+            }
+
+            fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64 {
+                backend.run(kernel)
+            }
+
+            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64 {
+                backend.run(kernel)
             }
 
             fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks {

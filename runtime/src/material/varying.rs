@@ -3,14 +3,15 @@
 //! What a declaration computes reads its parameters through [`Parameters`]: with [`Uniform`] every number of a batch gets
 //! those of one material, at no cost; with [`Each`] every number gets those of a material of its own.
 
+use std::fmt;
+
 use super::{Blocks, Inversion, Material};
 use crate::lanes::{Mask, Real};
 
 /// A material whose parameters may differ from point to point: every declared one without functions as parameters.
 ///
 /// Each method is that of [`Material`] without the ending `_of`, for the materials of several points. All of them must have
-/// the same [`inversion`](Varying::inversion), threshold included: it decides which program runs, and that of the first
-/// one is taken for all.
+/// the same [`inversion`](Varying::inversion), threshold included, as [`Each`] makes sure: it decides which program runs.
 ///
 /// ```
 /// use piola::lanes::{Lanes, Pair};
@@ -23,11 +24,11 @@ use crate::lanes::{Mask, Real};
 ///     mu / 2.0 * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
 /// }
 ///
-/// # fn main() -> Result<(), piola::material::Inadmissible> {
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let springs = [Springs::new(1.0)?, Springs::new(2.0)?];
 /// let stretches = [[1.5, 1.5], [1.0, 1.0], [1.0, 0.5]].map(|lanes| Pair::<f64>::load(&lanes));
 /// let mut energies = [0.0; 2];
-/// Springs::energy_of(&Each(&springs), stretches).store(&mut energies);
+/// Springs::energy_of(&Each::new(&springs)?, stretches).store(&mut energies);
 /// assert_eq!(energies, [springs[0].energy([1.5, 1.0, 1.0]), springs[1].energy([1.5, 1.0, 0.5])]);
 /// # Ok(())
 /// # }
@@ -95,14 +96,45 @@ impl<M> Parameters<M> for Uniform<'_, M> {
     }
 }
 
-/// A material for each number, in their order; evaluation panics where there are fewer.
+/// A material for each number, in their order. Where there are fewer, the last one serves for the rest.
+///
+/// As the energy of a [`Batch`](crate::batch::Batch), a material for each point.
 #[derive(Clone, Copy, Debug)]
-pub struct Each<'a, M>(pub &'a [M]);
+pub struct Each<'a, M>(&'a [M]);
+
+impl<'a, M: Varying> Each<'a, M> {
+    /// All materials must do the same outside their domain.
+    ///
+    /// # Errors
+    /// Where there is none, or two differ in their [`Inversion`].
+    pub fn new(materials: &'a [M]) -> Result<Self, Mixed> {
+        let first = materials.first().ok_or(Mixed { material: 0 })?.inversion();
+        match materials.iter().position(|material| material.inversion() != first) {
+            None => Ok(Self(materials)),
+            Some(material) => Err(Mixed { material }),
+        }
+    }
+}
+
+impl<'a, M> Each<'a, M> {
+    /// One for each number, at least one.
+    #[inline(always)]
+    pub(crate) fn materials(&self) -> &'a [M] {
+        self.0
+    }
+
+    /// Those from number `start` on, which must be one of them.
+    #[inline(always)]
+    pub(crate) fn from(&self, start: usize) -> Self {
+        Self(&self.0[start..])
+    }
+}
 
 impl<M> Parameters<M> for Each<'_, M> {
     #[inline(always)]
     fn read<R: Real>(&self, parameter: impl Fn(&M) -> f64) -> R {
-        R::from_fn(|lane| parameter(&self.0[lane]))
+        let last = self.0.len() - 1;
+        R::from_fn(|lane| parameter(&self.0[lane.min(last)]))
     }
 
     #[inline(always)]
@@ -110,3 +142,24 @@ impl<M> Parameters<M> for Each<'_, M> {
         &self.0[0]
     }
 }
+
+/// Why materials cannot be evaluated together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mixed {
+    /// The first one whose [`Inversion`] is not that of material 0; 0 where there is none at all.
+    pub material: usize,
+}
+
+impl fmt::Display for Mixed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.material {
+            0 => f.write_str("there is no material: give one for each point"),
+            k => write!(
+                f,
+                "material {k} does something else outside its domain than material 0: build all with the same inversion"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Mixed {}

@@ -259,7 +259,7 @@ fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
 
 /// det F to about twice the working precision, relative to Σ|products of three entries|.
 #[inline(always)]
-fn determinant<R: Real>(F: &Matrix3<R>) -> R {
+pub(super) fn determinant<R: Real>(F: &Matrix3<R>) -> R {
     let [(a, da), (b, db), (c, dc)] = three!(j => {
         let (k, l) = ((j + 1) % 3, (j + 2) % 3);
         let (minor, minor_error) = difference_of_products(F[1][k], F[2][l], F[1][l], F[2][k]);
