@@ -1,0 +1,163 @@
+//! Batches of declared materials: parameters for each point, and energies of invariants with and without them.
+
+#![expect(non_snake_case, reason = "F, P as in the literature")]
+
+use piola::Inversion;
+use piola::batch::{Batch, Energy, Layout, Survey};
+use piola::lanes::Backend;
+use piola::material::{Each, Mixed, Varying};
+use piola_materials::{Gent, NeoHookean, Ogden};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
+
+/// More than two tiles, and not a whole number of lines.
+const COUNT: usize = 150;
+
+/// Deformation gradients from gentle to inside out, one that is rank-deficient and one out of the invariants' range.
+fn deformations() -> Vec<[f64; 9]> {
+    let mut all: Vec<[f64; 9]> = (0..COUNT)
+        .map(|p| {
+            let turn = 0.7 * p as f64;
+            let shear = 0.4 * turn.sin();
+            let last = if p % 7 == 3 { -0.5 } else { 0.5 + (0.3 * turn.cos()).abs() };
+            [1.0 + 0.3 * turn.cos(), shear, 0.1, -0.2 * shear, 1.1, shear, 0.05, 0.2, last]
+        })
+        .collect();
+    all[40] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    all[41] = [1e60, 0.0, 0.0, 0.0, 1e60, 0.0, 0.0, 0.0, 1e60];
+    all
+}
+
+/// What a batch says of points: energies, stresses, tangents, and how the first two calls went.
+#[derive(Debug, PartialEq)]
+struct Answers {
+    energies: Vec<f64>,
+    stresses: Vec<f64>,
+    tangents: Vec<f64>,
+    surveys: [Survey; 2],
+}
+
+fn answers(
+    energy: &dyn Energy<f64>,
+    backend: Backend,
+    all: &[[f64; 9]],
+) -> Result<Answers, Box<dyn std::error::Error>> {
+    let (batch, F) = (Batch { backend, ..Batch::new(energy) }, all.as_flattened());
+    let n = all.len();
+    let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
+    let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
+    let surveys = [batch.energies(F, &mut energies)?, batch.stresses(F, &mut stresses)?];
+    batch.tangents(F, &mut beside, &mut tangents)?;
+    Ok(Answers { energies, stresses, tangents, surveys })
+}
+
+/// As bits, so that NaN equals itself.
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|x| x.to_bits()).collect()
+}
+
+fn check_each<M: Varying>(materials: &[M]) -> Outcome {
+    let all = deformations();
+    let each = Each::new(materials)?;
+    for backend in Backend::available() {
+        let together = answers(&each, backend, &all)?;
+        for (p, material) in materials.iter().enumerate() {
+            let alone = answers(material, backend, &all[p..=p])?;
+            assert_eq!(bits(&together.energies[p..=p]), bits(&alone.energies), "point {p}, {backend}");
+            assert_eq!(bits(&together.stresses[9 * p..][..9]), bits(&alone.stresses), "point {p}, {backend}");
+            assert_eq!(
+                bits(&together.tangents[81 * p..][..81]),
+                bits(&alone.tangents),
+                "point {p}, {backend}"
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn each_point_of_a_batch_gets_what_it_would_get_alone() -> Outcome {
+    let stiffness = |p: usize| 1.0 + 0.1 * p as f64;
+    let rubbers: Result<Vec<_>, _> =
+        (0..COUNT).map(|p| NeoHookean::new(stiffness(p), 3.0)?.with_inversion(EXTEND)).collect();
+    check_each(&rubbers?)?;
+    let refusing: Result<Vec<_>, _> = (0..COUNT).map(|p| Gent::new(stiffness(p), 30.0, 10.0)).collect();
+    check_each(&refusing?)?;
+    let ogdens: Result<Vec<_>, _> = (0..COUNT)
+        .map(|p| Ogden::new([stiffness(p), 0.2], [1.3, 3.0], 5.0)?.with_inversion(EXTEND))
+        .collect();
+    check_each(&ogdens?)
+}
+
+#[test]
+fn materials_must_fit_the_points_and_each_other() -> Outcome {
+    let rubber = NeoHookean::new(1.0, 3.0)?;
+    let three = [rubber; 3];
+    let each = Each::new(&three)?;
+    let error = Batch::<f64>::new(&each).energies(&[1.0; 18], &mut [0.0; 2]).expect_err("two points");
+    assert!(error.to_string().contains("materials"), "{error}");
+    assert_eq!(Each::<NeoHookean>::new(&[]).err(), Some(Mixed { material: 0 }));
+    let mixed = [rubber, rubber.with_inversion(EXTEND)?];
+    assert_eq!(Each::new(&mixed).err(), Some(Mixed { material: 1 }));
+    Ok(())
+}
+
+/// A point that needs a decomposition leaves the bits of its neighbours as they are, and gets its own.
+#[test]
+fn points_with_and_without_invariants_share_a_tile() -> Outcome {
+    let all = deformations();
+    for energy in [NeoHookean::new(1.0, 3.0)?, NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?] {
+        for backend in Backend::available() {
+            let together = answers(&energy, backend, &all)?;
+            let mut refused = 0;
+            for (p, F) in all.iter().enumerate() {
+                let alone = answers(&energy, backend, &[*F])?;
+                refused += alone.surveys[0].refused;
+                assert_eq!(bits(&together.energies[p..=p]), bits(&alone.energies), "point {p}, {backend}");
+                assert_eq!(
+                    bits(&together.stresses[9 * p..][..9]),
+                    bits(&alone.stresses),
+                    "point {p}, {backend}"
+                );
+            }
+            assert_eq!(together.surveys.map(|survey| survey.refused), [refused; 2], "{backend}");
+        }
+    }
+    Ok(())
+}
+
+/// By invariants and by stretches P is the same but for rounding, in either layout.
+#[test]
+fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
+    let (all, energy) = (deformations(), NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?);
+    for backend in Backend::available() {
+        let batch = Batch::<f64> { backend, ..Batch::new(&energy) };
+        let (mut stresses, mut beside) = (vec![0.0; 9 * COUNT], vec![0.0; 9 * COUNT]);
+        let mut tangents = vec![0.0; 81 * COUNT];
+        batch.stresses(all.as_flattened(), &mut stresses)?;
+        batch.tangents(all.as_flattened(), &mut beside, &mut tangents)?;
+        for p in (0..COUNT).filter(|&p| p != 41) {
+            let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (found, expected) = (&stresses[9 * p..][..9], &beside[9 * p..][..9]);
+            let difference: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a - b).collect();
+            // Each of the two is good to 30 u (‖P‖ + sens), as the reference cases judge.
+            let sensitivity = norm(&tangents[81 * p..][..81]) * norm(&all[p]);
+            let bound = 60.0 * f64::EPSILON / 2.0 * (norm(expected) + sensitivity);
+            assert!(norm(&difference) <= bound, "point {p}, {backend}: {} > {bound}", norm(&difference));
+        }
+        let lines = Batch { layout: Layout::Lines, ..batch };
+        let whole = COUNT / 8 * 8;
+        let (mut F, mut P) = (vec![0.0; 9 * whole], vec![0.0; 9 * whole]);
+        for (p, k) in (0..whole).flat_map(|p| (0..9).map(move |k| (p, k))) {
+            F[Layout::Lines.index::<f64>(p, 9, k)] = all[p][k];
+        }
+        lines.stresses(&F, &mut P)?;
+        for (p, k) in (0..whole).flat_map(|p| (0..9).map(move |k| (p, k))) {
+            let found = P[Layout::Lines.index::<f64>(p, 9, k)];
+            assert_eq!(found.to_bits(), stresses[9 * p + k].to_bits(), "entry {k} of point {p}, {backend}");
+        }
+    }
+    Ok(())
+}
