@@ -116,12 +116,19 @@ impl<'a, E: Stages> Batch<'a, E> {
         let work = Work { inputs: [(F, 9)], outputs: [(energies, 1)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
-            let by_invariants = self.energies_by_invariants(F, start, count, workspace);
-            energies.copy_from_slice(&workspace.energies_by_invariants.0[0][..count]);
+            let Workspace { F: lines, points, invariants, energies_by_invariants, energies: values, .. } =
+                workspace;
+            let F = Source::new(self.backend, self.layout, F, lines);
+            let mut by_invariants = 0;
+            if self.energy.has_invariants() {
+                let in_range = E::invariants(self.backend, Invariants { F, count, invariants });
+                let tile = self.tile(invariants, start, count);
+                by_invariants = in_range & self.energy.energies_by_invariants(tile, energies_by_invariants);
+                energies.copy_from_slice(&energies_by_invariants.0[0][..count]);
+            }
             if by_invariants == first_bits(count) {
                 return Marks::default();
             }
-            let Workspace { F, points, energies: values, .. } = workspace;
             self.decompose(F, count, points);
             let verdict = self.energy.energies(self.tile(&points.stretches, start, count), values);
             for point in (0..count).filter(|point| by_invariants >> point & 1 == 0) {
@@ -141,12 +148,21 @@ impl<'a, E: Stages> Batch<'a, E> {
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
-            let by_invariants = self.stresses_by_invariants(F, P, start, count, workspace);
+            let Workspace { F: lines, points, invariants, gradients, line, stress, .. } = workspace;
+            let F = Source::new(self.backend, self.layout, F, lines);
+            let mut by_invariants = 0;
+            if self.energy.has_invariants() {
+                let in_range = E::invariants(self.backend, Invariants { F, count, invariants });
+                let tile = self.tile(invariants, start, count);
+                by_invariants = in_range & self.energy.gradients_by_invariants(tile, gradients);
+                let P = self.sink(&mut *P);
+                let kernel = StressByInvariants { F, invariants, gradients, count, line, P };
+                by_invariants &= E::stress_by_invariants(self.backend, kernel);
+            }
             if by_invariants == first_bits(count) {
                 return Marks::default();
             }
             // The points that the invariants have served keep what they got.
-            let Workspace { F, points, gradients, line, stress, .. } = workspace;
             stress.copy_from(P);
             self.decompose(F, count, points);
             let refused = self.energy.gradients(self.tile(&points.stretches, start, count), gradients);
@@ -258,10 +274,9 @@ impl<'a, E: Stages> Batch<'a, E> {
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
             let order = PastCaches::new();
-            let Workspace { F: rows, points, blocks, line, .. } = tile.workspace;
+            let Workspace { F: lines, points, blocks, line, .. } = tile.workspace;
             let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
-            rows.fill(self.backend, self.layout, F);
-            self.decompose(rows, tile.count, points);
+            self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
             let (points, count) = (&*points, tile.count);
             let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
@@ -290,10 +305,9 @@ impl<'a, E: Stages> Batch<'a, E> {
             Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
             let order = PastCaches::new();
-            let Workspace { F: rows, points, blocks, rest: shapes, line, .. } = tile.workspace;
+            let Workspace { F: lines, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
-            rows.fill(self.backend, self.layout, F);
-            self.decompose(rows, tile.count, points);
+            self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
             let judged = self.blocks(points, tile.start, tile.count, blocks);
             let (points, count) = (&*points, tile.count);
             let rest = Source::new(self.backend, self.layout, rest, shapes);
@@ -306,45 +320,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         }))
     }
 
-    /// Fills F, and ψ of the points that invariants serve, which are returned.
-    fn energies_by_invariants(&self, F: &[E], start: usize, count: usize, to: &mut Workspace<E>) -> u64 {
-        let Workspace { F: rows, invariants, energies_by_invariants, .. } = to;
-        rows.fill(self.backend, self.layout, F);
-        if !self.energy.has_invariants() {
-            return 0;
-        }
-        let in_range = E::invariants(self.backend, Invariants { F: rows, count, invariants });
-        let tile = self.tile(invariants, start, count);
-        in_range & self.energy.energies_by_invariants(tile, energies_by_invariants)
-    }
-
-    /// Fills F, and P of the points that invariants serve, which are returned.
-    fn stresses_by_invariants(
-        &self,
-        F: &[E],
-        P: &mut [E],
-        start: usize,
-        count: usize,
-        to: &mut Workspace<E>,
-    ) -> u64 {
-        let Workspace { F: rows, invariants, gradients, line, .. } = to;
-        rows.fill(self.backend, self.layout, F);
-        if !self.energy.has_invariants() {
-            return 0;
-        }
-        let in_range = E::invariants(self.backend, Invariants { F: rows, count, invariants });
-        let taken =
-            in_range & self.energy.gradients_by_invariants(self.tile(invariants, start, count), gradients);
-        if taken == 0 {
-            return 0;
-        }
-        let P = self.sink(P);
-        let kernel = StressByInvariants { F: rows, invariants, gradients, count, line, P };
-        taken & E::stress_by_invariants(self.backend, kernel)
-    }
-
-    /// Frames and stretches of the deformation gradients in a workspace.
-    fn decompose(&self, F: &Rows<E, 9>, count: usize, points: &mut Points<E>) {
+    fn decompose(&self, F: Source<'_, E, 9>, count: usize, points: &mut Points<E>) {
         let is_signed = self.energy.ends_at_zero_volume();
         E::decompose(self.backend, Decompose { F, count, is_signed, points });
     }

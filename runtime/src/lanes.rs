@@ -160,6 +160,13 @@ pub trait Lanes: Real {
     /// Where there are fewer.
     fn load(from: &[Self::Element]) -> Self;
 
+    /// One number of points in lines of [`LINE`](Element::LINE), each line `numbers` of them after the one before: as many entries
+    /// as a line has or there are lanes from the first place, as many from `numbers` lines later, and so on.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn load_lines(from: &[Self::Element], numbers: usize) -> Self;
+
     /// Writes the lanes into the first entries of a slice.
     ///
     /// # Panics

@@ -53,16 +53,16 @@ impl ElementTile {
     ) -> Verdict {
         let Self { backend, count, ref rest, ref mut points, .. } = *self;
         let is_signed = energy.ends_at_zero_volume();
-        f64::with_workspace(|Workspace { F: rows, .. }| {
+        f64::with_workspace(|Workspace { F: edges, .. }| {
             for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
                 for a in 0..3 {
-                    rows.0[3 * a][lane] = x1[a] - x0[a];
-                    rows.0[3 * a + 1][lane] = x2[a] - x0[a];
-                    rows.0[3 * a + 2][lane] = x3[a] - x0[a];
+                    edges.set(lane, 3 * a, x1[a] - x0[a]);
+                    edges.set(lane, 3 * a + 1, x2[a] - x0[a]);
+                    edges.set(lane, 3 * a + 2, x3[a] - x0[a]);
                 }
             }
-            f64::deform(backend, Deform { edges: rows, rest: rest.source(), count });
-            f64::decompose(backend, Decompose { F: rows, count, is_signed, points });
+            f64::deform(backend, Deform { edges, rest: rest.source(), count });
+            f64::decompose(backend, Decompose { F: edges.source(), count, is_signed, points });
         });
         f64::with_workspace(|Workspace { energies: densities, .. }| {
             let verdict = energy.energies(self.stretched(), densities);

@@ -1,6 +1,6 @@
 //! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
 
-use super::tile::{ROW, Rows, TILE};
+use super::tile::TILE;
 use super::workspace::Line;
 use crate::lanes::{Backend, Element, Kernel, Lanes, PastCaches};
 
@@ -36,19 +36,19 @@ impl<E> Source<'_, E, 0> {
 }
 
 impl<'a, E: Element, const N: usize> Source<'a, E, N> {
-    /// From a tile's part of a slice; `lines` is where points are turned to.
+    /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not full gets its room.
     pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
-            Layout::Lines => Self(from),
+            Layout::Lines if from.len() == N * TILE => return Self(from),
+            Layout::Lines => lines.copy_from(from),
             Layout::Points => {
-                for (from, to) in
-                    from.chunks(E::LINE * N).zip(lines.0.as_flattened_mut().chunks_mut(E::LINE * N))
-                {
-                    backend.run(Turn::<E, N> { from, to, stride: E::LINE });
+                let lines = lines.0.as_flattened_mut().chunks_mut(E::LINE * N);
+                for (from, to) in from.chunks(E::LINE * N).zip(lines) {
+                    backend.run(Turn::<E, N> { from, to });
                 }
-                lines.source()
             }
         }
+        lines.source()
     }
 
     /// The numbers of the points from `at` on.
@@ -56,9 +56,12 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
     pub(super) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
         if N > 0 {
-            let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..][..(N - 1) * E::LINE + R::LANES];
+            let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..];
+            // A constant length makes one check of all those to come.
+            let last = (R::LANES - 1) / E::LINE * N + N - 1;
+            let from = &from[..last * E::LINE + R::LANES.min(E::LINE)];
             for k in 0..N {
-                numbers[k] = R::load(&from[k * E::LINE..]);
+                numbers[k] = R::load_lines(&from[k * E::LINE..], N);
             }
         }
         numbers
@@ -79,6 +82,16 @@ impl<E: Element, const N: usize> Lines<E, N> {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
     }
 
+    /// The numbers of the points from `at` on.
+    #[inline(always)]
+    pub(super) fn set_all<R: Lanes<Element = E>>(&mut self, at: usize, numbers: [R; N]) {
+        let to = &mut self.0.as_flattened_mut()[at / E::LINE * N * E::LINE + at % E::LINE..];
+        let to = &mut to[..(N - 1) * E::LINE + R::LANES];
+        for k in 0..N {
+            numbers[k].store(&mut to[k * E::LINE..]);
+        }
+    }
+
     /// A tile's part of a slice as it is.
     pub(super) fn copy_from(&mut self, from: &[E]) {
         self.0.as_flattened_mut()[..from.len()].copy_from_slice(from);
@@ -89,29 +102,10 @@ impl<E: Element, const N: usize> Lines<E, N> {
     }
 }
 
-impl<E: Element, const N: usize> Rows<E, N> {
-    /// From a tile's part of a slice.
-    pub(super) fn fill(&mut self, backend: Backend, layout: Layout, from: &[E]) {
-        match layout {
-            Layout::Points => {
-                backend.run(Turn::<E, N> { from, to: self.0.as_flattened_mut(), stride: ROW });
-            }
-            Layout::Lines => {
-                for (line, numbers) in from.chunks_exact(N * E::LINE).enumerate() {
-                    for (row, numbers) in self.0.iter_mut().zip(numbers.chunks_exact(E::LINE)) {
-                        row[line * E::LINE..][..E::LINE].copy_from_slice(numbers);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Number k of each point to the places from k stride on.
+/// The points of a line, or fewer.
 struct Turn<'a, E, const N: usize> {
     from: &'a [E],
     to: &'a mut [E],
-    stride: usize,
 }
 
 impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
@@ -119,8 +113,8 @@ impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
 
     #[inline(always)]
     fn run<R: Lanes<Element = E>>(self) {
-        let Self { from, to, stride } = self;
-        R::transpose([from.len() / N, N], from, N, to, stride);
+        let Self { from, to } = self;
+        R::transpose([from.len() / N, N], from, N, to, E::LINE);
     }
 }
 

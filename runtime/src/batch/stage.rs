@@ -12,7 +12,7 @@ use super::form::{
     BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
     gradient_is_finite, put_all, put_gradient,
 };
-use super::sink::{Sink, Source};
+use super::sink::{Lines, Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::{Line, Workspace};
 use crate::lanes::{Backend, Element, Kernel, Lanes};
@@ -105,7 +105,7 @@ impl Marks {
 
 /// The deformation gradients of a tile into frames and stretches.
 pub(super) struct Decompose<'a, E> {
-    pub(super) F: &'a Rows<E, 9>,
+    pub(super) F: Source<'a, E, 9>,
     pub(super) count: usize,
     /// Whether the sign of det F decides over the domain.
     pub(super) is_signed: bool,
@@ -132,7 +132,7 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
 
 /// The deformation gradients of a tile into I1, I2, J.
 pub(super) struct Invariants<'a, E> {
-    pub(super) F: &'a Rows<E, 9>,
+    pub(super) F: Source<'a, E, 9>,
     pub(super) count: usize,
     pub(super) invariants: &'a mut Rows<E, 3>,
 }
@@ -156,7 +156,7 @@ impl<E: Element> Kernel<E> for Invariants<'_, E> {
 
 /// F, I1 and W1, W2, WJ into P.
 pub(super) struct StressByInvariants<'a, E> {
-    pub(super) F: &'a Rows<E, 9>,
+    pub(super) F: Source<'a, E, 9>,
     pub(super) invariants: &'a Rows<E, 3>,
     pub(super) gradients: &'a Rows<E, 3>,
     pub(super) count: usize,
@@ -186,7 +186,7 @@ impl<E: Element> Kernel<E> for StressByInvariants<'_, E> {
 /// Edges of a tile's tetrahedra into their deformation gradients, in place: F = Ds Dm⁻¹.
 pub(super) struct Deform<'a, E> {
     /// Ds: row a, column k is coordinate a of node k + 1 less that of node 0.
-    pub(super) edges: &'a mut Rows<E, 9>,
+    pub(super) edges: &'a mut Lines<E, 9>,
     pub(super) rest: Source<'a, E, 10>,
     pub(super) count: usize,
 }
@@ -198,7 +198,7 @@ impl<E: Element> Kernel<E> for Deform<'_, E> {
     fn run<R: Lanes<Element = E>>(self) {
         let Self { edges, rest, count } = self;
         for_each_group!(R, count, |at| {
-            let Ds = to_matrix(edges.get_all::<R>(at));
+            let Ds = to_matrix(edges.source().get_all::<R>(at));
             let [a, b, c, d, e, f, g, h, i, _] = rest.get_all::<R>(at);
             edges.set_all(at, to_numbers(multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])));
         });

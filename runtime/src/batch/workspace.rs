@@ -8,7 +8,7 @@ use crate::lanes::Element;
 /// Room for one tile of any call.
 #[derive(Debug)]
 pub struct Workspace<E> {
-    pub(super) F: Rows<E, 9>,
+    pub(super) F: Lines<E, 9>,
     pub(super) dF: Lines<E, 9>,
     pub(super) stress: Lines<E, 9>,
     pub(super) points: Points<E>,
@@ -30,7 +30,7 @@ pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
 impl<E: Element> Workspace<E> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            F: Rows::zero(),
+            F: Lines::zero(),
             dF: Lines::zero(),
             stress: Lines::zero(),
             points: Points::new(),

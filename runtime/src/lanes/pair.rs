@@ -9,8 +9,8 @@
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::Mask;
 use super::primitive::Primitive;
+use super::{Element, Mask};
 
 /// Two numbers, two registers, or two pairs.
 #[derive(Clone, Copy, Debug)]
@@ -93,6 +93,13 @@ impl<P: Primitive> Primitive for Pair<P> {
     fn read(from: &[P::Format]) -> Self {
         let (first, second) = from[..Self::COUNT].split_at(P::COUNT);
         Self(P::read(first), P::read(second))
+    }
+
+    #[inline(always)]
+    fn read_lines(from: &[P::Format], numbers: usize) -> Self {
+        let line = P::Format::LINE;
+        let second = P::COUNT / line * numbers * line + P::COUNT % line;
+        Self(P::read_lines(from, numbers), P::read_lines(&from[second..], numbers))
     }
 
     #[inline(always)]

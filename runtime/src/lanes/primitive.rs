@@ -41,6 +41,11 @@ pub trait Primitive:
     fn each(value: impl Fn(usize) -> f64) -> Self;
     /// The first [`COUNT`](Self::COUNT) numbers of a slice; panics where there are fewer.
     fn read(from: &[Self::Format]) -> Self;
+    /// See [`Lanes::load_lines`]; the numbers of a register lie in one line.
+    #[inline(always)]
+    fn read_lines(from: &[Self::Format], _: usize) -> Self {
+        Self::read(from)
+    }
     /// Into the first [`COUNT`](Self::COUNT) numbers of a slice; panics where there are fewer.
     fn write(self, to: &mut [Self::Format]);
     /// See [`Lanes::stream`].
@@ -271,6 +276,11 @@ impl<P: Primitive> Lanes for P {
     #[inline(always)]
     fn load(from: &[P::Format]) -> Self {
         P::read(from)
+    }
+
+    #[inline(always)]
+    fn load_lines(from: &[P::Format], numbers: usize) -> Self {
+        P::read_lines(from, numbers)
     }
 
     #[inline(always)]

@@ -23,9 +23,13 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.125)), R::splat(R::MIN_POSITIVE.powf(-0.125)));
     let is_in_range = low.less(largest) & largest.less(high) & entries_are_finite(F);
 
-    let cofactor = cofactor(F);
-    let squares = |A: &Matrix3<R>| dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2]);
-    ([squares(F), squares(&cofactor), determinant(F)], is_in_range)
+    ([square(F), square(&cofactor(F)), determinant(F)], is_in_range)
+}
+
+/// |A|².
+#[inline(always)]
+fn square<R: Real>(A: &Matrix3<R>) -> R {
+    dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2])
 }
 
 /// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F, Pa.
