@@ -1,0 +1,247 @@
+//! A finite-element code of one's own, with piola for the material: slices of deformation gradients in, slices of stresses
+//! and tangents out.
+//!
+//! The elements are trilinear hexahedra with 2×2×2 Gauss points, of which piola knows nothing. All it sees is
+//! [`piola::batch::Batch`]. The program checks its forces and stiffness by finite differences, then bends and stretches
+//! a bar of rubber by a force at its tip.
+
+#![expect(non_snake_case, reason = "F, P, dP_dF, X and J as in the literature")]
+#![expect(clippy::print_stdout, reason = "a result to show")]
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use piola::batch::{Batch, Energy};
+use piola::point::Filter;
+use piola_materials::NeoHookean;
+
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+fn main() -> Result<()> {
+    // Soft rubber: moduli in Pa.
+    let rubber = NeoHookean::new(1e5, 4e5)?;
+    let mut bar = Bar::new(&rubber)?;
+    check_slopes(&mut bar)?;
+
+    // A kilonewton along the bar and 150 N across it, shared by the nine nodes of its tip.
+    let mut load = DVector::zeros(bar.X.len());
+    for node in NODES - FACE..NODES {
+        load[3 * node] = 1000.0 / 9.0;
+        load[3 * node + 2] = -150.0 / 9.0;
+    }
+    let (x, residuals) = solve(&mut bar, &load)?;
+    let by = (&x - &bar.X).rows_range(3 * (NODES - 1)..).into_owned();
+    for steps in residuals[residuals.len().saturating_sub(3)..].windows(2) {
+        // Newton's method squares a relative error, times what the second derivative of the forces makes of it: a few.
+        let [before, after] = [steps[0], steps[1]].map(|residual| residual / load.norm());
+        assert!(after <= 10.0 * before * before, "from {before:e} to {after:e}");
+    }
+    let residuals: Vec<String> = residuals.iter().map(|residual| format!("{residual:.0e}")).collect();
+    println!("the tip moves by {:.4?} m; residuals, N: {}", by.as_slice(), residuals.join(", "));
+    Ok(())
+}
+
+/// Cells of the bar along each axis, a decimetre each.
+const CELLS: [usize; 3] = [4, 2, 2];
+const ELEMENTS: usize = CELLS[0] * CELLS[1] * CELLS[2];
+const POINTS: usize = 8 * ELEMENTS;
+/// Nodes of each of the faces across the bar, which are numbered one after the other.
+const FACE: usize = (CELLS[1] + 1) * (CELLS[2] + 1);
+const NODES: usize = (CELLS[0] + 1) * FACE;
+/// The unknowns from here on are free.
+const FREE: usize = 3 * FACE;
+
+/// A bar of hexahedra, held at x = 0.
+///
+/// Unknown 3n+a is coordinate a of node n, in m. Point 8e+q is Gauss point q of element e, in every slice.
+struct Bar<'a> {
+    material: &'a dyn Energy<f64>,
+    /// Nodal positions at rest.
+    X: DVector<f64>,
+    elements: Vec<[usize; 8]>,
+    /// ∂N/∂X of the eight shape functions at each point, 1/m.
+    gradients: Vec<[Vector3<f64>; 8]>,
+    /// Volume of each point, m³: its weight times det ∂X/∂ξ.
+    volumes: Vec<f64>,
+    slices: Slices,
+}
+
+/// What goes to piola and what comes back, allocated once.
+struct Slices {
+    F: Vec<f64>,
+    energies: Vec<f64>,
+    P: Vec<f64>,
+    dP_dF: Vec<f64>,
+}
+
+impl<'a> Bar<'a> {
+    fn new(material: &'a dyn Energy<f64>) -> Result<Self> {
+        let [_, ny, nz] = CELLS;
+        let node = |i: usize, j: usize, k: usize| FACE * i + (nz + 1) * j + k;
+        // No element is a cube, so that ∂X/∂ξ differs from point to point.
+        let X = DVector::from_fn(3 * NODES, |unknown, _| {
+            let (n, a) = (unknown / 3, unknown % 3);
+            let at = [n / FACE, n % FACE / (nz + 1), n % (nz + 1)];
+            0.1 * at[a] as f64 + 0.01 * irregular(unknown)
+        });
+        let slices = Slices {
+            F: vec![0.0; 9 * POINTS],
+            energies: vec![0.0; POINTS],
+            P: vec![0.0; 9 * POINTS],
+            dP_dF: vec![0.0; 81 * POINTS],
+        };
+        let mut bar =
+            Self { material, X, elements: Vec::new(), gradients: Vec::new(), volumes: Vec::new(), slices };
+        for e in 0..ELEMENTS {
+            let [i, j, k] = [e / (ny * nz), e / nz % ny, e % nz];
+            bar.add(std::array::from_fn(|n| node(i + (n & 1), j + (n >> 1 & 1), k + (n >> 2))))?;
+        }
+        Ok(bar)
+    }
+
+    /// Adds an element with its Gauss points.
+    fn add(&mut self, nodes: [usize; 8]) -> Result<()> {
+        for q in 0..8 {
+            let xi = [0, 1, 2].map(|axis| sign(q, axis) / f64::sqrt(3.0));
+            // N_n = Π (1 + s ξ)/8 with the signs s of corner n; J = ∂X/∂ξ.
+            let dN_dxi: [Vector3<f64>; 8] = std::array::from_fn(|n| {
+                let factor = [0, 1, 2].map(|axis| 1.0 + sign(n, axis) * xi[axis]);
+                Vector3::from_fn(|axis, _| {
+                    sign(n, axis) * factor[(axis + 1) % 3] * factor[(axis + 2) % 3] / 8.0
+                })
+            });
+            let mut J = Matrix3::zeros();
+            for (&node, dN) in nodes.iter().zip(&dN_dxi) {
+                J += self.X.fixed_rows::<3>(3 * node) * dN.transpose();
+            }
+            // ∂N/∂X = J⁻ᵀ ∂N/∂ξ.
+            let inverse = J.try_inverse().ok_or("an element is flat")?;
+            self.gradients.push(dN_dxi.map(|dN| inverse.transpose() * dN));
+            self.volumes.push(J.determinant());
+        }
+        self.elements.push(nodes);
+        Ok(())
+    }
+
+    /// F = Σ x_n ⊗ ∂N_n/∂X of all points, into their slice row by row.
+    fn deform(&mut self, x: &DVector<f64>) {
+        for (point, F) in self.slices.F.chunks_exact_mut(9).enumerate() {
+            F.fill(0.0);
+            for (&node, gradient) in self.elements[point / 8].iter().zip(&self.gradients[point]) {
+                for a in 0..3 {
+                    for b in 0..3 {
+                        F[3 * a + b] += x[3 * node + a] * gradient[b];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Elastic energy, J; infinite where a point lies outside the domain of the material.
+    fn energy(&mut self, x: &DVector<f64>) -> Result<f64> {
+        self.deform(x);
+        let Slices { F, energies, .. } = &mut self.slices;
+        let survey = Batch::new(self.material).energies(F, energies)?;
+        let sum = energies.iter().zip(&self.volumes).map(|(energy, volume)| energy * volume).sum();
+        Ok(if survey.is_clean() { sum } else { f64::INFINITY })
+    }
+
+    /// Gradient of the energy, N, and stiffness, N/m, with the filter on dP/dF of each point.
+    fn linearise(&mut self, x: &DVector<f64>, filter: Filter) -> Result<(DVector<f64>, DMatrix<f64>)> {
+        self.deform(x);
+        let Slices { F, P, dP_dF, .. } = &mut self.slices;
+        let batch = Batch { filter, ..Batch::new(self.material) };
+        let survey = batch.tangents(F, P, dP_dF)?;
+        if let Some(point) = survey.first {
+            return Err(format!("point {point} is outside the domain of the material").into());
+        }
+
+        let (mut forces, mut stiffness) = (DVector::zeros(x.len()), DMatrix::zeros(x.len(), x.len()));
+        for (point, (P, dP_dF)) in P.chunks_exact(9).zip(dP_dF.chunks_exact(81)).enumerate() {
+            let (nodes, volume) = (&self.elements[point / 8], self.volumes[point]);
+            let P = Matrix3::from_row_slice(P);
+            for (&m, dN_m) in nodes.iter().zip(&self.gradients[point]) {
+                let mut force = forces.fixed_rows_mut::<3>(3 * m);
+                force += volume * P * dN_m;
+                for (&n, dN_n) in nodes.iter().zip(&self.gradients[point]) {
+                    for a in 0..3 {
+                        for c in 0..3 {
+                            // dP_ab/dF_cd of this a and c, as a matrix in b and d.
+                            let block = Matrix3::from_fn(|b, d| dP_dF[9 * (3 * a + b) + 3 * c + d]);
+                            stiffness[(3 * m + a, 3 * n + c)] += volume * dN_m.dot(&(block * dN_n));
+                        }
+                    }
+                }
+            }
+        }
+        Ok((forces, stiffness))
+    }
+}
+
+/// The sign of a corner or Gauss point of [−1, 1]³ along an axis.
+fn sign(corner: usize, axis: usize) -> f64 {
+    if corner >> axis & 1 == 1 { 1.0 } else { -1.0 }
+}
+
+/// A number between −1 and 1 that looks like no other.
+fn irregular(n: usize) -> f64 {
+    (1.0 + 17.0 * n as f64).sin()
+}
+
+/// Newton's method: where the gradient of the energy equals the load. Returns the residual of each iteration too, N.
+///
+/// Far from there the filtered tangent makes every step one downhill, whose length a line search finds; near it the
+/// tangent itself makes steps that square the residual.
+fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f64>)> {
+    let (mut x, mut filter, mut residuals) = (bar.X.clone(), Filter::Clamp, Vec::new());
+    for _ in 0..50 {
+        let (gradient, stiffness) = bar.linearise(&x, filter)?;
+        let residual = (load - gradient).rows_range(FREE..).into_owned();
+        residuals.push(residual.norm());
+        // Rounding is some 10⁻¹⁴ of the load.
+        if residual.norm() <= 1e-10 * load.norm() {
+            return Ok((x, residuals));
+        }
+
+        let stiffness = stiffness.view_range(FREE.., FREE..).into_owned();
+        let cholesky = stiffness.cholesky().ok_or("the bar has buckled")?;
+        let mut step = DVector::zeros(x.len());
+        step.rows_range_mut(FREE..).copy_from(&cholesky.solve(&residual));
+        if filter == Filter::Clamp {
+            let before = bar.energy(&x)? - load.dot(&x);
+            while bar.energy(&(&x + &step))? - load.dot(&(&x + &step)) > before {
+                step *= 0.5;
+            }
+        }
+        x += step;
+        if residual.norm() <= 0.2 * load.norm() {
+            filter = Filter::None;
+        }
+    }
+    Err(format!("no equilibrium: the residuals are {residuals:.1?} N").into())
+}
+
+/// Forces must be the slope of the energy and the stiffness that of the forces: halving the step of a central difference
+/// must divide its error by four.
+fn check_slopes(bar: &mut Bar<'_>) -> Result<()> {
+    let unknowns = bar.X.len();
+    // Strained by a tenth or so, every element in another way.
+    let x = DVector::from_fn(unknowns, |n, _| bar.X[n] + 0.01 * irregular(n + unknowns));
+    let (forces, stiffness) = bar.linearise(&x, Filter::None)?;
+    let mut errors = [[0.0; 2]; 2];
+    for (errors, h) in errors.iter_mut().zip([2e-3, 1e-3]) {
+        for n in 0..unknowns {
+            let moved = |by: f64| DVector::from_fn(unknowns, |m, _| if m == n { x[m] + by } else { x[m] });
+            let energy_slope = (bar.energy(&moved(h))? - bar.energy(&moved(-h))?) / (2.0 * h);
+            let (after, _) = bar.linearise(&moved(h), Filter::None)?;
+            let (before, _) = bar.linearise(&moved(-h), Filter::None)?;
+            let force_slope = (after - before) / (2.0 * h);
+            errors[0] += (energy_slope - forces[n]).powi(2);
+            errors[1] += (force_slope - stiffness.column(n)).norm_squared();
+        }
+    }
+    for (coarse, fine) in errors[0].iter().zip(errors[1]) {
+        let ratio = (coarse / fine).sqrt();
+        // Steps of a hundredth of an element: the next term of the error is 10⁻⁴ of this one, times a number.
+        assert!((ratio - 4.0).abs() <= 0.1, "the error fell by {ratio}");
+    }
+    Ok(())
+}
