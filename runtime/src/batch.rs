@@ -54,6 +54,7 @@ pub(crate) mod element;
 mod energy;
 mod form;
 mod jobs;
+pub(crate) mod operator;
 mod sink;
 mod stage;
 mod tile;
@@ -388,7 +389,7 @@ pub struct Survey {
 
 impl Survey {
     /// Of no points.
-    const NONE: Self = Self { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None };
+    pub(crate) const NONE: Self = Self { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None };
 
     /// Whether the numbers of every point mean something.
     #[must_use]
@@ -397,7 +398,7 @@ impl Survey {
     }
 
     /// Of the points of a tile, the first of which is number `start`.
-    fn of(marks: &Marks, start: usize) -> Self {
+    pub(crate) fn of(marks: &Marks, start: usize) -> Self {
         let count = |bits: u64| bits.count_ones() as usize;
         let bad = marks.refused | marks.nonfinite;
         Self {
@@ -410,7 +411,7 @@ impl Survey {
     }
 
     /// Of these points and those that follow them.
-    fn and(self, next: Self) -> Self {
+    pub(crate) fn and(self, next: Self) -> Self {
         Self {
             refused: self.refused + next.refused,
             bounded: self.bounded + next.bounded,

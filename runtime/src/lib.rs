@@ -39,7 +39,7 @@
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
 //! * [`mesh`]: tetrahedra, their files, embedded surfaces;
-//! * [`system`]: forces, stiffness and their sparse assembly, pins, factorisation;
+//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, factorisation;
 //! * [`step`]: implicit Euler by Newton's method.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but

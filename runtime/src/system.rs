@@ -1,4 +1,4 @@
-//! From points to a body: elements, masses, sparsity, assembly, pins and the linear solver.
+//! From points to a body: elements, masses, sparsity, assembly, pins and the linear solver; products without a matrix.
 //!
 //! This module knows no time: inertia and damping are the business of [`crate::step`].
 
@@ -13,12 +13,14 @@ use crate::mesh::{MeshError, TetMesh};
 pub(crate) mod assemble;
 pub mod element;
 pub mod linear;
+pub mod operator;
 pub mod pattern;
 pub mod pins;
 #[cfg(test)]
 pub(crate) mod testing;
 
 pub use element::{Element, Survey};
+pub use operator::StiffnessOperator;
 pub use pins::{PinError, Pins};
 
 /// A material and a density for a part of a mesh.

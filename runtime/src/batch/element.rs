@@ -28,10 +28,7 @@ impl ElementTile {
         let mut tile =
             Self { backend, count: 0, rest: Lines::zero(), volumes: [0.0; TILE], points: Points::new() };
         for (lane, shape) in shapes.enumerate() {
-            let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
-            for (k, &number) in numbers.enumerate() {
-                tile.rest.set(lane, k, number);
-            }
+            set_shape(&mut tile.rest, lane, &shape);
             tile.volumes[lane] = shape.volume;
             tile.count = lane + 1;
         }
@@ -54,12 +51,8 @@ impl ElementTile {
         let Self { backend, count, ref rest, ref mut points, .. } = *self;
         let is_signed = energy.ends_at_zero_volume();
         f64::with_workspace(|Workspace { F: edges, .. }| {
-            for (lane, [x0, x1, x2, x3]) in corners.enumerate() {
-                for a in 0..3 {
-                    edges.set(lane, 3 * a, x1[a] - x0[a]);
-                    edges.set(lane, 3 * a + 1, x2[a] - x0[a]);
-                    edges.set(lane, 3 * a + 2, x3[a] - x0[a]);
-                }
+            for (lane, corners) in corners.enumerate() {
+                set_edges(edges, lane, corners);
             }
             f64::deform(backend, Deform { edges, rest: rest.source(), count });
             f64::decompose(backend, Decompose { F: edges.source(), count, is_signed, points });
@@ -118,6 +111,24 @@ impl ElementTile {
     }
 }
 
-fn by_elements(to: &mut [f64]) -> Sink<'_, f64> {
+/// Stores the ten numbers of a shape at rest.
+pub(super) fn set_shape(rest: &mut Lines<f64, 10>, lane: usize, shape: &RestShape) {
+    let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
+    for (k, &number) in numbers.enumerate() {
+        rest.set(lane, k, number);
+    }
+}
+
+/// Stores Ds: row a, column k is coordinate a of corner k + 1 less that of corner 0.
+#[inline]
+pub(super) fn set_edges(edges: &mut Lines<f64, 9>, lane: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) {
+    for a in 0..3 {
+        edges.set(lane, 3 * a, x1[a] - x0[a]);
+        edges.set(lane, 3 * a + 1, x2[a] - x0[a]);
+        edges.set(lane, 3 * a + 2, x3[a] - x0[a]);
+    }
+}
+
+pub(super) fn by_elements(to: &mut [f64]) -> Sink<'_, f64> {
     Sink { to, layout: Layout::Points, past_caches: None }
 }

@@ -30,7 +30,7 @@ pub(super) trait Form<const REST: usize, const N: usize> {
 
 /// Puts number k at k LINE.
 #[inline(always)]
-fn put<R: Lanes>(to: &mut [R::Element], k: usize, number: R) {
+pub(super) fn put<R: Lanes>(to: &mut [R::Element], k: usize, number: R) {
     number.store(&mut to[k * <R::Element as Element>::LINE..]);
 }
 
@@ -136,14 +136,19 @@ impl Factored {
 impl Form<0, 30> for Factored {
     #[inline(always)]
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
-        let line = <R::Element as Element>::LINE;
-        let Tangent { U, V, blocks } = tangent;
-        put_all(to_numbers(*U), to);
-        put_all(to_numbers(*V), &mut to[9 * line..]);
-        put_all(blocks.hessian, &mut to[18 * line..]);
-        put_all(blocks.flip, &mut to[24 * line..]);
-        put_all(blocks.twist, &mut to[27 * line..]);
+        put_factors(&tangent.U, &tangent.V, &tangent.blocks, to);
     }
+}
+
+/// What [`Factored::restore`] takes, with W in the place of V.
+#[inline(always)]
+fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Element]) {
+    let line = <R::Element as Element>::LINE;
+    put_all(to_numbers(*U), to);
+    put_all(to_numbers(*W), &mut to[9 * line..]);
+    put_all(blocks.hessian, &mut to[18 * line..]);
+    put_all(blocks.flip, &mut to[24 * line..]);
+    put_all(blocks.twist, &mut to[27 * line..]);
 }
 
 /// Dm⁻¹ row by row, its volume last: what an element's forms need of its shape at rest.
@@ -214,6 +219,13 @@ pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -
     (largest(to_numbers(inverse)) * volume * R::splat(16.0) * largest(to_numbers(*stress))).is_finite()
 }
 
+/// What every form of a stiffness asks of the blocks.
+#[inline(always)]
+fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
+    let bounded = if has_pole { blunt(blocks) } else { R::Mask::splat(false) };
+    Remarks { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)) }
+}
+
 /// The gradient of an element's energy in its nodal positions: entry a of node n at 3n+a.
 ///
 /// v P Dm⁻ᵀ; its column n belongs to node n + 1, and node 0 takes minus their sum.
@@ -222,12 +234,17 @@ pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
-        let [g1, g2, g3] = three!(n => dot(row, rest.inverse[n]));
-        put(to, a, -(g1 + g2 + g3));
-        put(to, 3 + a, g1);
-        put(to, 6 + a, g2);
-        put(to, 9 + a, g3);
+        put_at_nodes(a, three!(n => dot(row, rest.inverse[n])), to);
     });
+}
+
+/// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at 3n+a.
+#[inline(always)]
+pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Element]) {
+    put(to, a, -(g1 + g2 + g3));
+    put(to, 3 + a, g1);
+    put(to, 6 + a, g2);
+    put(to, 9 + a, g3);
 }
 
 /// Where the entries of an element's stiffness go.
@@ -288,8 +305,7 @@ macro_rules! stiffness_form {
         impl Form<10, $numbers> for $Form {
             #[inline(always)]
             fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
-                let bounded = if has_pole { blunt(blocks) } else { R::Mask::splat(false) };
-                Remarks { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)) }
+                prepare_stiffness(blocks, rest, has_pole)
             }
 
             #[inline(always)]
@@ -323,5 +339,21 @@ stiffness_form! {
     BlockStiffness of 90, |i, a, j, c| {
         let start = 9 * (i * (i + 1) / 2 + j);
         (start + 3 * a + c, (i == j).then_some(start + 3 * c + a))
+    }
+}
+
+/// The stiffness as what it is made of: U, W, ψij, flips, twists.
+pub(super) struct FactoredStiffness;
+
+impl Form<10, 30> for FactoredStiffness {
+    #[inline(always)]
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
+        prepare_stiffness(blocks, rest, has_pole)
+    }
+
+    #[inline(always)]
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Element]) {
+        let W = Rest::new(*rest).shape_gradients(&tangent.V);
+        put_factors(&tangent.U, &W, &tangent.blocks, to);
     }
 }

@@ -100,6 +100,10 @@ impl<E: Element, const N: usize> Lines<E, N> {
     pub(super) fn source(&self) -> Source<'_, E, N> {
         Source(self.0.as_flattened())
     }
+
+    pub(super) fn sink(&mut self) -> Sink<'_, E> {
+        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, past_caches: None }
+    }
 }
 
 /// The points of a line, or fewer.

@@ -9,8 +9,8 @@ use std::cell::Cell;
 
 use super::energy::{self, from_numbers};
 use super::form::{
-    BlockStiffness, Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
-    gradient_is_finite, put_all, put_gradient,
+    BlockStiffness, Factored, FactoredStiffness, Form, FullStiffness, FullTangent, PackedStiffness,
+    PackedTangent, gradient_is_finite, put_all, put_gradient,
 };
 use super::sink::{Lines, Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
@@ -371,6 +371,7 @@ pub(super) enum StiffnessForm {
     Full,
     Packed,
     Blocks,
+    Factored,
 }
 
 /// The kernels above for one format: no function is generic, so that each is compiled once, here.
@@ -446,6 +447,7 @@ macro_rules! stages {
                     StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
+                    StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
                 }
             }
 

@@ -1,0 +1,166 @@
+//! The stiffness of a tile of linear tetrahedra as an operator: its products, without its entries.
+//!
+//! With W = √v Dm⁻¹ V the stiffness between the nodes 1, 2, 3 of an element is (U ⊗ W) A (U ⊗ W)ᵀ, as dP/dF is with V in
+//! the place of W (see [`contract`](crate::point::contract)). So the thirty numbers of a tangent's factors, with W, are a
+//! stiffness, and the operations of dP = (dP/dF) dF multiply by it: displacements with the edges Ds give
+//!
+//! ```text
+//! U A(Uᵀ Ds W) Wᵀ
+//! ```
+//!
+//! the column n of which belongs to node n + 1, and node 0 takes minus the sum of them. Neither V nor Dm⁻¹ is needed any more.
+
+#![expect(non_snake_case, reason = "F, U, V, W, D as in the literature")]
+
+use super::element::{by_elements, set_edges, set_shape};
+use super::energy::{Energy, TileOf};
+use super::form::{Factored, put, put_at_nodes};
+use super::sink::{Lines, Sink, Source};
+use super::stage::{Decompose, Deform, Judge, Marks, Respond, Stages, StiffnessForm, to_matrix};
+use super::tile::for_each_group;
+use super::workspace::{Line, Workspace};
+use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::material::Blocks;
+use crate::mesh::RestShape;
+use crate::point::matrix::{dot, three, thrice};
+use crate::point::{Filter, Matrix3, Tangent};
+
+/// Up to [`TILE`](super::tile::TILE) elements of one material, and their stiffness where they were linearised last.
+#[derive(Clone, Debug)]
+pub(crate) struct StiffnessTile {
+    backend: Backend,
+    count: usize,
+    rest: Lines<f64, 10>,
+    /// U, W, ψij, flips, twists.
+    factors: Lines<f64, 30>,
+}
+
+impl StiffnessTile {
+    pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
+        let mut tile = Self { backend, count: 0, rest: Lines::zero(), factors: Lines::zero() };
+        for (lane, shape) in shapes.enumerate() {
+            set_shape(&mut tile.rest, lane, &shape);
+            tile.count = lane + 1;
+        }
+        tile
+    }
+
+    /// Takes the filtered stiffness where the nodes of each element are at `corners`.
+    pub(crate) fn linearise(
+        &mut self,
+        energy: &dyn Energy<f64>,
+        filter: Filter,
+        corners: impl Iterator<Item = [[f64; 3]; 4]>,
+    ) -> Marks {
+        f64::with_workspace(|workspace| {
+            for (lane, corners) in corners.enumerate() {
+                set_edges(&mut workspace.F, lane, corners);
+            }
+            self.respond(energy, filter, workspace)
+        })
+    }
+
+    /// The stages from edges to factors.
+    fn respond(&mut self, energy: &dyn Energy<f64>, filter: Filter, workspace: &mut Workspace<f64>) -> Marks {
+        let Self { backend, count, ref rest, ref mut factors } = *self;
+        let Workspace { F, points, blocks, line, .. } = workspace;
+        let (rest, is_signed, has_pole) = (rest.source(), energy.ends_at_zero_volume(), energy.has_pole());
+        f64::deform(backend, Deform { edges: F, rest, count });
+        f64::decompose(backend, Decompose { F: F.source(), count, is_signed, points });
+        let arguments = &points.stretches;
+        let refused = energy.blocks(TileOf { backend, start: 0, count, arguments }, blocks);
+        let judged = f64::judge(backend, Judge { points, blocks, count, filter, has_pole });
+        let kernel = Respond { points, blocks, rest, count, has_pole, line, to: factors.sink() };
+        let marks = f64::stiffness(backend, StiffnessForm::Factored, kernel).or(judged);
+        Marks { refused, ..marks }
+    }
+
+    /// Stiffness times displacement, 12 numbers of each element; `corners` are the displacements of its nodes.
+    pub(crate) fn multiply(&self, corners: impl Iterator<Item = [[f64; 3]; 4]>, products: &mut [f64]) {
+        f64::with_workspace(|Workspace { F: edges, line, .. }| {
+            for (lane, corners) in corners.enumerate() {
+                set_edges(edges, lane, corners);
+            }
+            let (factors, count) = (self.factors.source(), self.count);
+            self.backend.run(Multiply {
+                factors,
+                edges: edges.source(),
+                count,
+                line,
+                to: by_elements(products),
+            });
+        });
+    }
+
+    /// Of the stiffness of each node with itself the column of this coordinate, 12 numbers of each element: coordinate a
+    /// of node n at 3n+a.
+    pub(crate) fn diagonal_columns(&self, coordinate: usize, columns: &mut [f64]) {
+        f64::with_workspace(|Workspace { line, .. }| {
+            let (factors, count) = (self.factors.source(), self.count);
+            self.backend.run(DiagonalColumns { factors, coordinate, count, line, to: by_elements(columns) });
+        });
+    }
+}
+
+/// Factors and edges of displacements into products at the nodes.
+struct Multiply<'a> {
+    factors: Source<'a, f64, 30>,
+    edges: Source<'a, f64, 9>,
+    count: usize,
+    line: &'a mut Line<f64>,
+    to: Sink<'a, f64>,
+}
+
+impl Kernel<f64> for Multiply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = f64>>(self) {
+        let Self { factors, edges, count, line, mut to } = self;
+        for_each_group!(R, count, |at| {
+            let stiffness = Factored::restore(factors.get_all::<R>(at));
+            let product = stiffness.apply(&to_matrix(edges.get_all(at)));
+            let place = to.place::<R, 12>(line, at);
+            thrice!(a => { put_at_nodes(a, product[a], place) });
+            to.finish::<R, 12>(line, at, count);
+        });
+    }
+}
+
+/// How far apart two numbers of a point are put.
+const LINE: usize = <f64 as Element>::LINE;
+
+/// Factors into a column of the blocks on the diagonal.
+struct DiagonalColumns<'a> {
+    factors: Source<'a, f64, 30>,
+    coordinate: usize,
+    count: usize,
+    line: &'a mut Line<f64>,
+    to: Sink<'a, f64>,
+}
+
+impl Kernel<f64> for DiagonalColumns<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Lanes<Element = f64>>(self) {
+        let Self { factors, coordinate, count, line, mut to } = self;
+        for_each_group!(R, count, |at| {
+            let Tangent { U, V: W, blocks } = Factored::restore(factors.get_all::<R>(at));
+            let w0 = three!(l => -(W[0][l] + W[1][l] + W[2][l]));
+            let place = to.place::<R, 12>(line, at);
+            put_diagonal(&U, w0, &blocks, coordinate, place);
+            thrice!(n => { put_diagonal(&U, W[n], &blocks, coordinate, &mut place[(3 * n + 3) * LINE..]) });
+            to.finish::<R, 12>(line, at, count);
+        });
+    }
+}
+
+/// Column c of a node's stiffness with itself, w being its row of W: U A(u wᵀ) w with u = Uᵀ e_c.
+#[inline(always)]
+fn put_diagonal<R: Lanes>(U: &Matrix3<R>, w: [R; 3], blocks: &Blocks<R>, c: usize, to: &mut [R::Element]) {
+    let D = three!(k => three!(l => U[c][k] * w[l]));
+    let response = blocks.apply(&D);
+    let traction = three!(k => dot(response[k], w));
+    thrice!(a => { put(to, a, dot(U[a], traction)) });
+}
