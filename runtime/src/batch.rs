@@ -65,6 +65,7 @@ pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
+pub(crate) use form::PACKED_12;
 #[cfg(test)]
 pub(crate) use form::STIFFEST;
 use jobs::{Tile, Work};
@@ -233,6 +234,8 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// `rest` holds [`REST`] numbers of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in
     /// [`RestShape`](crate::mesh::RestShape); F = Ds Dm⁻¹. Of the gradients there are 12 numbers, coordinate a of node n
     /// at 3n+a; **forces are minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a.
+    ///
+    /// [`BlockMatrix`](crate::system::BlockMatrix) sums them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of the
     /// tangent, it is cut there, because a factorisation could not resolve more.

@@ -11,7 +11,9 @@ use crate::mesh::tet::lumped_masses;
 use crate::mesh::{MeshError, TetMesh};
 
 pub(crate) mod assemble;
+pub mod block_matrix;
 pub mod element;
+mod fill;
 pub mod linear;
 pub mod operator;
 pub mod pattern;
@@ -19,6 +21,7 @@ pub mod pins;
 #[cfg(test)]
 pub(crate) mod testing;
 
+pub use block_matrix::BlockMatrix;
 pub use element::{Element, Survey};
 pub use operator::StiffnessOperator;
 pub use pins::{PinError, Pins};

@@ -108,7 +108,7 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
 }
 
 pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
-pub(super) static PACKED_12: [[usize; 12]; 12] = packed();
+pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
 /// dP/dF as what it is made of: U, V, ψij, flips, twists.
 pub(super) struct Factored;

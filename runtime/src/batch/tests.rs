@@ -226,7 +226,7 @@ fn check_point<E: Number>(
             let mine = found.stiffnesses[144 * p + 12 * row + column];
             worst.see(mine, entry, shape * shape * stiff * size * size);
             if column >= row {
-                assert!(mine == found.packed_stiffnesses[78 * p + form::PACKED_12[row][column]]);
+                assert!(mine == found.packed_stiffnesses[78 * p + PACKED_12[row][column]]);
             }
         }
     }

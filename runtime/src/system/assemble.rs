@@ -25,13 +25,11 @@ use rayon::prelude::*;
 
 use super::Body;
 use super::element::{Element, Group, Stiffness, Survey, pair};
+use super::fill::{NodePairs, fill};
 use super::pattern::Pattern;
 use crate::batch::Energy;
 use crate::batch::element::TILE;
 use crate::point::Filter;
-
-/// Columns of blocks summed by one thread without a further division.
-const COLUMNS: usize = 64;
 
 /// Energies, gradients and stiffnesses of all elements at the positions evaluated last.
 pub(crate) struct Elastic {
@@ -184,63 +182,15 @@ impl Elastic {
 
     /// Sums the stiffnesses into the entries of the pattern and adds `diagonal(node)` to the diagonal.
     pub(crate) fn fill(&self, pattern: &Pattern, diagonal: impl Fn(usize) -> f64 + Sync, values: &mut [f64]) {
-        let columns = pattern.node_of_free().len();
-        fill_columns(pattern, self, &diagonal, 0..columns, values);
-    }
-
-    /// The stiffness of an element.
-    fn stiffness(&self, element: u32) -> &Stiffness {
-        let (group, lane) = self.places[element as usize];
-        &self.groups[group as usize].group.stiffnesses[lane as usize]
+        fill(pattern, self, &diagonal, values);
     }
 }
 
-/// Sums a range of columns into the slice that holds them, by halves in parallel.
-fn fill_columns(
-    pattern: &Pattern,
-    elastic: &Elastic,
-    diagonal: &(impl Fn(usize) -> f64 + Sync),
-    columns: Range<usize>,
-    values: &mut [f64],
-) {
-    if columns.len() > COLUMNS {
-        let middle = columns.start + columns.len() / 2;
-        let (left, right) =
-            values.split_at_mut(pattern.column_start(middle) - pattern.column_start(columns.start));
-        rayon::join(
-            || fill_columns(pattern, elastic, diagonal, columns.start..middle, left),
-            || fill_columns(pattern, elastic, diagonal, middle..columns.end, right),
-        );
-        return;
+impl NodePairs for Elastic {
+    fn block(&self, element: usize, i: usize, j: usize) -> [[f64; 3]; 3] {
+        let (group, lane) = self.places[element];
+        self.groups[group as usize].group.stiffnesses[lane as usize][pair(i, j)]
     }
-    let offset = pattern.column_start(columns.start);
-    for column in columns {
-        let first = pattern.columns()[column];
-        for block in first..pattern.columns()[column + 1] {
-            let sum = sum_block(pattern, elastic, block);
-            let shift = if block == first { diagonal(pattern.node_of_free()[column]) } else { 0.0 };
-            for c in 0..3 {
-                for r in if block == first { c } else { 0 }..3 {
-                    let added = if r == c { shift } else { 0.0 };
-                    values[pattern.scalar(column, block, r, c) - offset] = sum[r][c] + added;
-                }
-            }
-        }
-    }
-}
-
-/// A block of the matrix: the sum of its contributions in the order of their list.
-fn sum_block(pattern: &Pattern, elastic: &Elastic, block: usize) -> [[f64; 3]; 3] {
-    let mut sum = [[0.0; 3]; 3];
-    for contribution in pattern.contributions(block) {
-        let part = &elastic.stiffness(contribution.element)[usize::from(contribution.pair)];
-        for r in 0..3 {
-            for c in 0..3 {
-                sum[r][c] += if contribution.transposed { part[c][r] } else { part[r][c] };
-            }
-        }
-    }
-    sum
 }
 
 /// A sum that carries its rounding errors along [Neu74].

@@ -90,6 +90,13 @@ pub enum LinearError {
     },
     /// The factor does not fit into memory.
     OutOfMemory,
+    /// An element or a pin names a node that does not exist.
+    NoSuchNode {
+        /// As named.
+        node: usize,
+        /// How many nodes there are, numbered from 0.
+        nodes: usize,
+    },
 }
 
 impl fmt::Display for LinearError {
@@ -97,6 +104,9 @@ impl fmt::Display for LinearError {
         match self {
             Self::NotPositive { column } => {
                 write!(f, "the matrix is not positive definite (pivot of column {column})")
+            }
+            Self::NoSuchNode { node, nodes } => {
+                write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
             }
             Self::OutOfMemory => write!(f, "the factor of the matrix does not fit into memory"),
         }

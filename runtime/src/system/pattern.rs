@@ -7,13 +7,14 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use super::element::{Element, pair};
+use super::element::Element;
 use super::linear::LinearError;
 use super::pins::Pins;
 
 /// The lower triangle of a symmetric matrix of 3×3 blocks, one row and column of blocks per free node.
 #[derive(Clone, Debug)]
 pub struct Pattern {
+    elements: usize,
     free_of_node: Vec<Option<usize>>,
     node_of_free: Vec<usize>,
     /// Where the blocks of each column of blocks start, and where the last ends. The first is on the diagonal.
@@ -29,7 +30,9 @@ pub struct Pattern {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Contribution {
     pub(crate) element: u32,
-    pub(crate) pair: u8,
+    /// The nodes i ≥ j of the element.
+    pub(crate) i: u8,
+    pub(crate) j: u8,
     pub(crate) transposed: bool,
 }
 
@@ -37,26 +40,36 @@ impl Pattern {
     /// The pattern of these elements among `nodes` nodes, without rows and columns of pinned ones.
     ///
     /// # Errors
-    /// Where it does not fit into memory.
+    /// Where an element or a pin names a node that does not exist, or the pattern does not fit into memory.
     pub fn new(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Self, LinearError> {
-        let node_of_free = order(nodes, elements, pins)?;
+        let tets: Vec<[usize; 4]> = elements.iter().map(|element| element.nodes).collect();
+        Self::of_tets(nodes, &tets, pins)
+    }
+
+    /// The pattern of tetrahedra that join these nodes, four different ones each.
+    ///
+    /// # Errors
+    /// As [`Pattern::new`].
+    pub fn of_tets(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
+        if let Some(&node) = tets.as_flattened().iter().chain(pins.nodes()).find(|&&node| node >= nodes) {
+            return Err(LinearError::NoSuchNode { node, nodes });
+        }
+        let node_of_free = order(nodes, tets, pins)?;
         let mut free_of_node = vec![None; nodes];
         for (free, &node) in node_of_free.iter().enumerate() {
             free_of_node[node] = Some(free);
         }
 
         // One record per contribution, sorted by column, row and element: the order of summation, fixed for good.
-        let mut records = Vec::with_capacity(10 * elements.len());
-        for (index, element) in elements.iter().enumerate() {
+        let mut records = Vec::with_capacity(10 * tets.len());
+        for (index, tet) in tets.iter().enumerate() {
             let index = u32::try_from(index).map_err(|_| LinearError::OutOfMemory)?;
             for i in 0..4 {
                 for j in 0..=i {
-                    if let (Some(row), Some(column)) =
-                        (free_of_node[element.nodes[i]], free_of_node[element.nodes[j]])
-                    {
+                    if let (Some(row), Some(column)) = (free_of_node[tet[i]], free_of_node[tet[j]]) {
                         let transposed = row < column;
                         let contribution =
-                            Contribution { element: index, pair: pair(i, j) as u8, transposed };
+                            Contribution { element: index, i: i as u8, j: j as u8, transposed };
                         records.push((row.min(column), row.max(column), contribution));
                     }
                 }
@@ -65,6 +78,7 @@ impl Pattern {
         records.sort_unstable();
 
         let mut pattern = Self {
+            elements: tets.len(),
             columns: vec![0; node_of_free.len() + 1],
             rows: Vec::new(),
             gather_starts: vec![0],
@@ -97,6 +111,11 @@ impl Pattern {
             }
         }
         SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)
+    }
+
+    /// How many elements it was made of.
+    pub(crate) fn elements(&self) -> usize {
+        self.elements
     }
 
     /// How many unknowns there are: three for each free node.
@@ -158,7 +177,7 @@ impl Pattern {
 }
 
 /// The free nodes in an order that keeps a Cholesky factor sparse.
-fn order(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Vec<usize>, LinearError> {
+fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, LinearError> {
     let mut pinned = vec![false; nodes];
     for &node in pins.nodes() {
         pinned[node] = true;
@@ -168,10 +187,10 @@ fn order(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Vec<usize>, 
     for (number, &node) in free.iter().enumerate() {
         index[node] = Some(number);
     }
-    let mut edges = Vec::with_capacity(16 * elements.len());
-    for element in elements {
-        for i in element.nodes {
-            edges.extend(element.nodes.iter().filter_map(|&j| index[i].zip(index[j])));
+    let mut edges = Vec::with_capacity(16 * tets.len());
+    for tet in tets {
+        for &i in tet {
+            edges.extend(tet.iter().filter_map(|&j| index[i].zip(index[j])));
         }
     }
     edges.sort_unstable();
