@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::{Element, Lanes, Pair};
+use super::{Element, Lanes, Pair, PastCaches};
 
 /// A computation with lanes of any back end.
 ///
@@ -87,6 +87,24 @@ impl Backend {
     #[inline]
     pub fn run<E: Element, K: Kernel<E>>(self, kernel: K) -> K::Output {
         E::run(self, kernel)
+    }
+
+    /// Copies numbers past the caches where these instructions can and both slices consist of whole aligned registers,
+    /// else as any copy: for comparison with what a kernel writes.
+    ///
+    /// # Panics
+    /// Where the lengths differ.
+    pub fn copy_past_caches<E: Element>(self, from: &[E], to: &mut [E]) {
+        struct Copy<'a, E>(&'a [E], &'a mut [E]);
+        impl<E: Element> Kernel<E> for Copy<'_, E> {
+            type Output = ();
+
+            #[inline(always)]
+            fn run<R: Lanes<Element = E>>(self) {
+                R::stream(self.0, self.1, &PastCaches::new());
+            }
+        }
+        self.run(Copy(from, to));
     }
 }
 
