@@ -2,7 +2,8 @@
 //!
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
-//! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only.
+//! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
+//! * [`hand_written`]: energies with derivatives by hand.
 //!
 //! They are written as a good engineer would write them, generic over the real type, and nothing in them is slower or
 //! less exact than its method asks for.
@@ -10,5 +11,6 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 pub mod eigen;
+pub mod hand_written;
 pub mod quotients;
 pub mod svd_gradients;

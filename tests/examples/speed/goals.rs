@@ -1,0 +1,88 @@
+//! What must be reached, beside what is.
+//!
+//! The goals are absolute times of a Zen 5 core at 4.2 GHz with AVX-512; on other machines they only orient. Those of streaming
+//! are times that the same run has measured.
+
+use piola::batch::{Batch, Layout, Stages};
+use piola::lanes::Backend;
+use piola::point::Filter;
+use piola_tests::speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
+
+use super::measure::{in_cache, streaming};
+use super::tables::{cell, header, row};
+
+/// How much longer streaming may take than the slower of computing in cache and moving the numbers.
+const STREAMING_SLACK: f64 = 1.3;
+
+/// Figures, goals, times and whether they are within the goals, measured with the best back end.
+pub(crate) fn table(effort: Effort, streaming_effort: Effort) -> String {
+    let mut table = header(&["figure", "format", "goal", "in lines", "met", "by points"]);
+    decomposition::<f64>(effort, 24.0, &mut table);
+    decomposition::<f32>(effort, 10.0, &mut table);
+    for (task, filter, goals) in [
+        (Task::Tangents, Filter::None, [36.0, 37.0, 48.0]),
+        (Task::Tangents, Filter::Clamp, [45.0, 46.0, 56.0]),
+        (Task::Stiffnesses, Filter::Clamp, [50.0, 51.0, 60.0]),
+        (Task::PackedStiffnesses, Filter::Clamp, [50.0, 51.0, 60.0]),
+    ] {
+        kernel::<f64>(effort, task, filter, goals, &mut table);
+    }
+    kernel::<f32>(effort, Task::Tangents, Filter::None, [16.0, 17.0, 21.0], &mut table);
+    product(effort, 3.0, &mut table);
+    for task in [Task::Tangents, Task::Stiffnesses] {
+        streamed::<f64>(effort, streaming_effort, task, &mut table);
+        streamed::<f32>(effort, streaming_effort, task, &mut table);
+    }
+    table
+}
+
+fn decomposition<E: Stages>(effort: Effort, goal: f64, table: &mut String) {
+    let mut decompositions = Decompositions::<E>::new();
+    let times = time(effort, IN_CACHE, || decompositions.run(Backend::best(), false));
+    judged::<E>(table, "`svd`", goal, times, None);
+}
+
+fn kernel<E: Stages>(effort: Effort, task: Task, filter: Filter, goals: [f64; 3], table: &mut String) {
+    let suffix = if filter == Filter::None { "" } else { " +C" };
+    for ((name, energy), goal) in materials::<E>().iter().zip(goals) {
+        let batch = Batch { filter, ..Batch::new(&**energy) };
+        let [lines, points] =
+            [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, task, layout, &batch));
+        let figure = format!("`{}`{suffix}, {name}", task.name());
+        judged::<E>(table, &figure, goal, lines, Some(points));
+    }
+}
+
+fn product(effort: Effort, goal: f64, table: &mut String) {
+    let [(_, energy), ..] = materials::<f64>();
+    let batch = Batch::new(&*energy);
+    let [lines, points] =
+        [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, Task::Products, layout, &batch));
+    judged::<f64>(table, "`products`", goal, lines, Some(points));
+}
+
+/// The better way to store; the goal is [`STREAMING_SLACK`] times the larger of the time in cache and that of moving.
+fn streamed<E: Stages>(effort: Effort, streaming_effort: Effort, task: Task, table: &mut String) {
+    let mut arrays = Arrays::<E>::new(task, Layout::Lines, STREAMING);
+    for (name, energy) in &materials::<E>() {
+        let computed = in_cache(effort, task, Layout::Lines, &Batch::new(&**energy));
+        let found = streaming(streaming_effort, &mut arrays, &**energy, Filter::None);
+        let goal = STREAMING_SLACK * computed.least.max(found.traffic.least);
+        judged::<E>(table, &format!("streaming `{}`, {name}", task.name()), goal, found.best(), None);
+    }
+}
+
+fn judged<E: Stages>(table: &mut String, figure: &str, goal: f64, lines: Times, points: Option<Times>) {
+    let met = if lines.least <= goal { "yes" } else { "no" };
+    row(
+        table,
+        &[
+            figure.to_owned(),
+            std::any::type_name::<E>().to_owned(),
+            format!("{goal:.1}"),
+            cell(lines),
+            format!("{met}, {:.2}×", lines.least / goal),
+            points.map_or_else(String::new, cell),
+        ],
+    );
+}

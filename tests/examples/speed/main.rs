@@ -1,0 +1,55 @@
+//! Prints how fast everything is, as Markdown: `cargo run --release -p piola-tests --example speed`.
+//!
+//! With `--quick` less often repeated, and for the best back end only. One core; nothing else should run on the machine, and
+//! where something does, the least of the times is disturbed least.
+
+#![expect(clippy::print_stdout, reason = "a command line tool")]
+
+use std::time::Duration;
+
+use piola::lanes::Backend;
+use piola_tests::speed::{Effort, IN_CACHE, STREAMING};
+
+mod comparisons;
+mod goals;
+mod measure;
+mod tables;
+
+fn main() {
+    let is_quick = std::env::args().skip(1).any(|argument| argument == "--quick");
+    let effort = Effort { repeats: if is_quick { 15 } else { 101 }, at_least: Duration::from_micros(100) };
+    let streaming_effort = Effort { repeats: if is_quick { 5 } else { 15 }, at_least: Duration::ZERO };
+    let best = Backend::best();
+
+    println!("# Nanoseconds per point, one thread\n");
+    println!("Processor: {}. Best back end: {best}.\n", processor());
+    println!(
+        "Of {} repeats the least and, in parentheses, the median. In cache: {IN_CACHE} points, the same arrays again and \
+         again. Streaming: {STREAMING} points, once through. +C: filtered with `Filter::Clamp`.\n",
+        effort.repeats
+    );
+    println!("## Goals\n\n{}", goals::table(effort, streaming_effort));
+    println!("## Energies by hand\n\n{}", comparisons::hand_written(effort));
+    println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
+    for backend in Backend::available().take(if is_quick { 1 } else { usize::MAX }) {
+        println!("## In cache, {backend}, f64\n\n{}", tables::in_cache::<f64>(effort, backend));
+        println!("## In cache, {backend}, f32\n\n{}", tables::in_cache::<f32>(effort, backend));
+    }
+    println!("## Streaming, {best}, f64, in lines\n\n{}", tables::streaming::<f64>(streaming_effort));
+    println!("## Streaming, {best}, f32, in lines\n\n{}", tables::streaming::<f32>(streaming_effort));
+}
+
+/// The processor's name, where the system says it.
+fn processor() -> String {
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| {
+        let line =
+            cpuinfo.lines().find(|line| line.split(':').next().is_some_and(|key| key.trim() == name))?;
+        line.split_once(':').map(|(_, value)| value.trim())
+    };
+    match (field("model name"), field("cpu family"), field("model")) {
+        (Some(name), Some(family), Some(model)) => format!("{name} (family {family}, model {model})"),
+        (Some(name), ..) => name.to_owned(),
+        _ => format!("unknown {}", std::env::consts::ARCH),
+    }
+}

@@ -1,0 +1,56 @@
+//! One configuration at a time.
+
+use piola::batch::{Batch, Energy, Layout, Stages};
+use piola::lanes::Backend;
+use piola::point::Filter;
+use piola_tests::speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};
+
+/// The same arrays again and again.
+pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, batch: &Batch<'_, E>) -> Times {
+    let mut arrays = Arrays::new(task, layout, IN_CACHE);
+    time(effort, IN_CACHE, || arrays.run(batch))
+}
+
+/// What moving the numbers takes, and the task, with ordinary stores and with stores past the caches.
+#[derive(Clone, Copy)]
+pub(crate) struct Streamed {
+    pub(crate) traffic: Times,
+    pub(crate) stored: Times,
+    pub(crate) past_caches: Times,
+}
+
+impl Streamed {
+    /// The better of the two ways to store.
+    pub(crate) fn best(&self) -> Times {
+        if self.stored.least < self.past_caches.least { self.stored } else { self.past_caches }
+    }
+}
+
+/// Once through more points than any cache holds, in lines.
+pub(crate) fn streaming<E: Stages>(
+    effort: Effort,
+    arrays: &mut Arrays<E>,
+    energy: &dyn Energy<E>,
+    filter: Filter,
+) -> Streamed {
+    let batch = Batch { filter, ..Batch::new(energy) };
+    let streaming = Batch { streams: true, ..batch };
+    let traffic = traffic(effort, arrays);
+    let stored = time(effort, STREAMING, || arrays.run(&batch));
+    let past_caches = time(effort, STREAMING, || arrays.run(&streaming));
+    Streamed { traffic, stored, past_caches }
+}
+
+/// The faster of ordinary stores and stores past the caches.
+fn traffic<E: Stages>(effort: Effort, arrays: &mut Arrays<E>) -> Times {
+    let backend = Backend::best();
+    let stored = time(effort, STREAMING, || arrays.move_only(backend, false));
+    let past_caches = time(effort, STREAMING, || arrays.move_only(backend, true));
+    if stored.least < past_caches.least { stored } else { past_caches }
+}
+
+/// Both in turns: the first, the second.
+pub(crate) fn side_by_side<E: Stages>(effort: Effort, task: Task, batches: [&Batch<'_, E>; 2]) -> [Times; 2] {
+    let [mut first, mut second] = batches.map(|_| Arrays::new(task, Layout::Lines, IN_CACHE));
+    time_in_turns(effort, IN_CACHE, [&mut || first.run(batches[0]), &mut || second.run(batches[1])])
+}

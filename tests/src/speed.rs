@@ -1,0 +1,55 @@
+//! What is timed and counted: the kernels of a batch on the same points, for the table of speeds, the bench and the counts of
+//! instructions.
+//!
+//! * [`Task`]: what a batch is asked for; [`Arrays`]: the numbers that go in and come out;
+//! * [`materials`]: of which energies;
+//! * [`Decompositions`]: the singular value decomposition alone;
+//! * [`PointByPoint`]: the same result by the method of \[SZLSB11\], a scalar at a time;
+//! * [`time`]: how long calls take.
+
+use piola::batch::Energy;
+use piola::lanes::Element;
+use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
+
+mod arrays;
+mod decomposition;
+mod paper;
+mod task;
+mod timing;
+
+pub use arrays::Arrays;
+pub use decomposition::Decompositions;
+pub use paper::PointByPoint;
+pub use task::Task;
+pub use timing::{Effort, Times, time, time_in_turns};
+
+/// Points whose numbers stay in the caches of a core.
+pub const IN_CACHE: usize = 128;
+
+/// Points whose tangents are larger than any cache: 85 MB of `f64`.
+pub const STREAMING: usize = 1 << 17;
+
+/// Shear modulus of [`materials`], MPa, but for Ogden's.
+pub const MU: f64 = 1.0;
+
+/// First Lamé parameter of [`materials`], MPa.
+pub const LAMBDA: f64 = 1.5;
+
+/// A polynomial, a logarithm and three powers of each stretch: the energies that are timed, by name.
+///
+/// Ogden's shear part has the three terms of his rubber. No energy is faster or slower for its parameters, unless a filter
+/// finds nothing to do.
+#[must_use]
+pub fn materials<E: Element>() -> [(&'static str, Box<dyn Energy<E>>); 3] {
+    [
+        ("StVenantKirchhoff", Box::new(StVenantKirchhoff::new(MU, LAMBDA).expect("admissible parameters"))),
+        ("NeoHookean", Box::new(NeoHookean::new(MU, LAMBDA).expect("admissible parameters"))),
+        ("Ogden<3>", Box::new(ogden())),
+    ]
+}
+
+/// The third of [`materials`].
+#[must_use]
+pub fn ogden() -> Ogden<3> {
+    Ogden::new([0.63, 0.0012, -0.01], [1.3, 5.0, -2.0], LAMBDA).expect("admissible parameters")
+}

@@ -1,0 +1,135 @@
+//! The kernels of a batch, and which numbers of a point each reads and writes.
+
+use piola::batch::{FACTORS, REST};
+
+use crate::random::Random;
+
+/// What a batch is asked for: one of the methods of [`Batch`](piola::batch::Batch).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Task {
+    /// ψ.
+    Energies,
+    /// P.
+    Stresses,
+    /// P and 81 entries of dP/dF.
+    Tangents,
+    /// P and 45 entries of dP/dF.
+    PackedTangents,
+    /// P and what dP/dF is made of.
+    FactoredTangents,
+    /// dP from the latter and dF.
+    Products,
+    /// Gradients and stiffnesses of elements, 144 entries.
+    Stiffnesses,
+    /// The same, 78 entries.
+    PackedStiffnesses,
+}
+
+impl Task {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Energies,
+        Self::Stresses,
+        Self::Tangents,
+        Self::PackedTangents,
+        Self::FactoredTangents,
+        Self::Products,
+        Self::Stiffnesses,
+        Self::PackedStiffnesses,
+    ];
+
+    /// The name of the method.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Energies => "energies",
+            Self::Stresses => "stresses",
+            Self::Tangents => "tangents",
+            Self::PackedTangents => "packed_tangents",
+            Self::FactoredTangents => "factored_tangents",
+            Self::Products => "products",
+            Self::Stiffnesses => "stiffnesses",
+            Self::PackedStiffnesses => "packed_stiffnesses",
+        }
+    }
+
+    /// Whether an energy is evaluated.
+    #[must_use]
+    pub fn has_material(self) -> bool {
+        self != Self::Products
+    }
+
+    /// Whether there is a tangent to filter.
+    #[must_use]
+    pub fn has_filter(self) -> bool {
+        self.has_material() && !matches!(self, Self::Energies | Self::Stresses)
+    }
+
+    /// What it reads of each point.
+    pub(super) fn inputs(self) -> [Input; 2] {
+        match self {
+            Self::Products => [Input::Factors, Input::Increment],
+            Self::Stiffnesses | Self::PackedStiffnesses => [Input::Deformation, Input::RestShape],
+            _ => [Input::Deformation, Input::Nothing],
+        }
+    }
+
+    /// How many numbers it writes for each point.
+    pub(super) fn outputs(self) -> [usize; 2] {
+        match self {
+            Self::Energies => [1, 0],
+            Self::Stresses | Self::Products => [9, 0],
+            Self::Tangents => [9, 81],
+            Self::PackedTangents => [9, 45],
+            Self::FactoredTangents => [9, FACTORS],
+            Self::Stiffnesses => [12, 144],
+            Self::PackedStiffnesses => [12, 78],
+        }
+    }
+}
+
+/// What is known of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Input {
+    Nothing,
+    /// F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0, so that every energy is defined.
+    Deformation,
+    /// As F, and a volume.
+    RestShape,
+    /// Any numbers: nothing depends on them.
+    Factors,
+    Increment,
+}
+
+impl Input {
+    pub(super) fn numbers(self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::Deformation | Self::Increment => 9,
+            Self::RestShape => REST,
+            Self::Factors => FACTORS,
+        }
+    }
+
+    pub(super) fn draw(self, random: &mut Random) -> Vec<f64> {
+        match self {
+            Self::Nothing => Vec::new(),
+            Self::Deformation => deformation(random),
+            Self::RestShape => [deformation(random), vec![random.uniform(0.5, 1.5)]].concat(),
+            Self::Factors | Self::Increment => {
+                (0..self.numbers()).map(|_| random.uniform(-1.0, 1.0)).collect()
+            }
+        }
+    }
+}
+
+fn deformation(random: &mut Random) -> Vec<f64> {
+    loop {
+        let f: [f64; 9] = std::array::from_fn(|k| f64::from(k % 4 == 0) + 0.3 * random.uniform(-1.0, 1.0));
+        let determinant = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6])
+            + f[2] * (f[3] * f[7] - f[4] * f[6]);
+        if determinant > 0.0 {
+            return f.to_vec();
+        }
+    }
+}
