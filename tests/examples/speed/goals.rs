@@ -39,16 +39,15 @@ pub(crate) fn table(effort: Effort, streaming_effort: Effort) -> String {
 fn decomposition<E: Stages>(effort: Effort, goal: f64, table: &mut String) {
     let mut decompositions = Decompositions::<E>::new();
     let times = time(effort, IN_CACHE, || decompositions.run(Backend::best(), false));
-    judged::<E>(table, "`svd`", goal, times, None);
+    judged::<E>(table, "svd", goal, times, None);
 }
 
 fn kernel<E: Stages>(effort: Effort, task: Task, filter: Filter, goals: [f64; 3], table: &mut String) {
-    let suffix = if filter == Filter::None { "" } else { " +C" };
     for ((name, energy), goal) in materials::<E>().iter().zip(goals) {
         let batch = Batch { filter, ..Batch::new(&**energy) };
         let [lines, points] =
             [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, task, layout, &batch));
-        let figure = format!("`{}`{suffix}, {name}", task.name());
+        let figure = format!("{}, {name}", task.label(filter));
         judged::<E>(table, &figure, goal, lines, Some(points));
     }
 }
@@ -58,7 +57,7 @@ fn product(effort: Effort, goal: f64, table: &mut String) {
     let batch = Batch::new(&*energy);
     let [lines, points] =
         [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, Task::Products, layout, &batch));
-    judged::<f64>(table, "`products`", goal, lines, Some(points));
+    judged::<f64>(table, "products", goal, lines, Some(points));
 }
 
 /// The better way to store; the goal is [`STREAMING_SLACK`] times the larger of the time in cache and that of moving.
@@ -68,7 +67,7 @@ fn streamed<E: Stages>(effort: Effort, streaming_effort: Effort, task: Task, tab
         let computed = in_cache(effort, task, Layout::Lines, &Batch::new(&**energy));
         let found = streaming(streaming_effort, &mut arrays, &**energy, Filter::None);
         let goal = STREAMING_SLACK * computed.least.max(found.traffic.least);
-        judged::<E>(table, &format!("streaming `{}`, {name}", task.name()), goal, found.best(), None);
+        judged::<E>(table, &format!("streaming {}, {name}", task.name()), goal, found.best(), None);
     }
 }
 

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
-use piola::point::Filter;
 use piola_tests::speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
 
 use super::measure::{in_cache as measure_in_cache, streaming as measure_streaming};
@@ -25,16 +24,6 @@ pub(crate) fn header(titles: &[&str]) -> String {
     format!("| {} |\n|{}\n", titles.join(" | "), "---|".repeat(titles.len()))
 }
 
-/// The task with each filter that makes a difference to it.
-fn filters(task: Task) -> impl Iterator<Item = (String, Filter)> {
-    let filters = [("", Filter::None), (" +C", Filter::Clamp)];
-    let count = if task.has_filter() { 2 } else { 1 };
-    filters
-        .into_iter()
-        .take(count)
-        .map(move |(suffix, filter)| (format!("`{}`{suffix}", task.name()), filter))
-}
-
 pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
     let materials = materials::<E>();
     let mut titles = vec!["kernel".to_owned()];
@@ -43,14 +32,14 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
     }
     let mut table = header(&titles.iter().map(String::as_str).collect::<Vec<_>>());
     let mut decompositions = Decompositions::<E>::new();
-    for (name, is_signed) in [("`svd`", false), ("`svd_signed_by_determinant`", true)] {
+    for (name, is_signed) in [("svd", false), ("svd_signed_by_determinant", true)] {
         let times = time(effort, IN_CACHE, || decompositions.run(backend, is_signed));
         row(&mut table, &[name.to_owned(), cell(times)]);
     }
     for task in Task::ALL {
-        for (name, filter) in filters(task) {
-            let mut cells = vec![name];
-            for (_, energy) in materials.iter().take(if task.has_material() { 3 } else { 1 }) {
+        for &filter in task.filters() {
+            let mut cells = vec![task.label(filter)];
+            for (_, energy) in task.materials(&materials) {
                 let batch = Batch { backend, filter, ..Batch::new(&**energy) };
                 for layout in [Layout::Lines, Layout::Points] {
                     cells.push(cell(measure_in_cache(effort, task, layout, &batch)));
@@ -72,9 +61,9 @@ pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
     let mut table = header(&titles.iter().map(String::as_str).collect::<Vec<_>>());
     for task in Task::ALL {
         let mut arrays = Arrays::<E>::new(task, Layout::Lines, STREAMING);
-        for (name, filter) in filters(task) {
-            let mut cells = vec![name];
-            for (_, energy) in materials.iter().take(if task.has_material() { 3 } else { 1 }) {
+        for &filter in task.filters() {
+            let mut cells = vec![task.label(filter)];
+            for (_, energy) in task.materials(&materials) {
                 let found = measure_streaming(effort, &mut arrays, &**energy, filter);
                 if cells.len() == 1 {
                     cells.push(cell(found.traffic));

@@ -1,6 +1,7 @@
 //! The kernels of a batch, and which numbers of a point each reads and writes.
 
 use piola::batch::{FACTORS, REST};
+use piola::point::Filter;
 
 use crate::random::Random;
 
@@ -53,16 +54,30 @@ impl Task {
         }
     }
 
-    /// Whether an energy is evaluated.
+    /// Its name, with a mark where a filter acts: `tangents +C`.
     #[must_use]
-    pub fn has_material(self) -> bool {
-        self != Self::Products
+    pub fn label(self, filter: Filter) -> String {
+        let mark = match filter {
+            Filter::None => "",
+            Filter::Clamp => " +C",
+            Filter::Absolute => " +A",
+        };
+        format!("{}{mark}", self.name())
     }
 
-    /// Whether there is a tangent to filter.
+    /// The filters that make a difference to it.
     #[must_use]
-    pub fn has_filter(self) -> bool {
-        self.has_material() && !matches!(self, Self::Energies | Self::Stresses)
+    pub fn filters(self) -> &'static [Filter] {
+        match self {
+            Self::Energies | Self::Stresses | Self::Products => &[Filter::None],
+            _ => &[Filter::None, Filter::Clamp],
+        }
+    }
+
+    /// The materials that make a difference to it: all, or the first where none is evaluated.
+    #[must_use]
+    pub fn materials<T>(self, all: &[T]) -> &[T] {
+        if self == Self::Products { &all[..1] } else { all }
     }
 
     /// What it reads of each point.
