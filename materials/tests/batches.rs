@@ -2,10 +2,14 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
+use std::sync::OnceLock;
+
 use piola::Inversion;
 use piola::batch::{Batch, Energy, Layout, Survey};
 use piola::lanes::Backend;
 use piola::material::{Each, Mixed, Varying};
+use piola::mesh::TetMesh;
+use piola::system::{Body, BodyError};
 use piola_materials::{Gent, NeoHookean, Ogden};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -101,6 +105,20 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
     assert_eq!(Each::<NeoHookean>::new(&[]).err(), Some(Mixed { material: 0 }));
     let mixed = [rubber, rubber.with_inversion(EXTEND)?];
     assert_eq!(Each::new(&mixed).err(), Some(Mixed { material: 1 }));
+    Ok(())
+}
+
+#[test]
+fn a_part_of_a_body_has_one_material() -> Outcome {
+    static RUBBERS: OnceLock<[NeoHookean; 1]> = OnceLock::new();
+    let rubber = NeoHookean::new(1.0, 3.0)?;
+    let each = Each::new(RUBBERS.get_or_init(|| [rubber]))?;
+    let tetrahedron = TetMesh {
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        tets: vec![[0, 1, 2, 3]],
+        ..TetMesh::default()
+    };
+    assert_eq!(Body::new(&tetrahedron, each, 1.0).err(), Some(BodyError::MaterialsForPoints));
     Ok(())
 }
 

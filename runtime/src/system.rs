@@ -74,8 +74,8 @@ impl Body {
     /// A body of several parts, which together hold each tetrahedron exactly once.
     ///
     /// # Errors
-    /// Where the mesh is not a body, a density is not positive, a group does not exist, or a tetrahedron belongs to no
-    /// part or to two.
+    /// Where the mesh is not a body, a density is not positive, a material is one for each point, a group does not exist, or a
+    /// tetrahedron belongs to no part or to two.
     pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
         let shapes = mesh.rest_shapes().map_err(BodyError::Mesh)?;
         let part_of_tet = assign(mesh, &parts)?;
@@ -86,6 +86,9 @@ impl Body {
         for (index, Part { material, density, .. }) in parts.into_iter().enumerate() {
             if !(density > 0.0 && density.is_finite()) {
                 return Err(BodyError::Density { density });
+            }
+            if material.points().is_some() {
+                return Err(BodyError::MaterialsForPoints);
             }
             for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
                 densities[tet] = density;
@@ -172,6 +175,8 @@ pub enum BodyError {
         /// As given, kg/m³.
         density: f64,
     },
+    /// The material of a part is a material for each of many points.
+    MaterialsForPoints,
     /// A part names a group that the mesh does not have.
     NoSuchGroup {
         /// As given.
@@ -198,6 +203,9 @@ impl fmt::Display for BodyError {
             Self::Density { density } => {
                 write!(f, "the density is {density} kg/m³; it must be a positive number")
             }
+            Self::MaterialsForPoints => f.write_str(
+                "a part has one material for all its elements: make a part for each material, or compute with batches",
+            ),
             Self::NoSuchGroup { name, existing } if existing.is_empty() => {
                 write!(f, "there is no group `{name}`: the mesh has no groups of tetrahedra")
             }
