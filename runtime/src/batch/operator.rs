@@ -63,10 +63,10 @@ impl StiffnessTile {
     /// The stages from edges to factors.
     fn respond(&mut self, energy: &dyn Energy<f64>, filter: Filter, workspace: &mut Workspace<f64>) -> Marks {
         let Self { backend, count, ref rest, ref mut factors } = *self;
-        let Workspace { F, points, blocks, line, .. } = workspace;
+        let Workspace { F: edges, points, blocks, line, .. } = workspace;
         let (rest, is_signed, has_pole) = (rest.source(), energy.ends_at_zero_volume(), energy.has_pole());
-        f64::deform(backend, Deform { edges: F, rest, count });
-        f64::decompose(backend, Decompose { F: F.source(), count, is_signed, points });
+        f64::deform(backend, Deform { edges, rest, count });
+        f64::decompose(backend, Decompose { F: edges.source(), count, is_signed, points });
         let arguments = &points.stretches;
         let refused = energy.blocks(TileOf { backend, start: 0, count, arguments }, blocks);
         let judged = f64::judge(backend, Judge { points, blocks, count, filter, has_pole });
@@ -81,14 +81,8 @@ impl StiffnessTile {
             for (lane, corners) in corners.enumerate() {
                 set_edges(edges, lane, corners);
             }
-            let (factors, count) = (self.factors.source(), self.count);
-            self.backend.run(Multiply {
-                factors,
-                edges: edges.source(),
-                count,
-                line,
-                to: by_elements(products),
-            });
+            let (factors, edges, count) = (self.factors.source(), edges.source(), self.count);
+            self.backend.run(Multiply { factors, edges, count, line, to: by_elements(products) });
         });
     }
 
