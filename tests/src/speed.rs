@@ -6,6 +6,8 @@
 //! * [`Decompositions`]: the singular value decomposition alone;
 //! * [`PointByPoint`]: the same result by the method of \[SZLSB11\], a scalar at a time;
 //! * [`time`]: how long calls take.
+//!
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 use piola::batch::Energy;
 use piola::lanes::Element;

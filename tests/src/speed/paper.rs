@@ -1,4 +1,6 @@
 //! P and dP/dF by the method of the paper, one point after the other: what batches are compared with.
+//!
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
