@@ -33,10 +33,11 @@
 //!
 //! From the bottom up, each module knowing only those above it:
 //!
-//! * [`lanes`]: the real numbers everything is generic over;
+//! * [`lanes`]: the real numbers everything is generic over, one at a time or side by side in vector registers;
 //! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
+//! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
 //! * [`mesh`]: tetrahedra, their files, embedded surfaces;
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, factorisation;
