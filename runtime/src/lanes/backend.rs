@@ -92,6 +92,12 @@ impl Backend {
     /// Copies numbers past the caches where these instructions can and both slices consist of whole aligned registers,
     /// else as any copy: for comparison with what a kernel writes.
     ///
+    /// ```
+    /// let (from, mut to) = ([1.0, 2.0, 3.0], [0.0; 3]);
+    /// piola::lanes::Backend::best().copy_past_caches(&from, &mut to);
+    /// assert_eq!(to, from);
+    /// ```
+    ///
     /// # Panics
     /// Where the lengths differ.
     pub fn copy_past_caches<E: Element>(self, from: &[E], to: &mut [E]) {
