@@ -213,15 +213,7 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
         R::select(vanishes, zero, b1[2] * inverse),
     ];
 
-    // p and q complete u1 to a right-handed orthonormal basis [Duff17].
-    let [x, y, z] = u1;
-    let sign = one.copysign(z);
-    let a = -(one / (sign + z));
-    let xa = x * a;
-    let xya = y * xa;
-    let p = [one + sign * x * xa, sign * xya, -(sign * x)];
-    let q = [xya, sign + y * (y * a), -y];
-
+    let (p, q) = completed(u1);
     let (yp, yq) = (dot(b2, p), dot(b2, q));
     let squared = yp.mul_add(yp, yq * yq);
     let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
@@ -233,6 +225,17 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
 
     let U = three!(i => [u1[i], cp.mul_add(p[i], cq * q[i]), cp.mul_add(q[i], -(cq * p[i]))]);
     (U, [s1, s2, s3])
+}
+
+/// p and q that complete a unit vector to a right-handed orthonormal basis \[Duff17\].
+#[inline(always)]
+pub(super) fn completed<R: Real>([x, y, z]: [R; 3]) -> ([R; 3], [R; 3]) {
+    let one = R::splat(1.0);
+    let sign = one.copysign(z);
+    let a = -(one / (sign + z));
+    let xa = x * a;
+    let xya = y * xa;
+    ([one + sign * x * xa, sign * xya, -(sign * x)], [xya, sign + y * (y * a), -y])
 }
 
 /// The length of a vector and its reciprocal from the square; a length of 0 where that is not a normal number.
