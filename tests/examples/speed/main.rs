@@ -38,6 +38,7 @@ fn main() {
          the numbers takes, whichever takes longer.\n"
     );
     println!("{}", goals::table(effort, streaming_effort));
+    println!("{}", goals::REASONS);
     println!("## Energies by hand\n\n{}", comparisons::hand_written(effort));
     println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
     for backend in Backend::available().take(if is_quick { 1 } else { usize::MAX }) {
