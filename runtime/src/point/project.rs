@@ -146,7 +146,10 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (Av, Aw) = (times(A, v), times(A, w));
     let (m11, m12, m22) = (dot(v, Av), dot(v, Aw), dot(w, Aw));
     let (m, d) = (half * (m11 + m22), half * (m11 - m22));
-    let r = d.mul_add(d, m12 * m12).sqrt();
+    // Beside an eigenvalue that is cut off the other two may be so small that their squares would underflow.
+    let (scale, back) = d.abs().max(m12.abs()).power_of_two_scale();
+    let (scaled_d, scaled_m12) = (d * scale, m12 * scale);
+    let r = scaled_d.mul_add(scaled_d, scaled_m12 * scaled_m12).sqrt() * back;
     let (larger, smaller) = (m + r, m - r);
     let (f_larger, f_smaller) = (filtered(larger, slope), filtered(smaller, slope));
     let h = half * (f_larger + f_smaller);
