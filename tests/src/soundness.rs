@@ -13,7 +13,7 @@
 use std::fmt;
 
 use piola::Material;
-use piola::batch::Batch;
+use piola::batch::{Batch, Energy};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
 
@@ -174,9 +174,11 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
 /// The same of a batch of one: a tetrahedron with the corner shape as rest shape. Where no count of its surveys is other than
 /// zero, energy, stress, forces and stiffness are finite.
 ///
+/// The material is dynamic, since that of [`Entry::elements`](piola_materials::Entry::elements) is compiled already.
+///
 /// # Errors
 /// The first fault found.
-pub fn check_element(material: &impl Material, F: &Matrix3<f64>) -> Result<(), Fault> {
+pub fn check_element(material: &dyn Energy<f64>, F: &Matrix3<f64>) -> Result<(), Fault> {
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     const FITS: &str = "the lengths are those of one point";
     let F = F.as_flattened();

@@ -16,6 +16,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use piola::batch::Energy;
 use piola::material::Declared;
 use piola::point::Matrix3;
 use piola::{Inversion, Material};
@@ -54,13 +55,14 @@ fn every_entry<R: Judged>() {
     for (index, entry) in CATALOGUE.iter().enumerate() {
         let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
         for &inversion in inversions {
+            let admissible = "typical parameters are admissible";
             let trial = Trial::<R> {
+                elements: entry.elements(entry.typical, inversion).expect(admissible),
                 seed: index as u64,
                 patterns: patterns() / inversions.len(),
                 precision: PhantomData,
             };
-            let tally =
-                entry.visit(entry.typical, inversion, trial).expect("typical parameters are admissible");
+            let tally = entry.visit(entry.typical, inversion, trial).expect(admissible);
             for (fault, (count, F)) in &tally.faults {
                 let _ =
                     writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", entry.name, R::NAME);
@@ -87,22 +89,37 @@ fn every_entry<R: Judged>() {
 
 /// A precision with all the judges that it has.
 trait Judged: Precision {
-    /// `closely` asks for the judge that takes the longest, too.
-    fn judge(material: &impl Material, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
+    /// `elements` is the same material as that of a body; `closely` asks for the judge that takes the longest, too.
+    fn judge(
+        material: &impl Material,
+        elements: &dyn Energy<f64>,
+        F: &Matrix3<Self>,
+        closely: bool,
+    ) -> Result<Answer, Fault>;
 }
 
 impl Judged for f64 {
-    fn judge(material: &impl Material, F: &Matrix3<Self>, _closely: bool) -> Result<Answer, Fault> {
+    fn judge(
+        material: &impl Material,
+        elements: &dyn Energy<f64>,
+        F: &Matrix3<Self>,
+        _closely: bool,
+    ) -> Result<Answer, Fault> {
         let answer = check(material, F)?;
         if !alone() {
-            check_element(material, F)?;
+            check_element(elements, F)?;
         }
         Ok(answer)
     }
 }
 
 impl Judged for f32 {
-    fn judge(material: &impl Material, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault> {
+    fn judge(
+        material: &impl Material,
+        _elements: &dyn Energy<f64>,
+        F: &Matrix3<Self>,
+        closely: bool,
+    ) -> Result<Answer, Fault> {
         let answer = check(material, F)?;
         if alone() {
             return Ok(answer);
@@ -152,6 +169,7 @@ impl Tally {
 
 /// One material at random patterns of bits.
 struct Trial<R> {
+    elements: Box<dyn Energy<f64>>,
     seed: u64,
     patterns: usize,
     precision: PhantomData<R>,
@@ -166,12 +184,12 @@ impl<R: Judged> Visitor for Trial<R> {
         for pattern in 0..self.patterns {
             let round = pattern / Family::ALL.len();
             let F = Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
-            match judge(&material, &F, round.is_multiple_of(8)) {
+            match judge(&material, &*self.elements, &F, round.is_multiple_of(8)) {
                 Ok(answer) => tally.count(answer),
                 Err(fault) => {
                     tally.patterns += 1;
                     let entry = tally.faults.entry(fault).or_insert_with(|| {
-                        let F = simplest(&material, F, fault);
+                        let F = simplest(&material, &*self.elements, F, fault);
                         (0, format!("{F:?}"))
                     });
                     entry.0 += 1;
@@ -182,12 +200,22 @@ impl<R: Judged> Visitor for Trial<R> {
     }
 }
 
-fn judge<R: Judged>(material: &impl Material, F: &Matrix3<R>, closely: bool) -> Result<Answer, Fault> {
-    catch_unwind(AssertUnwindSafe(|| R::judge(material, F, closely))).unwrap_or(Err(Fault::Panic))
+fn judge<R: Judged>(
+    material: &impl Material,
+    elements: &dyn Energy<f64>,
+    F: &Matrix3<R>,
+    closely: bool,
+) -> Result<Answer, Fault> {
+    catch_unwind(AssertUnwindSafe(|| R::judge(material, elements, F, closely))).unwrap_or(Err(Fault::Panic))
 }
 
 /// A deformation with the same fault and simpler entries, for whoever has to find out why.
-fn simplest<R: Judged>(material: &impl Material, mut F: Matrix3<R>, fault: Fault) -> Matrix3<R> {
+fn simplest<R: Judged>(
+    material: &impl Material,
+    elements: &dyn Energy<f64>,
+    mut F: Matrix3<R>,
+    fault: Fault,
+) -> Matrix3<R> {
     loop {
         let before = F;
         for (i, j) in (0..9).map(|entry| (entry / 3, entry % 3)) {
@@ -197,7 +225,10 @@ fn simplest<R: Judged>(material: &impl Material, mut F: Matrix3<R>, fault: Fault
                 let mut trial = F;
                 trial[i][j] = R::splat(simpler);
                 let is_simpler = value != simpler && (simpler == 0.0 || value != 0.0 && value.abs() != 1.0);
-                if is_simpler && trial[i][j].is_finite() && judge(material, &trial, true) == Err(fault) {
+                if is_simpler
+                    && trial[i][j].is_finite()
+                    && judge(material, elements, &trial, true) == Err(fault)
+                {
                     F = trial;
                     break;
                 }
