@@ -1,7 +1,7 @@
 //! Bodies that collapse, invert and recover: the scenes behind the command `piola`.
 //!
 //! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) say what a run does
-//! differently; [`run()`](run::run) plays it and leaves surfaces, a picture and a summary in a folder.
+//! differently; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces, a picture and a summary in a folder.
 //!
 //! The crate holds no mechanics, models no contact with the floor that its pictures show, and shows nothing on a screen.
 
@@ -10,6 +10,7 @@ pub mod error;
 pub mod geometry;
 pub mod measure;
 pub mod output;
+pub mod play;
 pub mod region;
 pub mod render;
 pub mod run;

@@ -4,24 +4,19 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use piola::mesh::TetMesh;
-use piola::step::{self, NewtonSettings, Simulation};
-use piola::system::{Body, Part, Pins};
 
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::output::{Folder, Newton, PICTURE_FILE, SUMMARY_FILE, Summary, frame_file, write_ply};
-use crate::region;
+use crate::output::{Folder, PICTURE_FILE, SUMMARY_FILE, Summary, frame_file, write_ply};
+use crate::play::Play;
 use crate::render::{self, contact_sheet};
-use crate::scene::{Pull, Start};
 use crate::settings::Settings;
 
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
 /// How many frames are kept in memory to choose the tiles from.
 const CANDIDATES: usize = 400;
-/// The springs of a pull are together this much stiffer than a cube of the body's material and height.
-const GRIP: f64 = 10.0;
 
 /// Plays a scene, calling `on_step` after every time step, and leaves surfaces, a picture and the summary in `folder`.
 ///
@@ -29,45 +24,32 @@ const GRIP: f64 = 10.0;
 /// With [`Error::exit_code`] 2 where the settings make no sense or the folder cannot be written to, else 1 where a
 /// step or a file fails. Then nothing is written.
 pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Result<Summary, Error> {
-    settings.check()?;
     let geometry = Geometry::load(settings)?;
-    let mesh = &geometry.mesh;
-    let substance = settings.energy.build()?;
-    let pins = pins(settings, mesh)?;
-    let pulls = Pulls::of(settings.scene.pulls, mesh, substance.moduli.young());
-    let setup = |reason: &dyn std::fmt::Display| Error::Setup { reason: reason.to_string() };
-
-    let part = Part { group: None, material: substance.elements, density: settings.density };
-    let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
-    let mut simulation =
-        Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
-    let start = start(settings.scene.start, &geometry, &pins);
-    simulation.set_positions(&start).map_err(|error| setup(&error))?;
+    let mut play = Play::new(settings, &geometry)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
     let threads = threads.map_err(|error| Error::Threads { reason: error.to_string() })?;
 
     let mut recording = Recording::new(&geometry, settings, Folder::prepare(folder)?);
-    recording.frame(0, simulation.positions())?;
+    recording.frame(0, play.simulation().positions())?;
     let mut times = Vec::with_capacity(settings.frames);
     let mut iterations = 0;
     let mut energy = 0.0;
     for frame in 1..=settings.frames {
-        let failed = |error: &dyn std::fmt::Display| Error::Step { frame, reason: error.to_string() };
-        simulation.set_pulls(&pulls.at(frame as f64 * settings.dt)).map_err(|error| failed(&error))?;
         let clock = Instant::now();
-        let report = threads.install(|| simulation.step(settings.dt));
+        let report = threads.install(|| play.step());
         times.push(clock.elapsed());
-        let report = report.map_err(|error| failed(&error))?;
+        let report = report?;
         iterations += report.newton.iterations;
         energy = report.energies.elastic;
-        recording.frame(frame, simulation.positions())?;
+        recording.frame(frame, play.simulation().positions())?;
         on_step();
     }
 
-    let distance = distance_from_rest(mesh, simulation.positions(), pins.nodes().len());
+    let (mesh, simulation) = (&geometry.mesh, play.simulation());
+    let distance = distance_from_rest(mesh, simulation.positions(), simulation.pinned().len());
     let summary = Summary {
         scene: settings.scene.name.into(),
-        material: substance.name.into(),
+        material: play.material().into(),
         tets: mesh.tets.len(),
         nodes: mesh.positions.len(),
         surface_vertices: geometry.surface_vertices(),
@@ -84,92 +66,6 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
     };
     recording.finish(settings, &summary)?;
     Ok(summary)
-}
-
-fn step_settings(settings: &Settings) -> step::Settings {
-    let newton = match settings.newton {
-        Newton::Single => NewtonSettings::single(),
-        Newton::Full => NewtonSettings::default(),
-    };
-    let gravity = [0.0, -settings.gravity, 0.0];
-    step::Settings { gravity, damping: settings.scene.damping, newton, ..step::Settings::default() }
-}
-
-/// The nodes that the settings pin, or else the scene.
-fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
-    if settings.pins.is_empty() {
-        let region = region::within(mesh.bounds(), settings.scene.pinned);
-        let pin = format!("of the scene {}", settings.scene.name);
-        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, reason: error.to_string() });
-    }
-    settings.pins.iter().try_fold(Pins::none(), |all, pin| {
-        // What could be a box may also be the name of a group; then the user who named it means the group.
-        let pins = match (mesh.group(pin), region::parse(pin)) {
-            (None, Ok(region)) => Pins::in_box(mesh, region),
-            (Some(_), _) => Pins::of_group(mesh, pin),
-            (None, Err(_)) => {
-                let groups = mesh.groups.iter().map(|group| group.name.clone()).collect();
-                return Err(Error::UnknownPin { pin: pin.clone(), groups });
-            }
-        };
-        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), reason: error.to_string() })?;
-        Ok(all.and(&pins))
-    })
-}
-
-/// Where the nodes are in frame 0.
-fn start(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
-    let rest = &geometry.mesh.positions;
-    match start {
-        Start::Rest => rest.clone(),
-        Start::Flattened => {
-            // The cage of tetrahedra reaches below the surface, and the ground lies under the surface.
-            let heights = geometry.surface_at(rest).into_iter().map(|vertex| f64::from(vertex[1]));
-            let ground = heights.fold(f64::INFINITY, f64::min);
-            let flat = |(node, &[x, y, z]): (usize, &[f64; 3])| {
-                if pins.nodes().binary_search(&node).is_ok() { [x, y, z] } else { [x, ground, z] }
-            };
-            rest.iter().enumerate().map(flat).collect()
-        }
-    }
-}
-
-/// The pulls of a scene on the nodes of a body.
-struct Pulls<'a> {
-    mesh: &'a TetMesh,
-    height: f64,
-    /// Each with its nodes and their springs' stiffness, N/m.
-    pulls: Vec<(Pull, Vec<usize>, f64)>,
-}
-
-impl<'a> Pulls<'a> {
-    /// `young`, Pa, is the small-strain Young's modulus of the body.
-    fn of(pulls: &[Pull], mesh: &'a TetMesh, young: f64) -> Self {
-        let bounds = mesh.bounds();
-        let height = bounds.size()[1];
-        let on_nodes = |&pull: &Pull| {
-            let region = region::within(bounds, pull.region);
-            let nodes: Vec<_> =
-                (0..mesh.positions.len()).filter(|&node| region.contains(mesh.positions[node])).collect();
-            let stiffness = GRIP * young * height / nodes.len().max(1) as f64;
-            (pull, nodes, stiffness)
-        };
-        Self { mesh, height, pulls: pulls.iter().map(on_nodes).collect() }
-    }
-
-    /// The springs at a time.
-    fn at(&self, time: f64) -> Vec<step::Pull> {
-        let mut springs = Vec::new();
-        for (pull, nodes, stiffness) in &self.pulls {
-            let Some(share) = pull.share_at(time) else { continue };
-            springs.extend(nodes.iter().map(|&node| {
-                let rest = self.mesh.positions[node];
-                let target = std::array::from_fn(|i| rest[i] + share * pull.by[i] * self.height);
-                step::Pull::on_node(node, target, *stiffness)
-            }));
-        }
-        springs
-    }
 }
 
 /// The largest distance of a node from rest in body heights, after the best rigid motion where too few nodes are

@@ -1,0 +1,172 @@
+//! A scene in motion.
+
+use std::fmt::Display;
+
+use piola::mesh::TetMesh;
+use piola::step::{self, NewtonSettings, Simulation, StepReport};
+use piola::system::{Body, Part, Pins};
+
+use crate::error::Error;
+use crate::geometry::Geometry;
+use crate::output::Newton;
+use crate::region;
+use crate::scene::{Pull, Start};
+use crate::settings::Settings;
+
+/// The springs of a pull are together this much stiffer than a cube of the body's material and height.
+const GRIP: f64 = 10.0;
+
+/// A body that does what its scene says, step by step.
+#[derive(Debug)]
+pub struct Play {
+    simulation: Simulation,
+    material: &'static str,
+    pulls: Vec<Grip>,
+    dt: f64,
+    frame: usize,
+}
+
+impl Play {
+    /// The scene before its first step.
+    ///
+    /// # Errors
+    /// Where the settings make no sense or do not fit the body.
+    pub fn new(settings: &Settings, geometry: &Geometry) -> Result<Self, Error> {
+        settings.check()?;
+        let mesh = &geometry.mesh;
+        let substance = settings.energy.build()?;
+        let pins = pins(settings, mesh)?;
+        let young = substance.moduli.young();
+        let pulls = settings.scene.pulls.iter().map(|&pull| Grip::new(pull, mesh, young)).collect();
+        let part = Part { group: None, material: substance.elements, density: settings.density };
+        let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
+        let mut simulation =
+            Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
+        let start = start(settings.scene.start, geometry, &pins);
+        simulation.set_positions(&start).map_err(|error| setup(&error))?;
+        Ok(Self { simulation, material: substance.name, pulls, dt: settings.dt, frame: 0 })
+    }
+
+    /// The body and its state.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// Name of its material in the catalogue.
+    #[must_use]
+    pub fn material(&self) -> &'static str {
+        self.material
+    }
+
+    /// Solves the steps that follow in another way.
+    ///
+    /// # Errors
+    /// Where a setting makes no sense.
+    pub fn set_step_settings(&mut self, settings: step::Settings) -> Result<(), Error> {
+        self.simulation.set_settings(settings).map_err(|error| setup(&error))
+    }
+
+    /// Makes the next time step, in the rayon pool where it is called.
+    ///
+    /// # Errors
+    /// [`Error::Step`]; the state before the step is then untouched.
+    pub fn step(&mut self) -> Result<StepReport, Error> {
+        let frame = self.frame + 1;
+        let failed = |error: &dyn Display| Error::Step { frame, reason: error.to_string() };
+        let time = frame as f64 * self.dt;
+        let springs: Vec<step::Pull> = self.pulls.iter().flat_map(|grip| grip.at(time)).collect();
+        self.simulation.set_pulls(&springs).map_err(|error| failed(&error))?;
+        let report = self.simulation.step(self.dt).map_err(|error| failed(&error))?;
+        self.frame = frame;
+        Ok(report)
+    }
+}
+
+fn setup(reason: &dyn Display) -> Error {
+    Error::Setup { reason: reason.to_string() }
+}
+
+fn step_settings(settings: &Settings) -> step::Settings {
+    let newton = match settings.newton {
+        Newton::Single => NewtonSettings::single(),
+        Newton::Full => NewtonSettings::default(),
+    };
+    let gravity = [0.0, -settings.gravity, 0.0];
+    step::Settings { gravity, damping: settings.scene.damping, newton, ..step::Settings::default() }
+}
+
+/// The nodes that the settings pin, or else the scene.
+fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
+    if settings.pins.is_empty() {
+        let region = region::within(mesh.bounds(), settings.scene.pinned);
+        let pin = format!("of the scene {}", settings.scene.name);
+        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, reason: error.to_string() });
+    }
+    settings.pins.iter().try_fold(Pins::none(), |all, pin| {
+        // What could be a box may also be the name of a group; then the user who named it means the group.
+        let pins = match (mesh.group(pin), region::parse(pin)) {
+            (None, Ok(region)) => Pins::in_box(mesh, region),
+            (Some(_), _) => Pins::of_group(mesh, pin),
+            (None, Err(_)) => {
+                let groups = mesh.groups.iter().map(|group| group.name.clone()).collect();
+                return Err(Error::UnknownPin { pin: pin.clone(), groups });
+            }
+        };
+        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), reason: error.to_string() })?;
+        Ok(all.and(&pins))
+    })
+}
+
+/// Where the nodes are in frame 0.
+fn start(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
+    let rest = &geometry.mesh.positions;
+    match start {
+        Start::Rest => rest.clone(),
+        Start::Flattened => {
+            // The cage of tetrahedra reaches below the surface, and the ground lies under the surface.
+            let heights = geometry.surface_at(rest).into_iter().map(|vertex| f64::from(vertex[1]));
+            let ground = heights.fold(f64::INFINITY, f64::min);
+            let flat = |(node, &[x, y, z]): (usize, &[f64; 3])| {
+                if pins.nodes().binary_search(&node).is_ok() { [x, y, z] } else { [x, ground, z] }
+            };
+            rest.iter().enumerate().map(flat).collect()
+        }
+    }
+}
+
+/// A pull of a scene on the nodes of a body.
+#[derive(Debug)]
+struct Grip {
+    pull: Pull,
+    /// The nodes with their places at rest, m.
+    nodes: Vec<(usize, [f64; 3])>,
+    /// Height of the body, m.
+    height: f64,
+    /// Of the spring at each node, N/m.
+    stiffness: f64,
+}
+
+impl Grip {
+    /// `young`, Pa, is the small-strain Young's modulus of the body.
+    fn new(pull: Pull, mesh: &TetMesh, young: f64) -> Self {
+        let bounds = mesh.bounds();
+        let height = bounds.size()[1];
+        let region = region::within(bounds, pull.region);
+        let places = mesh.positions.iter().copied().enumerate();
+        let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
+        let stiffness = GRIP * young * height / nodes.len().max(1) as f64;
+        Self { pull, nodes, height, stiffness }
+    }
+
+    /// The springs at a time, s.
+    fn at(&self, time: f64) -> impl Iterator<Item = step::Pull> {
+        let share = self.pull.share_at(time);
+        share.into_iter().flat_map(move |share| {
+            self.nodes.iter().map(move |&(node, rest)| {
+                let target = std::array::from_fn(|i| rest[i] + share * self.pull.by[i] * self.height);
+                step::Pull::on_node(node, target, self.stiffness)
+            })
+        })
+    }
+}
