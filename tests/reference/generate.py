@@ -3,6 +3,7 @@
 
     python -m venv venv && venv/bin/pip install mpmath==1.4.1 gmpy2==2.3.2
     venv/bin/python generate.py cases-more.json             # writes the file beside this script, the same bytes each time
+    venv/bin/python generate.py --ordinary cases-ordinary.json  # likewise: what the report of speed and error calls ordinary
     venv/bin/python generate.py --check cases.json          # recomputes every number of a file of this schema
 
 Version 1. Provenance: written from the formulas of the literature as SCHEMA.md and the catalogue's documentation state
@@ -704,6 +705,37 @@ def planned():
                 yield material, tag, levels[(number * count + i) * 7 % len(levels)]
 
 
+# Of the energies in the report of speed and error, all numbers exact in f32: moduli about as in its timings.
+ORDINARY = {
+    "stvk": {"mu": 1.0, "lambda": 1.5},
+    "neo_hookean_lnj": {"mu": 1.0, "lambda": 1.5},
+    "ogden": {"mu": [6.25, 0.01171875, -0.09375], "alpha": [1.3125, 5.0, -2.0], "kappa": 6.0},
+    "rotated_linear": {"mu": 1.0, "lambda": 1.5},
+    "hencky": {"mu": 1.0, "lambda": 1.5},
+}
+ORDINARY_COUNT = 32
+
+
+def ordinary_deformation(i):
+    """F = I + 0.3 X in f32, entries of X uniform in [−1, 1), det F > 0: the same for all energies."""
+    rng = random.Random(f"ordinary {i}")
+    while True:
+        F = [to_f32(float(k % 4 == 0) + 0.3 * rng.uniform(-1, 1)) for k in range(9)]
+        if determinant([F[0:3], F[3:6], F[6:9]]) > 0:
+            return F
+
+
+def generate_ordinary(material, i):
+    """The line of one case."""
+    tag, case_id = "ordinary", f"ordinary-{material}-{i:02}"
+    case = {"id": case_id, "material": material, "params": ORDINARY[material], "tag": tag, "k": None}
+    case["F"] = ordinary_deformation(i)
+    *solution, difference = solve(case)
+    if difference > AGREEMENT:
+        return f"{case_id}: the derivations differ by {mp.nstr(difference, 3)}"
+    return json.dumps(record(case, *solution), separators=(",", ":"))
+
+
 def check(case):
     """Where the file's numbers differ by more than 1e-24 of their norm, or its sensitivities by more than a part in 1e4."""
     result, sens, entrywise, scale, difference = solve(case)
@@ -729,6 +761,7 @@ def check(case):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--check", action="store_true", help="recompute the file instead of writing it")
+    arguments.add_argument("--ordinary", action="store_true", help="write ordinary deformations, not hard ones")
     arguments.add_argument("file", type=Path)
     arguments = arguments.parse_args()
     with ProcessPoolExecutor() as workers:
@@ -740,10 +773,16 @@ def main():
             print(f"{len(cases)} cases: values within {mp.nstr(max(worst), 3)} of their norm,", end=" ")
             print(f"derivations within {mp.nstr(max(differences), 3)}, {len(complaints)} complaints")
         else:
-            lines = list(workers.map(generate, *zip(*((i, *x) for i, x in enumerate(planned()))), chunksize=4))
+            if arguments.ordinary:
+                plan = [(material, i) for material in ORDINARY for i in range(ORDINARY_COUNT)]
+                lines = list(workers.map(generate_ordinary, *zip(*plan), chunksize=4))
+            else:
+                plan = [(i, *x) for i, x in enumerate(planned())]
+                lines = list(workers.map(generate, *zip(*plan), chunksize=4))
             complaints = [line for line in lines if not line.startswith("{")]
             print("\n".join(complaints), end="\n" if complaints else "")
-            head = f'{{"schema":"isohyper-oracle-1","set":"more","count":{len(lines)},"cases":[\n'
+            name = "ordinary" if arguments.ordinary else "more"
+            head = f'{{"schema":"isohyper-oracle-1","set":"{name}","count":{len(lines)},"cases":[\n'
             if not complaints:
                 arguments.file.write_text(head + ",\n".join(lines) + "\n]}\n")
     sys.exit(bool(complaints))

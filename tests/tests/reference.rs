@@ -1,6 +1,6 @@
 //! The reference cases, with a table of the worst errors: `cargo test --release -p piola-tests reference`.
 //!
-//! Every case of both files is judged, in `f64` and, where its F is exact there, in `f32`, under [`Inversion::Refuse`], as a
+//! Every case of all files is judged, in `f64` and, where its F is exact there, in `f32`, under [`Inversion::Refuse`], as a
 //! single point and in batches of every back end (in `f32` those of a few energies): by C u (‖X*‖ + sens), ψ by
 //! C u (|ψ*| + sens + Σ|terms|). What has no representation in a format cannot be returned there;
 //! its status must then say so, and say so only then. The variable `PIOLA_CASES` names one other file of the same schema.
@@ -31,7 +31,8 @@ use piola_tests::declared;
 const C: f64 = 30.0;
 
 /// The files of cases, beside their description.
-const FILES: [&str; 2] = ["reference/cases.json", "reference/cases-more.json"];
+const FILES: [&str; 3] =
+    ["reference/cases.json", "reference/cases-more.json", "reference/cases-ordinary.json"];
 
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
@@ -56,7 +57,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The cases of both files, which leave no energy of the catalogue out.
+/// The cases of all files, which leave no energy of the catalogue out.
 fn own_cases() -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
     for file in FILES {
