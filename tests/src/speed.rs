@@ -15,15 +15,17 @@ use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
 
 mod arrays;
 mod decomposition;
+mod machine;
 mod paper;
 mod task;
 mod timing;
 
 pub use arrays::Arrays;
 pub use decomposition::Decompositions;
+pub use machine::processor;
 pub use paper::PointByPoint;
 pub use task::Task;
-pub use timing::{Effort, Times, time, time_in_turns};
+pub use timing::{Effort, Times, time, time_all_in_turns, time_in_turns};
 
 /// Points whose numbers stay in the caches of a core.
 pub const IN_CACHE: usize = 128;

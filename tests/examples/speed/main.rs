@@ -8,7 +8,7 @@
 use std::time::Duration;
 
 use piola::lanes::Backend;
-use piola_tests::speed::{Effort, IN_CACHE, STREAMING};
+use piola_tests::speed::{Effort, IN_CACHE, STREAMING, processor};
 
 mod comparisons;
 mod goals;
@@ -17,8 +17,11 @@ mod tables;
 
 fn main() {
     let is_quick = std::env::args().skip(1).any(|argument| argument == "--quick");
-    let effort = Effort { repeats: if is_quick { 15 } else { 101 }, at_least: Duration::from_micros(100) };
-    let streaming_effort = Effort { repeats: if is_quick { 5 } else { 15 }, at_least: Duration::ZERO };
+    let at_most = Duration::MAX;
+    let repeats = if is_quick { 15 } else { 101 };
+    let effort = Effort { repeats, at_least: Duration::from_micros(100), at_most };
+    let repeats = if is_quick { 5 } else { 15 };
+    let streaming_effort = Effort { repeats, at_least: Duration::ZERO, at_most };
     let best = Backend::best();
 
     println!("# Nanoseconds per point, one thread\n");
@@ -47,19 +50,4 @@ fn main() {
     }
     println!("## Streaming, {best}, f64, in lines\n\n{}", tables::streaming::<f64>(streaming_effort));
     println!("## Streaming, {best}, f32, in lines\n\n{}", tables::streaming::<f32>(streaming_effort));
-}
-
-/// The processor's name, where the system says it.
-fn processor() -> String {
-    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| {
-        let line =
-            cpuinfo.lines().find(|line| line.split(':').next().is_some_and(|key| key.trim() == name))?;
-        line.split_once(':').map(|(_, value)| value.trim())
-    };
-    match (field("model name"), field("cpu family"), field("model")) {
-        (Some(name), Some(family), Some(model)) => format!("{name} (family {family}, model {model})"),
-        (Some(name), ..) => name.to_owned(),
-        _ => format!("unknown {}", std::env::consts::ARCH),
-    }
 }

@@ -3,6 +3,65 @@
 use piola::material::{Blocks, PAIRS};
 use piola::{Material, Real};
 
+/// All of a material but its blocks.
+macro_rules! delegate {
+    ($material:tt) => {
+        #[inline(always)]
+        fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+            self.$material.energy(stretches)
+        }
+
+        #[inline(always)]
+        fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+            self.$material.gradient(stretches)
+        }
+
+        #[inline(always)]
+        fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+            self.$material.admits(stretches)
+        }
+
+        fn has_pole(&self) -> bool {
+            self.$material.has_pole()
+        }
+
+        fn ends_at_zero_volume(&self) -> bool {
+            self.$material.ends_at_zero_volume()
+        }
+    };
+}
+
+/// A material with the quotients of [`naive`].
+#[derive(Clone, Copy, Debug)]
+pub struct Naive<M>(pub M);
+
+/// A material with the quotients of [`lhopital`].
+#[derive(Clone, Copy, Debug)]
+pub struct Switched<M> {
+    /// The material.
+    pub material: M,
+    /// Relative to the stretches.
+    pub threshold: f64,
+}
+
+impl<M: Material> Material for Naive<M> {
+    delegate!(0);
+
+    #[inline(always)]
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        naive(&self.0, stretches)
+    }
+}
+
+impl<M: Material> Material for Switched<M> {
+    delegate!(material);
+
+    #[inline(always)]
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        lhopital(&self.material, stretches, self.threshold)
+    }
+}
+
 /// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), whatever the gap; NaN where it is zero.
 #[inline(always)]
 #[must_use]

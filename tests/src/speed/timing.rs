@@ -9,6 +9,8 @@ pub struct Effort {
     pub repeats: usize,
     /// How long a repeat lasts at least; it consists of as many calls.
     pub at_least: Duration,
+    /// After how much time for one call in all its repeats no further one is made, if there have been three.
+    pub at_most: Duration,
 }
 
 /// Nanoseconds per point.
@@ -32,26 +34,47 @@ pub fn time_in_turns<const N: usize>(
     points: usize,
     mut calls: [&mut dyn FnMut(); N],
 ) -> [Times; N] {
-    let counts = calls.each_mut().map(|call| {
-        // The first call finds its numbers in no cache and its memory not yet there.
-        call();
-        let start = Instant::now();
-        call();
-        let once = start.elapsed().max(Duration::from_nanos(1));
-        effort.at_least.as_nanos().div_ceil(once.as_nanos()).max(1)
-    });
-    let mut found = [const { Vec::new() }; N];
-    for _ in 0..effort.repeats {
-        for ((call, count), found) in calls.iter_mut().zip(counts).zip(&mut found) {
+    let mut times = time_all_in_turns(effort, points, &mut calls).into_iter();
+    // There is one for each call.
+    [const { Times { least: f64::NAN, median: f64::NAN } }; N].map(|none| times.next().unwrap_or(none))
+}
+
+/// As [`time_in_turns`], for as many calls as there are.
+pub fn time_all_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn FnMut()]) -> Vec<Times> {
+    let counts: Vec<u128> = calls
+        .iter_mut()
+        .map(|call| {
+            // The first call finds its numbers in no cache and its memory not yet there.
+            call();
             let start = Instant::now();
-            for _ in 0..count {
+            call();
+            let once = start.elapsed().max(Duration::from_nanos(1));
+            effort.at_least.as_nanos().div_ceil(once.as_nanos()).max(1)
+        })
+        .collect();
+    let mut found = vec![Vec::new(); calls.len()];
+    let mut spent = vec![Duration::ZERO; calls.len()];
+    for repeat in 0..effort.repeats {
+        for (index, call) in calls.iter_mut().enumerate() {
+            if repeat >= 3 && spent[index] > effort.at_most {
+                continue;
+            }
+            let start = Instant::now();
+            for _ in 0..counts[index] {
                 call();
             }
-            found.push(start.elapsed().as_secs_f64() * 1e9 / (count as f64 * points as f64));
+            let elapsed = start.elapsed();
+            spent[index] += elapsed;
+            found[index].push(elapsed.as_secs_f64() * 1e9 / (counts[index] as f64 * points as f64));
         }
     }
-    found.map(|mut times| {
+    found.into_iter().map(Times::of).collect()
+}
+
+impl Times {
+    /// Of at least one repeat.
+    fn of(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
-        Times { least: times[0], median: times[times.len() / 2] }
-    })
+        Self { least: times[0], median: times[times.len() / 2] }
+    }
 }
