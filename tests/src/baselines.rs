@@ -1,7 +1,12 @@
-//! How dP/dF is computed elsewhere, from the same singular value decomposition and the same derivatives of the energy.
+//! How dP/dF is computed elsewhere.
+//!
+//! From the same singular value decomposition and the same derivatives of the energy:
 //!
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
+//!
+//! And what they are made of:
+//!
 //! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
 //! * [`hand_written`]: energies with derivatives by hand.
 //!
@@ -12,5 +17,8 @@
 
 pub mod eigen;
 pub mod hand_written;
+mod matrix;
 pub mod quotients;
 pub mod svd_gradients;
+#[cfg(test)]
+mod testing;

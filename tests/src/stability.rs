@@ -11,7 +11,8 @@ use piola::point::{Filter, Matrix3, Tangent, project};
 use piola::{Inversion, Material, Real};
 use piola_materials::Visitor;
 
-use crate::baselines::{eigen, quotients, svd_gradients};
+use crate::baselines::svd_gradients::{self, Regularization};
+use crate::baselines::{eigen, quotients};
 use crate::cases::{Case, Quantity};
 use crate::compiled;
 
@@ -253,7 +254,7 @@ impl Method {
     /// dP/dF.
     fn tangent<R: Real<Mask = bool>>(self, material: &impl Material, F: &Matrix3<R>) -> [[R; 9]; 9] {
         match self {
-            Self::SvdGradients => svd_gradients::tangent(material, &decompose(material, F)),
+            Self::SvdGradients => by_svd_gradients(material, F),
             Self::Ours | Self::Naive | Self::Lhopital => self.blocks(material, F, Filter::None),
         }
     }
@@ -266,7 +267,7 @@ impl Method {
         clamp: Clamp<R>,
     ) -> Option<[[R; 9]; 9]> {
         match self {
-            Self::SvdGradients => clamp(&svd_gradients::tangent(material, &decompose(material, F))),
+            Self::SvdGradients => clamp(&by_svd_gradients(material, F)),
             Self::Ours | Self::Naive | Self::Lhopital => Some(self.blocks(material, F, Filter::Clamp)),
         }
     }
@@ -284,6 +285,11 @@ impl Method {
         let (blocks, _) = project(&blocks, filter);
         Tangent { U, V, blocks }.to_matrix()
     }
+}
+
+/// dP/dF by \[SZLSB11\], regularised as it says.
+fn by_svd_gradients<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<R>) -> [[R; 9]; 9] {
+    svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
 }
 
 /// As [`point::evaluate`] does.

@@ -12,7 +12,7 @@ use piola::point::{Matrix3, stress, svd};
 
 use super::IN_CACHE;
 use super::task::Input;
-use crate::baselines::svd_gradients;
+use crate::baselines::svd_gradients::{self, Regularization};
 use crate::random::Random;
 
 /// [`IN_CACHE`] deformation gradients with room for P and the 81 entries of dP/dF.
@@ -64,7 +64,7 @@ impl<M: Material> Kernel<f64> for Compute<'_, M> {
         for (F, result) in F.iter().zip(results) {
             let svd = svd(F);
             let P = stress(&svd, self.material.gradient(svd.stretches));
-            *result = (P, svd_gradients::tangent(self.material, &svd));
+            *result = (P, svd_gradients::tangent(self.material, &svd, Regularization::default()));
         }
     }
 }
