@@ -5,6 +5,10 @@
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
 //!
+//! From other derivatives, or none:
+//!
+//! * [`differences`]: by central differences of P.
+//!
 //! And what they are made of:
 //!
 //! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
@@ -15,6 +19,7 @@
 //!
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
+pub mod differences;
 pub mod eigen;
 pub mod hand_written;
 mod matrix;

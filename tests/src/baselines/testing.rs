@@ -10,6 +10,11 @@ pub(super) const SHEARED: Matrix3<f64> = [[1.3, 0.2, -0.1], [0.0, 0.8, 0.3], [0.
 /// The rest state.
 pub(super) const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
+/// Of another format.
+pub(super) fn convert<R: Real>(matrix: &Matrix3<f64>) -> Matrix3<R> {
+    matrix.map(|row| row.map(R::splat))
+}
+
 /// P and dP/dF by this library.
 pub(super) fn exact<R: Real>(
     material: &impl Material,
