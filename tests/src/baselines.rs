@@ -4,6 +4,7 @@
 //!
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
+//! * [`clamped`]: all of it at stretches that may not become small.
 //!
 //! From other derivatives, or none:
 //!
@@ -19,6 +20,7 @@
 //!
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
+pub mod clamped;
 pub mod differences;
 pub mod eigen;
 pub mod hand_written;
