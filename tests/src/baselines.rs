@@ -12,6 +12,7 @@
 //!
 //! And what they are made of:
 //!
+//! * [`decompositions`]: singular values by other methods and libraries;
 //! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
 //! * [`hand_written`]: energies with derivatives by hand.
 //!
@@ -21,6 +22,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 pub mod clamped;
+pub mod decompositions;
 pub mod differences;
 pub mod eigen;
 pub mod hand_written;

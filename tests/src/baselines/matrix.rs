@@ -46,3 +46,25 @@ pub(super) fn scale_columns<R: Real>(A: &Matrix3<R>, d: [R; 3]) -> Matrix3<R> {
     }
     scaled
 }
+
+/// U A Vᵀ: from the principal frames to the world.
+#[inline(always)]
+pub(super) fn to_world<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
+    multiply_transposed(&multiply(U, A), V)
+}
+
+/// cof A: the matrix of signed minors, det A · A⁻ᵀ where that exists.
+#[inline(always)]
+pub(super) fn cofactor<R: Real>([a, b, c]: &Matrix3<R>) -> Matrix3<R> {
+    [cross(*b, *c), cross(*c, *a), cross(*a, *b)]
+}
+
+/// x × y.
+#[inline(always)]
+fn cross<R: Real>(x: [R; 3], y: [R; 3]) -> [R; 3] {
+    [
+        x[1].mul_add(y[2], -(x[2] * y[1])),
+        x[2].mul_add(y[0], -(x[0] * y[2])),
+        x[0].mul_add(y[1], -(x[1] * y[0])),
+    ]
+}
