@@ -8,6 +8,7 @@
 //!
 //! From other derivatives, or none:
 //!
+//! * [`invariants`]: \[TSIF05\], through tr C, C:C and det C;
 //! * [`differences`]: by central differences of P.
 //!
 //! And what they are made of:
@@ -20,12 +21,14 @@
 //! less exact than its method asks for.
 //!
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
 
 pub mod clamped;
 pub mod decompositions;
 pub mod differences;
 pub mod eigen;
 pub mod hand_written;
+pub mod invariants;
 mod matrix;
 pub mod quotients;
 pub mod svd_gradients;
