@@ -9,6 +9,7 @@
 //! From other derivatives, or none:
 //!
 //! * [`invariants`]: \[TSIF05\], through tr C, C:C and det C;
+//! * [`direct`]: through I1, I2 and J, without a decomposition;
 //! * [`differences`]: by central differences of P.
 //!
 //! And what they are made of:
@@ -26,6 +27,7 @@
 pub mod clamped;
 pub mod decompositions;
 pub mod differences;
+pub mod direct;
 pub mod eigen;
 pub mod hand_written;
 pub mod invariants;
