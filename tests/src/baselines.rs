@@ -4,6 +4,7 @@
 //!
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
+//! * [`coincidences`]: P = F S(C) differentiated on paper, with a formula for each coincidence of the stretches;
 //! * [`clamped`]: all of it at stretches that may not become small.
 //!
 //! From other derivatives, or none:
@@ -25,6 +26,7 @@
 //! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
 
 pub mod clamped;
+pub mod coincidences;
 pub mod decompositions;
 pub mod differences;
 pub mod direct;
