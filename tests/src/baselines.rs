@@ -11,6 +11,7 @@
 //!
 //! * [`invariants`]: \[TSIF05\], through tr C, C:C and det C;
 //! * [`direct`]: through I1, I2 and J, without a decomposition;
+//! * [`automatic`]: by dual numbers;
 //! * [`differences`]: by central differences of P.
 //!
 //! And what they are made of:
@@ -25,6 +26,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 //! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
 
+pub mod automatic;
 pub mod clamped;
 pub mod coincidences;
 pub mod decompositions;

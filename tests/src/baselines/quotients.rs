@@ -66,7 +66,15 @@ impl<M: Material> Material for Switched<M> {
 #[inline(always)]
 #[must_use]
 pub fn naive<R: Real>(material: &impl Material, stretches: [R; 3]) -> Blocks<R> {
-    with_quotients(material, stretches, |numerator, gap, _, _| numerator / gap)
+    // The compiler drops the quotients of `blocks`, which nobody reads.
+    let Blocks { gradient, hessian, .. } = material.blocks(stretches);
+    plain(stretches, gradient, hessian)
+}
+
+/// The same from derivatives that are known already.
+#[inline(always)]
+pub(super) fn plain<R: Real>(stretches: [R; 3], gradient: [R; 3], hessian: [R; 6]) -> Blocks<R> {
+    with_quotients(stretches, gradient, hessian, |numerator, gap, _, _| numerator / gap)
 }
 
 /// The same, but the limits ψii ∓ ψij of l'Hôpital's rule where the gap is below `threshold`·max(|λi|, |λj|).
@@ -75,7 +83,8 @@ pub fn naive<R: Real>(material: &impl Material, stretches: [R; 3]) -> Blocks<R> 
 #[inline(always)]
 #[must_use]
 pub fn lhopital<R: Real>(material: &impl Material, stretches: [R; 3], threshold: f64) -> Blocks<R> {
-    with_quotients(material, stretches, |numerator, gap, scale, limit| {
+    let Blocks { gradient, hessian, .. } = material.blocks(stretches);
+    with_quotients(stretches, gradient, hessian, |numerator, gap, scale, limit| {
         let is_close = gap.abs().less(R::splat(threshold) * scale) | !R::splat(0.0).less(gap.abs());
         R::select(is_close, limit, numerator / gap)
     })
@@ -84,12 +93,11 @@ pub fn lhopital<R: Real>(material: &impl Material, stretches: [R; 3], threshold:
 /// Quotients from numerator, gap, size of the two stretches, and limit.
 #[inline(always)]
 fn with_quotients<R: Real>(
-    material: &impl Material,
     stretches: [R; 3],
+    gradient: [R; 3],
+    hessian: [R; 6],
     quotient: impl Fn(R, R, R, R) -> R,
 ) -> Blocks<R> {
-    // The compiler drops the quotients of `blocks`, which nobody reads.
-    let Blocks { gradient, hessian, .. } = material.blocks(stretches);
     let (mut flip, mut twist) = ([R::splat(0.0); 3], [R::splat(0.0); 3]);
     for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
         let (x, y) = (stretches[i], stretches[j]);
