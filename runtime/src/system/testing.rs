@@ -3,7 +3,7 @@
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 use crate::lanes::Real;
 use crate::material::{Blocks, Material};
-use crate::mesh::TetMesh;
+use crate::mesh::{TetMesh, tetrahedral_box};
 use crate::random::Random;
 
 /// An energy in which the hand-written ones, with moduli of about 1 Pa, come as stiff as rubber foam.
@@ -52,30 +52,7 @@ pub(crate) const NEO_HOOKEAN: Scaled<NeoHookean> = Scaled { material: NeoHookean
 
 /// A beam of `cells` cubes along x with sides of 0.1 m, each cut into six tetrahedra around a diagonal.
 pub(crate) fn beam(cells: usize) -> TetMesh {
-    let corner = |i: usize, j: usize, k: usize| 4 * i + 2 * j + k;
-    let mut positions = Vec::new();
-    for i in 0..=cells {
-        for (j, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            positions.push([0.1 * i as f64, 0.1 * j as f64, 0.1 * k as f64]);
-        }
-    }
-    let mut tets = Vec::new();
-    for i in 0..cells {
-        // Kuhn: one tetrahedron for each order in which the three axes are walked; odd orders are turned around.
-        for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]] {
-            let mut at = [i, 0, 0];
-            let mut path = [corner(at[0], at[1], at[2]); 4];
-            for (step, axis) in axes.into_iter().enumerate() {
-                at[axis] += 1;
-                path[step + 1] = corner(at[0], at[1], at[2]);
-            }
-            if (axes[0] + 1) % 3 != axes[1] {
-                path.swap(1, 2);
-            }
-            tets.push(path);
-        }
-    }
-    TetMesh::new(positions, tets)
+    tetrahedral_box([cells, 1, 1], [0.1 * cells as f64, 0.1, 0.1]).expect("a beam")
 }
 
 /// Positions moved by up to `amplitude` in each coordinate.
