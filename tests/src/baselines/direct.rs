@@ -9,15 +9,15 @@
 //! and for ψ = f(I1) + W2 I2 + h(J), with W2 constant, W1 = f′, W11 = f″, WJ = h′ and WJJ = h″,
 //!
 //! ```text
-//! Pij        = c Fij + b (B F)ij + WJ cofij
+//! Pij       = c Fij + b (F C)ij + WJ cofij
 //! ∂Pij/∂Fkl = a Fij Fkl + b Fil Fkj + δik δjl c + b (δik Cjl + δjl Bik) + WJ ∂cofij/∂Fkl + WJJ cofij cofkl
 //!
 //! a = 4 (W11 + W2)        b = −2 W2        c = 2 (W1 + W2 I1)
 //! ```
 //!
-//! (∂cof/∂F holds 36 entries of F with signs.) Only the 45 distinct entries are computed, and of them only the terms that an energy has:
-//! about 220 multiplications and additions for Saint Venant–Kirchhoff, 180 and a logarithm for neo-Hookean. Nobody computes these faster; but
-//! nothing is known of the eigenvalues, so that a filter costs a 9×9 eigenproblem, and there is nothing to continue beyond J = 0.
+//! (∂cof/∂F holds 36 entries of F with signs.) Of the 45 distinct entries only those terms are computed that an
+//! energy has: with about 200 operations for Saint Venant–Kirchhoff, and 120 and a logarithm for neo-Hookean, a fused
+//! one counting once. But nothing is known of the eigenvalues, so that a filter costs a 9×9 eigenproblem.
 //!
 //! What floating point does here: cofactors are known to u λ1² and J to u λ1³, which may be all of it where λ1 λ2 λ3 is
 //! much smaller.
@@ -28,7 +28,7 @@ use piola::Real;
 use piola::point::Matrix3;
 
 use super::invariants::{MooneyRivlin, NeoHookean, StVenantKirchhoff};
-use super::matrix::{cofactor, dot, multiply, multiply_transposed, transpose};
+use super::matrix::{cofactor, dot, multiply, multiply_transposed, scale_columns, transpose};
 
 /// An energy f(I1) + W2 I2 + h(J) by its derivatives.
 pub trait DirectEnergy {
@@ -102,73 +102,65 @@ pub fn evaluate<R: Real>(energy: &impl DirectEnergy, F: &Matrix3<R>) -> (Matrix3
     let I1 = B[0][0] + B[1][1] + B[2][2];
     let Derivatives { linear, quadratic, volumetric } = energy.derivatives([I1, dot(F[0], cof[0])]);
 
-    let mut c = linear + linear;
-    if let Some([W2, _]) = quadratic {
-        c = (W2 + W2).mul_add(I1, c);
-    }
-    let mut P = *F;
-    for i in 0..3 {
-        for j in 0..3 {
-            P[i][j] = c * F[i][j];
+    let (mut P, mut blocks) = match quadratic {
+        None => linear_part(linear + linear, F),
+        Some([W2, W11]) => {
+            let c = (W2 + W2).mul_add(I1, linear + linear);
+            quadratic_part(R::splat(4.0) * (W11 + W2), -(W2 + W2), c, F, &B)
         }
-    }
-    let mut blocks = [[[R::splat(0.0); 3]; 3]; 6];
-    for i in 0..3 {
-        for j in 0..3 {
-            blocks[i][j][j] = c;
-        }
-    }
-    if let Some([W2, W11]) = quadratic {
-        let b = -(W2 + W2);
-        let a = (W11 + W2) * R::splat(4.0);
-        add_quadratic(a, b, F, &B, &mut P, &mut blocks);
-    }
+    };
     if let Some([WJ, WJJ]) = volumetric {
         add_volumetric(WJ, WJJ, F, &cof, &mut P, &mut blocks);
     }
     (P, assembled(&blocks))
 }
 
-/// Adds b B F to P and a Fij Fkl + b (Fil Fkj + δik Cjl + δjl Bik) to dP/dF.
+/// c F and c δik δjl.
 #[inline(always)]
-fn add_quadratic<R: Real>(
+fn linear_part<R: Real>(c: R, F: &Matrix3<R>) -> (Matrix3<R>, [Matrix3<R>; 6]) {
+    let zero = R::splat(0.0);
+    let diagonal = [[c, zero, zero], [zero, c, zero], [zero, zero, c]];
+    let mut blocks = [[[zero; 3]; 3]; 6];
+    (blocks[0], blocks[1], blocks[2]) = (diagonal, diagonal, diagonal);
+    (scale_columns(F, [c; 3]), blocks)
+}
+
+/// F S with S = c I + b C, and a Fij Fkl + b (Fil Fkj + δjl Bik) + δik Sjl.
+#[inline(always)]
+fn quadratic_part<R: Real>(
     a: R,
     b: R,
+    c: R,
     F: &Matrix3<R>,
     B: &Matrix3<R>,
-    P: &mut Matrix3<R>,
-    blocks: &mut [Matrix3<R>; 6],
-) {
-    let (BF, Ft) = (multiply(B, F), transpose(F));
-    let C = multiply_transposed(&Ft, &Ft);
-    let both = a + b;
-    for i in 0..3 {
-        for j in 0..3 {
-            P[i][j] = b.mul_add(BF[i][j], P[i][j]);
-        }
+) -> (Matrix3<R>, [Matrix3<R>; 6]) {
+    let Ft = transpose(F);
+    let mut S = multiply_transposed(&Ft, &Ft);
+    for (j, l) in ROWS {
+        S[j][l] = if j == l { b.mul_add(S[j][l], c) } else { b * S[j][l] };
+        S[l][j] = S[j][l];
     }
+    let both = a + b;
+    let mut blocks = [S; 6];
     for (block, (i, k)) in blocks.iter_mut().zip(ROWS) {
         let (x, y) = (F[i], F[k]);
         let shift = b * B[i][k];
         for j in 0..3 {
-            block[j][j] = both.mul_add(x[j] * y[j], block[j][j] + shift);
+            let start = if i == k { S[j][j] + shift } else { shift };
+            block[j][j] = both.mul_add(x[j] * y[j], start);
         }
         for (j, l) in [(0, 1), (0, 2), (1, 2)] {
             let (up, down) = (x[j] * y[l], x[l] * y[j]);
             if i == k {
-                block[j][l] = both.mul_add(up, block[j][l]);
+                // Below the diagonal such a block is not read.
+                block[j][l] = both.mul_add(up, S[j][l]);
             } else {
-                block[j][l] = a.mul_add(up, b.mul_add(down, block[j][l]));
-                block[l][j] = a.mul_add(down, b.mul_add(up, block[l][j]));
+                block[j][l] = a.mul_add(up, b * down);
+                block[l][j] = a.mul_add(down, b * up);
             }
         }
     }
-    for (j, l) in ROWS {
-        let shift = b * C[j][l];
-        for block in &mut blocks[..3] {
-            block[j][l] = block[j][l] + shift;
-        }
-    }
+    (multiply(F, &S), blocks)
 }
 
 /// Adds WJ cof to P and WJ ∂cofij/∂Fkl + WJJ cofij cofkl to dP/dF.
@@ -190,7 +182,6 @@ fn add_volumetric<R: Real>(
     }
     for (block, (i, k)) in blocks.iter_mut().zip(ROWS) {
         for j in 0..3 {
-            // Below the diagonal a block with i = k is not read.
             for l in (if i == k { j } else { 0 })..3 {
                 block[j][l] = scaled[i][j].mul_add(cof[k][l], block[j][l]);
             }
