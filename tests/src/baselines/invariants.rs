@@ -1,4 +1,5 @@
-//! P and dP/dF through the invariants I = tr C, II = C:C, III = det C of C = FᵀF, in the frame where F is diagonal \[TSIF05\].
+//! P and dP/dF through the invariants I = tr C, II = C:C, III = det C of C = FᵀF, in the frame where F is diagonal
+//! \[TSIF05\].
 //!
 //! With F = U Σ Vᵀ and the derivatives of ψ(I, II, III) the stress there is
 //!
@@ -17,13 +18,13 @@
 //!                                          ⎣β α⎦ij
 //! ```
 //!
-//! For each of the nine dF, δP = U (∂P̂/∂F̂ : Uᵀ δF V) Vᵀ. III/σi and III/(σiσj) are products of the stretches, and nothing divides
-//! by one.
+//! For each of the nine dF, δP = U (∂P̂/∂F̂ : Uᵀ δF V) Vᵀ. III/σi and III/(σiσj) are products of the stretches, and
+//! nothing divides by one.
 //!
 //! There is no quotient in it, so no gap is special, and derivatives are by hand for every energy; those that are no
-//! functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of degree six in the stretches: its
-//! square, which the logarithm's second derivative divides by, is the first number to leave the range of a format. And it
-//! has forgotten the sign of det F.
+//! functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of degree six in the
+//! stretches: its square, which the logarithm's second derivative divides by, is the first number to leave the range
+//! of a format. And it has forgotten the sign of det F.
 //!
 //! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
 
@@ -196,7 +197,8 @@ mod tests {
         compare_formats(&MooneyRivlin { c10, c01, kappa }, &material);
     }
 
-    /// III is of degree six: at stretches of 10⁻⁷ its square is below the smallest `f32`, where those of the stretches are not.
+    /// III is of degree six: at stretches of 10⁻⁷ its square is below the smallest `f32`, where those of the
+    /// stretches are not.
     #[test]
     fn the_third_invariant_leaves_the_range_first() {
         let F = convert::<f32>(&[[1e-7, 0.0, 0.0], [0.0, 1e-7, 0.0], [0.0, 0.0, 1e-7]]);
