@@ -39,8 +39,8 @@
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
-//! * [`mesh`]: tetrahedra, their files, embedded surfaces;
-//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, factorisation;
+//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces;
+//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers;
 //! * [`step`]: implicit Euler by Newton's method.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but

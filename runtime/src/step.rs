@@ -1,14 +1,17 @@
 //! Time: implicit Euler steps as minimisations, by Newton's method with a line search.
 //!
 //! From the public entry down: [`implicit_euler`] keeps the state of a body and steps it, `newton` minimises,
-//! `line_search` shortens steps, `objective` is what decreases. Reports are values; nothing prints.
+//! `solver` solves its linear systems, `line_search` shortens steps, `objective` is what decreases. Reports are values; nothing
+//! prints.
 
 pub mod implicit_euler;
 pub mod line_search;
 pub mod newton;
 pub mod objective;
+pub mod solver;
 
 pub use implicit_euler::{Energies, Settings, SetupError, Simulation, StepError, StepReport};
 pub use line_search::{LineSearchSettings, Outcome};
 pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
 pub use objective::Pull;
+pub use solver::LinearSolver;

@@ -18,6 +18,7 @@ pub mod linear;
 pub mod operator;
 pub mod pattern;
 pub mod pins;
+pub(crate) mod stiffnesses;
 #[cfg(test)]
 pub(crate) mod testing;
 

@@ -5,7 +5,6 @@ use std::fmt;
 use crate::system::assemble::Elastic;
 use crate::system::element::Survey;
 use crate::system::linear::LinearError;
-use crate::system::pattern::Pattern;
 use crate::system::{Body, Pins};
 
 use super::line_search::LineSearchSettings;
@@ -31,8 +30,9 @@ pub struct Settings {
 /// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − α M v + M g − pulls
 /// ```
 ///
-/// All memory is allocated by [`Simulation::new`], but for the small lists of a report. The same input gives the same
-/// bits for any number of threads of the rayon pool in which `step` is called.
+/// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear solver, but for the
+/// small lists of a report. The same input gives the same bits for any number of threads of the rayon pool in which `step` is
+/// called.
 pub struct Simulation {
     body: Body,
     settings: Settings,
@@ -41,8 +41,7 @@ pub struct Simulation {
     velocities: Vec<[f64; 3]>,
     /// Where the pinned nodes, and only they, are to be after the next step.
     targets: Vec<[f64; 3]>,
-    pinned: Vec<usize>,
-    pattern: Pattern,
+    pins: Pins,
     elastic: Elastic,
     workspace: Workspace,
     next: Vec<[f64; 3]>,
@@ -56,7 +55,7 @@ impl fmt::Debug for Simulation {
         f.debug_struct("Simulation")
             .field("body", &self.body)
             .field("settings", &self.settings)
-            .field("pinned", &self.pinned.len())
+            .field("pinned", &self.pins.nodes().len())
             .finish_non_exhaustive()
     }
 }
@@ -72,20 +71,19 @@ impl Simulation {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         check_settings(&settings)?;
-        let pattern = Pattern::new(nodes, body.elements(), pins).map_err(SetupError::Linear)?;
+        let solver = settings.newton.linear.set_up(&body, pins).map_err(SetupError::Linear)?;
         Ok(Self {
             settings,
             pulls: Vec::new(),
             positions: body.rest().to_vec(),
             velocities: vec![[0.0; 3]; nodes],
             targets: body.rest().to_vec(),
-            pinned: pins.nodes().to_vec(),
+            pins: pins.clone(),
             elastic: Elastic::new(&body),
-            workspace: Workspace::new(nodes, &pattern).map_err(SetupError::Linear)?,
+            workspace: Workspace::new(nodes, solver),
             next: vec![[0.0; 3]; nodes],
             pins_move: vec![[0.0; 3]; nodes],
             evaluated: None,
-            pattern,
             body,
         })
     }
@@ -111,7 +109,7 @@ impl Simulation {
     /// The pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        &self.pinned
+        self.pins.nodes()
     }
 
     /// Puts each node somewhere, m, however deformed or collapsed the body then is. Pins hold their nodes there.
@@ -141,7 +139,7 @@ impl Simulation {
     /// # Errors
     /// Where the node is not pinned or the position not finite.
     pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pinned.binary_search(&node).is_err() {
+        if self.pinned().binary_search(&node).is_err() {
             return Err(SetupError::NotPinned { node });
         }
         if position.iter().any(|x| !x.is_finite()) {
@@ -175,12 +173,17 @@ impl Simulation {
         &self.settings
     }
 
-    /// Replaces the settings from the next step on.
+    /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set up as by
+    /// [`Simulation::new`].
     ///
     /// # Errors
-    /// Where one makes no sense.
+    /// Where one makes no sense, or memory does not suffice. The settings before are then still there.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), SetupError> {
         check_settings(&settings)?;
+        if settings.newton.linear != self.settings.newton.linear {
+            let solver = settings.newton.linear.set_up(&self.body, &self.pins);
+            self.workspace.solver = solver.map_err(SetupError::Linear)?;
+        }
         self.settings = settings;
         Ok(())
     }
@@ -195,7 +198,7 @@ impl Simulation {
         }
         self.next.copy_from_slice(&self.positions);
         let mut pins_move = false;
-        for &node in &self.pinned {
+        for &node in self.pins.nodes() {
             for c in 0..3 {
                 self.pins_move[node][c] = self.targets[node][c] - self.positions[node][c];
                 pins_move |= self.pins_move[node][c] != 0.0;
@@ -203,7 +206,6 @@ impl Simulation {
         }
         let mut objective = Objective {
             body: &self.body,
-            pattern: &self.pattern,
             elastic: &mut self.elastic,
             quadratic: Quadratic {
                 masses: self.body.masses(),
@@ -282,12 +284,11 @@ impl Simulation {
         if pull.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
             return Err(SetupError::Pull { index });
         }
-        let free = pull.weights().filter_map(|(node, _)| self.pattern.free_of_node()[node]);
-        for row in free.clone() {
-            for column in free.clone().filter(|&column| column < row) {
-                if self.pattern.block(row, column).is_none() {
-                    return Err(SetupError::PullAcrossElements { index });
-                }
+        let is_free = |node: &usize| self.pinned().binary_search(node).is_err();
+        let free = pull.weights().map(|(node, _)| node).filter(is_free);
+        for a in free.clone() {
+            if free.clone().any(|b| !self.workspace.solver.joins(a, b)) {
+                return Err(SetupError::PullAcrossElements { index });
             }
         }
         Ok(())
@@ -309,8 +310,9 @@ fn check_settings(settings: &Settings) -> Result<(), SetupError> {
         (between(line_search.shrink, 0.0, 1.0), "the shrinking factor must be between 0 and 1"),
         (line_search.max_trials > 0, "the line search needs at least one trial"),
     ];
-    match checks.into_iter().find(|(holds, _)| !holds) {
-        Some((_, rule)) => Err(SetupError::Setting { rule }),
+    let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
+    match broken.or(newton.linear.broken_rule()) {
+        Some(rule) => Err(SetupError::Setting { rule }),
         None => Ok(()),
     }
 }

@@ -4,15 +4,13 @@
 
 use std::fmt;
 
-use faer::sparse::SparseColMatRef;
-
 use crate::point::Filter;
 use crate::system::element::Survey;
-use crate::system::linear::{Cholesky, LinearError};
-use crate::system::pattern::Pattern;
+use crate::system::linear::LinearError;
 
 use super::line_search::{LineSearchSettings, Outcome, backtrack};
 use super::objective::{Objective, product};
+use super::solver::{LinearSolver, Solver};
 
 /// How to minimise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,12 +21,14 @@ pub struct NewtonSettings {
     pub max_iterations: usize,
     /// Where the gradient has fallen to this part of its first norm, the minimum is found.
     pub tolerance: f64,
+    /// How linear systems are solved.
+    pub linear: LinearSolver,
 }
 
 impl Default for NewtonSettings {
-    /// Full Newton to a relative 10⁻⁶ with clamped eigenvalues.
+    /// Full Newton to a relative 10⁻⁶ with clamped eigenvalues and a Cholesky factorisation.
     fn default() -> Self {
-        Self { filter: Filter::Clamp, max_iterations: 50, tolerance: 1e-6 }
+        Self { filter: Filter::Clamp, max_iterations: 50, tolerance: 1e-6, linear: LinearSolver::Cholesky }
     }
 }
 
@@ -72,28 +72,35 @@ pub struct NewtonReport {
     pub bounded: usize,
     /// Largest multiple of inertia that had to be added for a positive definite matrix; 0 as a rule.
     pub shift: f64,
+    /// How many iterations the linear solver took, over all systems: 0 for [`LinearSolver::Cholesky`].
+    pub linear_iterations: usize,
+    /// How many linear systems were given up before their tolerance, for negative curvature or at the limit of iterations.
+    /// Their directions are as good as any for a line search, but do not make for fast convergence.
+    pub truncated: usize,
 }
 
 /// Memory of the iteration.
 pub(crate) struct Workspace {
-    cholesky: Cholesky,
-    values: Vec<f64>,
-    unknowns: Vec<f64>,
+    pub(crate) solver: Box<dyn Solver>,
     gradient: Vec<[f64; 3]>,
     direction: Vec<[f64; 3]>,
     trial: Vec<[f64; 3]>,
 }
 
 impl Workspace {
-    pub(crate) fn new(nodes: usize, pattern: &Pattern) -> Result<Self, LinearError> {
-        Ok(Self {
-            cholesky: Cholesky::new(pattern.entries())?,
-            values: vec![0.0; pattern.entries().row_idx().len()],
-            unknowns: vec![0.0; pattern.unknowns()],
+    pub(crate) fn new(nodes: usize, solver: Box<dyn Solver>) -> Self {
+        Self {
+            solver,
             gradient: vec![[0.0; 3]; nodes],
             direction: vec![[0.0; 3]; nodes],
             trial: vec![[0.0; 3]; nodes],
-        })
+        }
+    }
+
+    /// Norm of the gradient over the free nodes.
+    fn free_norm(&self) -> f64 {
+        let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+        self.solver.free_nodes().iter().map(|&node| square(self.gradient[node])).sum::<f64>().sqrt()
     }
 }
 
@@ -124,6 +131,8 @@ pub(crate) fn minimize(
         filtered: 0,
         bounded: 0,
         shift: 0.0,
+        linear_iterations: 0,
+        truncated: 0,
     };
     // Whether the step before changed the objective by no more than noise.
     let mut by_slope = false;
@@ -133,7 +142,7 @@ pub(crate) fn minimize(
             objective.elastic.evaluate_gradients(objective.body);
             objective.gradient(x, &mut workspace.gradient);
             let before = report.residual;
-            if report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)? {
+            if report.note_residual(workspace.free_norm(), settings)? {
                 break;
             }
             if by_slope && report.residual > 0.5 * before {
@@ -141,21 +150,23 @@ pub(crate) fn minimize(
                 break;
             }
         }
-        let tangents = objective.elastic.evaluate_stiffnesses(objective.body, settings.filter);
+        let tangents = workspace.solver.linearise(objective, settings.filter);
         inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
         report.filtered = report.filtered.max(tangents.filtered);
         report.bounded = report.bounded.max(tangents.bounded);
         objective.gradient(x, &mut workspace.gradient);
         match pins_move {
-            Some(d) => objective.add_product(d, &mut workspace.gradient),
-            None if report.iterations == 0
-                && report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)? =>
-            {
+            Some(d) => workspace.solver.add_product(objective, d, &mut workspace.gradient),
+            None if report.iterations == 0 && report.note_residual(workspace.free_norm(), settings)? => {
                 break;
             }
             None => {}
         }
-        report.shift = report.shift.max(solve(objective, workspace)?);
+        let Workspace { solver, gradient, direction, .. } = workspace;
+        let solution = solver.solve(objective, gradient, direction)?;
+        report.shift = report.shift.max(solution.shift);
+        report.linear_iterations += solution.iterations;
+        report.truncated += usize::from(solution.truncated);
         report.iterations += 1;
 
         if let Some(d) = pins_move.take() {
@@ -168,7 +179,7 @@ pub(crate) fn minimize(
             inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
             objective.elastic.evaluate_gradients(objective.body);
             objective.gradient(x, &mut workspace.gradient);
-            report.note_residual(free_norm(objective.pattern, &workspace.gradient), settings)?;
+            report.note_residual(workspace.free_norm(), settings)?;
             if product(&workspace.gradient, &workspace.direction) >= 0.0 {
                 // The tangent before the move says nothing about the state behind it; the next iteration takes its own.
                 report.step_lengths.push(0.0);
@@ -221,48 +232,6 @@ impl NewtonReport {
         }
         Ok(converged)
     }
-}
-
-/// Solves for the direction, zero at pinned nodes, and returns the multiple of inertia added on the way.
-///
-/// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or where inertia is lost
-/// beside the stiffness, it may not be. Inertia is then added tenfold more each time, as if the time step were shorter.
-fn solve(objective: &Objective<'_>, workspace: &mut Workspace) -> Result<f64, NewtonError> {
-    let Workspace { cholesky, values, unknowns, gradient, direction, .. } = workspace;
-    let nodes = objective.pattern.node_of_free();
-    let mut shift = 0.0;
-    loop {
-        objective.fill(shift, values);
-        match cholesky.factor(SparseColMatRef::new(objective.pattern.entries(), values)) {
-            Ok(()) => break,
-            Err(LinearError::NotPositive { .. }) if shift < 1e12 => {
-                shift = if shift == 0.0 { 1.0 } else { 10.0 * shift }
-            }
-            Err(LinearError::NotPositive { column }) => {
-                return Err(NewtonError::NotPositive { node: nodes[column / 3], shift });
-            }
-            Err(error) => return Err(NewtonError::Linear(error)),
-        }
-    }
-    for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(nodes) {
-        for c in 0..3 {
-            unknown[c] = -gradient[node][c];
-        }
-    }
-    cholesky.solve(unknowns);
-    if unknowns.iter().any(|x| !x.is_finite()) {
-        return Err(NewtonError::NotFinite);
-    }
-    for (unknown, &node) in unknowns.chunks_exact(3).zip(nodes) {
-        direction[node] = [unknown[0], unknown[1], unknown[2]];
-    }
-    Ok(shift)
-}
-
-/// Norm over the free nodes.
-fn free_norm(pattern: &Pattern, gradient: &[[f64; 3]]) -> f64 {
-    let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-    pattern.node_of_free().iter().map(|&node| square(gradient[node])).sum::<f64>().sqrt()
 }
 
 /// The element that has no meaningful energy, if there is one.

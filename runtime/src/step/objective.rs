@@ -103,7 +103,7 @@ impl Quadratic<'_> {
     }
 
     /// Adds the product of the second derivatives with a displacement.
-    fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+    pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
         for node in 0..d.len() {
             for c in 0..3 {
                 total[node][c] += self.diagonal(node) * d[node][c];
@@ -114,6 +114,25 @@ impl Quadratic<'_> {
             for (node, weight) in pull.weights() {
                 for c in 0..3 {
                     total[node][c] += pull.stiffness * weight * point[c];
+                }
+            }
+        }
+    }
+
+    /// Adds the pulls' second derivatives to the entries of a matrix.
+    pub(crate) fn add_pulls(&self, pattern: &Pattern, values: &mut [f64]) {
+        for pull in self.pulls {
+            let free =
+                pull.weights().filter_map(|(node, weight)| Some((pattern.free_of_node()[node]?, weight)));
+            for (row, row_weight) in free.clone() {
+                for (column, column_weight) in free.clone().filter(|&(column, _)| column <= row) {
+                    // The nodes of a pull belong to one element: the simulation has made sure that the block exists.
+                    if let Some(block) = pattern.block(row, column) {
+                        for c in 0..3 {
+                            let entry = pattern.scalar(column, block, c, c);
+                            values[entry] += pull.stiffness * row_weight * column_weight;
+                        }
+                    }
                 }
             }
         }
@@ -130,7 +149,6 @@ impl Quadratic<'_> {
 /// The objective, with memory for its elastic part.
 pub(crate) struct Objective<'a> {
     pub(crate) body: &'a Body,
-    pub(crate) pattern: &'a Pattern,
     pub(crate) elastic: &'a mut Elastic,
     pub(crate) quadratic: Quadratic<'a>,
 }
@@ -146,35 +164,6 @@ impl Objective<'_> {
         gradient.fill([0.0; 3]);
         self.elastic.add_gradient(self.body, gradient);
         self.quadratic.add_gradient(x, gradient);
-    }
-
-    /// Adds the product of the second derivatives with a displacement of few nodes.
-    pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.elastic.add_product(self.body, d, total);
-        self.quadratic.add_product(d, total);
-    }
-
-    /// The second derivatives plus `shift` times those of inertia.
-    pub(crate) fn fill(&self, shift: f64, values: &mut [f64]) {
-        let quadratic = &self.quadratic;
-        let diagonal = |node: usize| quadratic.diagonal(node) + shift * quadratic.inertia(node);
-        self.elastic.fill(self.pattern, diagonal, values);
-        for pull in quadratic.pulls {
-            let free = pull
-                .weights()
-                .filter_map(|(node, weight)| Some((self.pattern.free_of_node()[node]?, weight)));
-            for (row, row_weight) in free.clone() {
-                for (column, column_weight) in free.clone().filter(|&(column, _)| column <= row) {
-                    // The nodes of a pull belong to one element: the simulation has made sure that the block exists.
-                    if let Some(block) = self.pattern.block(row, column) {
-                        for c in 0..3 {
-                            let entry = self.pattern.scalar(column, block, c, c);
-                            values[entry] += pull.stiffness * row_weight * column_weight;
-                        }
-                    }
-                }
-            }
-        }
     }
 
     /// The objective along `x + step d`, whose point tried last is left in `trial`. The base of its differences is `x`,

@@ -12,7 +12,8 @@
 //!
 //! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a division. A sum
 //! therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes of stiffness for each
-//! element, which stays in the cache for the bodies this is made for.
+//! element, which stays in the cache for the bodies this is made for. Whoever assembles brings it
+//! ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken per
 //! element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is left.
@@ -24,18 +25,14 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Body;
-use super::element::{Element, Group, Stiffness, Survey, pair};
-use super::fill::{NodePairs, fill};
-use super::pattern::Pattern;
+use super::element::{Element, Group, Survey};
 use crate::batch::Energy;
 use crate::batch::element::TILE;
 use crate::point::Filter;
 
-/// Energies, gradients and stiffnesses of all elements at the positions evaluated last.
+/// Energies and gradients of all elements at the positions evaluated last.
 pub(crate) struct Elastic {
     groups: Vec<State>,
-    /// The group of each element and its lane there.
-    places: Vec<(u32, u32)>,
     /// Energies at the positions before, group by group.
     base: Vec<[f64; TILE]>,
 }
@@ -47,46 +44,55 @@ struct State {
     survey: Survey,
 }
 
+/// A form in which the tangents of a body are kept.
+pub(crate) trait Tangents {
+    /// Those of a group.
+    type Tile: Send;
+
+    /// One for each of [`Body::groups`].
+    fn tiles(&mut self) -> &mut [Self::Tile];
+
+    /// Evaluates gradients and filtered tangents of a group where its energies were evaluated last.
+    fn evaluate(
+        tile: &mut Self::Tile,
+        group: &mut Group,
+        material: &dyn Energy<f64>,
+        elements: &[Element],
+        filter: Filter,
+    ) -> Survey;
+}
+
 impl Elastic {
     pub(crate) fn new(body: &Body) -> Self {
-        let mut places = Vec::with_capacity(body.elements.len());
-        let mut groups = Vec::new();
-        for (_, elements) in body.groups() {
-            places.extend((0..elements.len() as u32).map(|lane| (groups.len() as u32, lane)));
-            let group = Group::new(&body.elements[elements.clone()]);
-            groups.push(State { group, elements, survey: Survey::NONE });
-        }
+        let state = |elements: Range<usize>| State {
+            group: Group::new(&body.elements[elements.clone()]),
+            elements,
+            survey: Survey::NONE,
+        };
+        let groups: Vec<State> = body.groups().map(|(_, elements)| state(elements)).collect();
         let base = vec![[0.0; TILE]; groups.len()];
-        Self { groups, places, base }
-    }
-
-    /// Calls `evaluate` for each group of elements, in parallel, and keeps what it says.
-    fn for_each_group(
-        &mut self,
-        body: &Body,
-        evaluate: impl Fn(&mut Group, &dyn Energy<f64>, &[Element]) -> Survey + Sync,
-    ) {
-        self.groups.par_iter_mut().for_each(|State { group, elements, survey }| {
-            let material = body.material(elements.start);
-            *survey = evaluate(group, material, &body.elements[elements.clone()]);
-        });
+        Self { groups, base }
     }
 
     /// Evaluates the energies at these positions.
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Survey {
-        self.for_each_group(body, |group, material, elements| group.evaluate(material, elements, positions));
+        self.groups.par_iter_mut().for_each(|state| {
+            state.evaluate(body, |group, material, elements| group.evaluate(material, elements, positions));
+        });
         self.survey()
     }
 
     /// Evaluates the gradients where the energies were evaluated last.
     pub(crate) fn evaluate_gradients(&mut self, body: &Body) {
-        self.for_each_group(body, Group::evaluate_gradients);
+        self.groups.par_iter_mut().for_each(|state| state.evaluate(body, Group::evaluate_gradients));
     }
 
-    /// Evaluates gradients and filtered stiffnesses where the energies were evaluated last.
-    pub(crate) fn evaluate_stiffnesses(&mut self, body: &Body, filter: Filter) -> Survey {
-        self.for_each_group(body, |group, material, elements| {
-            group.evaluate_stiffnesses(material, elements, filter)
+    /// Evaluates gradients and filtered tangents where the energies were evaluated last.
+    pub(crate) fn linearise<T: Tangents>(&mut self, body: &Body, filter: Filter, tangents: &mut T) -> Survey {
+        self.groups.par_iter_mut().zip(tangents.tiles()).for_each(|(state, tile)| {
+            state.evaluate(body, |group, material, elements| {
+                T::evaluate(tile, group, material, elements, filter)
+            });
         });
         self.survey()
     }
@@ -138,58 +144,29 @@ impl Elastic {
         2.0 * f64::EPSILON * noise
     }
 
-    /// The gradient and stiffness of each element.
-    fn derivatives(&self) -> impl Iterator<Item = (&[[f64; 3]; 4], &Stiffness)> {
-        self.groups.iter().flat_map(|state| {
-            let Group { gradients, stiffnesses, .. } = &state.group;
-            gradients.iter().zip(stiffnesses).take(state.elements.len())
-        })
-    }
-
     /// Adds the gradient of the energy to `total`, one entry per node.
     pub(crate) fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) {
-        for (element, (gradient, _)) in body.elements.iter().zip(self.derivatives()) {
-            for (&node, g) in element.nodes.iter().zip(gradient) {
-                for c in 0..3 {
-                    total[node][c] += g[c];
-                }
-            }
-        }
-    }
-
-    /// Adds K d to `total` for a displacement d that is zero at most nodes.
-    pub(crate) fn add_product(&self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        for (element, (_, stiffness)) in body.elements.iter().zip(self.derivatives()) {
-            for (j, &from) in element.nodes.iter().enumerate() {
-                let d = displacement[from];
-                if d == [0.0; 3] {
-                    continue;
-                }
-                for (i, &to) in element.nodes.iter().enumerate() {
-                    for a in 0..3 {
-                        for c in 0..3 {
-                            let entry = match i >= j {
-                                true => stiffness[pair(i, j)][a][c],
-                                false => stiffness[pair(j, i)][c][a],
-                            };
-                            total[to][a] += entry * d[c];
-                        }
+        for State { group, elements, .. } in &self.groups {
+            for (element, gradient) in body.elements[elements.clone()].iter().zip(&group.gradients) {
+                for (&node, g) in element.nodes.iter().zip(gradient) {
+                    for c in 0..3 {
+                        total[node][c] += g[c];
                     }
                 }
             }
         }
     }
-
-    /// Sums the stiffnesses into the entries of the pattern and adds `diagonal(node)` to the diagonal.
-    pub(crate) fn fill(&self, pattern: &Pattern, diagonal: impl Fn(usize) -> f64 + Sync, values: &mut [f64]) {
-        fill(pattern, self, &diagonal, values);
-    }
 }
 
-impl NodePairs for Elastic {
-    fn block(&self, element: usize, i: usize, j: usize) -> [[f64; 3]; 3] {
-        let (group, lane) = self.places[element];
-        self.groups[group as usize].group.stiffnesses[lane as usize][pair(i, j)]
+impl State {
+    /// Keeps what an evaluation says.
+    fn evaluate(
+        &mut self,
+        body: &Body,
+        evaluate: impl FnOnce(&mut Group, &dyn Energy<f64>, &[Element]) -> Survey,
+    ) {
+        let elements = &body.elements[self.elements.clone()];
+        self.survey = evaluate(&mut self.group, body.material(self.elements.start), elements);
     }
 }
 

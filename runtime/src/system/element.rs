@@ -126,7 +126,6 @@ pub(crate) struct Group {
     tile: ElementTile,
     pub(crate) energies: [f64; TILE],
     pub(crate) gradients: [[[f64; 3]; 4]; TILE],
-    pub(crate) stiffnesses: [Stiffness; TILE],
 }
 
 impl Group {
@@ -135,7 +134,6 @@ impl Group {
             tile: ElementTile::new(Backend::best(), elements.iter().map(|element| element.shape)),
             energies: [0.0; TILE],
             gradients: [[[0.0; 3]; 4]; TILE],
-            stiffnesses: [[[[0.0; 3]; 3]; 10]; TILE],
         }
     }
 
@@ -184,9 +182,10 @@ impl Group {
         material: &dyn Energy<f64>,
         elements: &[Element],
         filter: Filter,
+        stiffnesses: &mut [Stiffness],
     ) -> Survey {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        let stiffnesses = self.stiffnesses[..elements.len()].as_flattened_mut();
+        let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
         Survey::of_marks(&self.tile.stiffnesses(material, filter, gradients, stiffnesses), elements)
     }

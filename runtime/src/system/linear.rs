@@ -1,7 +1,11 @@
 //! Sparse Cholesky factorisation A = L Lᵀ, analysed once and refactored for each new set of values.
 //!
 //! Sequential on purpose: at the sizes of real-time bodies (fewer than 10⁴ unknowns) threads cost more than they
-//! bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes; unknowns come already in an order that keeps L sparse.
+//! bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes; unknowns come already
+//! in an order that keeps L sparse.
+//!
+//! Beside it lie what the steps of a simulation can choose instead: a factor in f32, and conjugate gradients that refine what it
+//! solves.
 
 use std::fmt;
 
@@ -12,22 +16,26 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::traits::RealField;
 use faer::{Conj, MatMut, Par, Side};
 
-/// A factorisation and the memory for the next one.
-pub struct Cholesky {
+pub(crate) mod conjugate_gradients;
+pub(crate) mod refined;
+
+/// A factorisation in f64 or f32, and the memory for the next one.
+pub struct Cholesky<E = f64> {
     symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
+    factor: Vec<E>,
     memory: MemBuffer,
 }
 
-impl fmt::Debug for Cholesky {
+impl<E> fmt::Debug for Cholesky<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Cholesky {{ unknowns: {}, entries: {} }}", self.symbolic.nrows(), self.factor.len())
     }
 }
 
-impl Cholesky {
+impl<E: RealField> Cholesky<E> {
     /// Analyses the lower triangle of a symmetric pattern and allocates all that later calls need.
     ///
     /// # Errors
@@ -44,10 +52,10 @@ impl Cholesky {
             factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters)
                 .map_err(|_| LinearError::OutOfMemory)?;
         let scratch = symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+            .factorize_numeric_llt_scratch::<E>(Par::Seq, Default::default())
+            .or(symbolic.solve_in_place_scratch::<E>(1, Par::Seq));
         let memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
-        let factor = vec![0.0; symbolic.len_val()];
+        let factor = vec![E::zero_impl(); symbolic.len_val()];
         Ok(Self { symbolic, factor, memory })
     }
 
@@ -55,7 +63,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// Where it is not numerically positive definite.
-    pub fn factor(&mut self, matrix: SparseColMatRef<'_, usize, f64>) -> Result<(), LinearError> {
+    pub fn factor(&mut self, matrix: SparseColMatRef<'_, usize, E>) -> Result<(), LinearError> {
         let result = self.symbolic.factorize_numeric_llt(
             &mut self.factor,
             matrix,
@@ -72,7 +80,7 @@ impl Cholesky {
     }
 
     /// Replaces b by A⁻¹ b, with the matrix factored last.
-    pub fn solve(&mut self, b: &mut [f64]) {
+    pub fn solve(&mut self, b: &mut [E]) {
         let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
         let factor = LltRef::new(&self.symbolic, &self.factor);
         factor.solve_in_place_with_conj(Conj::No, b, Par::Seq, MemStack::new(&mut self.memory));

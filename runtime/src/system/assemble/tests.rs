@@ -3,6 +3,8 @@ use crate::random::Random;
 use crate::system::Pins;
 use crate::system::element::tests::to_matrix;
 use crate::system::linear::Cholesky;
+use crate::system::pattern::Pattern;
+use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::testing::{KIRCHHOFF, beam, shake};
 use faer::sparse::SparseColMatRef;
 
@@ -15,14 +17,15 @@ fn gathering_gives_what_scattering_gives() {
     let pattern = Pattern::new(mesh.positions.len(), body.elements(), &pins).expect("small");
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(1), &mesh.positions, 0.01));
-    elastic.evaluate_stiffnesses(&body, Filter::None);
+    let mut stiffnesses = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::None, &mut stiffnesses);
     let mut values = vec![f64::NAN; pattern.entries().row_idx().len()];
-    elastic.fill(&pattern, |node| node as f64, &mut values);
+    stiffnesses.fill(&pattern, |node| node as f64, &mut values);
 
     let unknowns = pattern.unknowns();
     assert_eq!(unknowns, 3 * (mesh.positions.len() - 2));
     let mut dense = vec![vec![0.0; unknowns]; unknowns];
-    for (element, (_, stiffness)) in body.elements().iter().zip(elastic.derivatives()) {
+    for (element, stiffness) in body.elements().iter().zip(stiffnesses.of_elements()) {
         let matrix = to_matrix(stiffness);
         let free = element.nodes.map(|node| pattern.free_of_node()[node]);
         for row in 0..12 {
@@ -57,12 +60,13 @@ fn a_factor_solves_the_system_it_was_made_from() {
         Pattern::new(mesh.positions.len(), body.elements(), &Pins::at([0, 1, 2, 3])).expect("small");
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &mesh.positions);
-    elastic.evaluate_stiffnesses(&body, Filter::None);
+    let mut stiffnesses = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::None, &mut stiffnesses);
     let mut values = vec![0.0; pattern.entries().row_idx().len()];
     let mut cholesky = Cholesky::new(pattern.entries()).expect("small");
     let mut random = Random::new(2);
     for diagonal in [1.0e3, 1.0e6] {
-        elastic.fill(&pattern, |_| diagonal, &mut values);
+        stiffnesses.fill(&pattern, |_| diagonal, &mut values);
         let matrix = SparseColMatRef::new(pattern.entries(), &values[..]);
         cholesky.factor(matrix).expect("positive definite");
         let exact: Vec<f64> = (0..pattern.unknowns()).map(|_| random.uniform(-1.0, 1.0)).collect();
@@ -76,7 +80,7 @@ fn a_factor_solves_the_system_it_was_made_from() {
             assert!((found - expected).abs() <= 1e-9, "{found} for {expected}");
         }
     }
-    elastic.fill(&pattern, |_| -1.0e9, &mut values);
+    stiffnesses.fill(&pattern, |_| -1.0e9, &mut values);
     let error = cholesky.factor(SparseColMatRef::new(pattern.entries(), &values[..])).expect_err("negative");
     assert!(
         error.to_string().starts_with("the matrix is not positive definite (pivot of column "),

@@ -6,6 +6,7 @@ use crate::point::Filter;
 use crate::random::Random;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
+use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::testing::{KIRCHHOFF, beam, shake};
 
 /// The numbers of each point in a layout, filled up to whole lines with identities.
@@ -57,9 +58,10 @@ fn a_batch_makes_the_matrix_that_a_body_makes() {
     let pattern = Pattern::new(mesh.positions.len(), body.elements(), &Pins::at([5, 17])).expect("small");
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(5), &mesh.positions, 0.02));
-    elastic.evaluate_stiffnesses(&body, Filter::Clamp);
+    let mut stiffnesses = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::Clamp, &mut stiffnesses);
     let mut expected = vec![0.0; pattern.entries().row_idx().len()];
-    elastic.fill(&pattern, |node| node as f64, &mut expected);
+    stiffnesses.fill(&pattern, |node| node as f64, &mut expected);
     let largest = expected.iter().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
 
     let found = assembled(Layout::Points, false);

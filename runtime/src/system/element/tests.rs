@@ -27,11 +27,12 @@ fn derivatives(
 ) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
     let mut group = Group::new(&[*element]);
     group.evaluate(material, &[*element], positions);
-    let survey = group.evaluate_stiffnesses(material, &[*element], filter);
+    let mut stiffness = [[[[0.0; 3]; 3]; 10]];
+    let survey = group.evaluate_stiffnesses(material, &[*element], filter, &mut stiffness);
     let with_stiffness = group.gradients[0];
     group.evaluate_gradients(material, &[*element]);
     assert_eq!(group.gradients[0], with_stiffness, "the gradient is the same with and without a stiffness");
-    (group.gradients[0], to_matrix(&group.stiffnesses[0]), survey)
+    (group.gradients[0], to_matrix(&stiffness[0]), survey)
 }
 
 /// The whole matrix; unknown 3i+a is coordinate a of node i.
@@ -221,7 +222,8 @@ fn a_survey_tells_of_forces_and_stiffnesses_that_overflow() {
         let mut group = Group::new(&[element]);
         let survey = group.evaluate(&KIRCHHOFF, &[element], &positions);
         assert!(survey.is_admissible(), "{survey:?}");
-        let survey = group.evaluate_stiffnesses(&KIRCHHOFF, &[element], Filter::None);
+        let survey =
+            group.evaluate_stiffnesses(&KIRCHHOFF, &[element], Filter::None, &mut [[[[0.0; 3]; 3]; 10]]);
         assert_eq!((survey.nonfinite, survey.first_offender.is_some()), (expected, expected > 0));
     };
     check(1.0, 0);

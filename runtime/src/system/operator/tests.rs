@@ -6,6 +6,7 @@ use crate::random::Random;
 use crate::system::Pins;
 use crate::system::assemble::Elastic;
 use crate::system::pattern::Pattern;
+use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
@@ -16,9 +17,10 @@ fn assembled(body: &Body, positions: &[[f64; 3]], filter: Filter) -> Vec<Vec<[[f
     let pattern = Pattern::new(nodes, body.elements(), &Pins::none()).expect("small");
     let mut elastic = Elastic::new(body);
     elastic.evaluate(body, positions);
-    elastic.evaluate_stiffnesses(body, filter);
+    let mut stiffnesses = ElementStiffnesses::new(body);
+    elastic.linearise(body, filter, &mut stiffnesses);
     let mut values = vec![0.0; pattern.entries().row_idx().len()];
-    elastic.fill(&pattern, |_| 0.0, &mut values);
+    stiffnesses.fill(&pattern, |_| 0.0, &mut values);
     let mut matrix = vec![vec![[[0.0; 3]; 3]; nodes]; nodes];
     let entries = pattern.entries();
     for column in 0..pattern.unknowns() {

@@ -1,0 +1,117 @@
+//! The linear systems of Newton's method, solved in one of several ways.
+//!
+//! A solver holds whatever form of the second derivatives it works on, so that memory is taken for the chosen one alone. All
+//! see the same objective and leave the same direction, up to their tolerance.
+
+mod assembled;
+mod cholesky;
+mod refined;
+
+use crate::point::Filter;
+use crate::system::element::Survey;
+use crate::system::linear::LinearError;
+use crate::system::linear::conjugate_gradients::{End, Iteration};
+use crate::system::linear::refined::RefinedCholesky;
+use crate::system::{Body, Pins};
+
+use super::newton::NewtonError;
+use super::objective::Objective;
+use assembled::Assembled;
+use cholesky::Exact;
+use refined::Refined;
+
+/// How the linear systems A p = b of Newton's method are solved, b being minus the gradient.
+///
+/// Norms are Euclidean ones over the free nodes, N, as of [`NewtonReport::residual`](super::NewtonReport::residual): where
+/// Newton's method takes whole steps, `tolerance` is about what an iteration leaves of the gradient. It must be between 0 and 1;
+/// what is beyond the rounding of the matrix, u ‖A‖ ‖p‖, is not to be had. A system given up before that still leaves a
+/// direction of descent, and a report counts it as [`truncated`](super::NewtonReport::truncated).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LinearSolver {
+    /// Sparse Cholesky factorisation in f64.
+    ///
+    /// The fastest for bodies of up to some ten thousand elements, and the only one without a tolerance. An indefinite matrix
+    /// gets inertia until it is definite.
+    #[default]
+    Cholesky,
+    /// A factor in f32, of half the memory and traffic, and conjugate gradients in f64 that it preconditions, until
+    /// ‖b − A p‖ ≤ tolerance ‖b‖.
+    ///
+    /// Stiffness may have any unit. A factor that fails in f32 gets a larger diagonal, which costs iterations but no accuracy.
+    /// The system is given up at negative curvature and after a hundred iterations; a handful is the rule.
+    RefinedCholesky {
+        /// Where to stop.
+        tolerance: f64,
+    },
+}
+
+impl LinearSolver {
+    /// The rule that it breaks, if it breaks one.
+    pub(super) fn broken_rule(&self) -> Option<&'static str> {
+        match *self {
+            Self::RefinedCholesky { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
+                Some("the tolerance of the linear solver must be between 0 and 1")
+            }
+            _ => None,
+        }
+    }
+
+    /// A solver with all the memory that it will need.
+    pub(super) fn set_up(self, body: &Body, pins: &Pins) -> Result<Box<dyn Solver>, LinearError> {
+        Ok(match self {
+            Self::Cholesky => Box::new(Assembled::<Exact>::new(body, pins, Exact::new)?),
+            Self::RefinedCholesky { tolerance } => Box::new(Assembled::new(body, pins, |pattern| {
+                Ok(Refined { factor: RefinedCholesky::new(pattern.entries())?, tolerance })
+            })?),
+        })
+    }
+}
+
+/// What solves the linear systems of a simulation.
+pub(crate) trait Solver: Send + Sync {
+    /// The nodes that are not pinned, in the order of the unknowns.
+    fn free_nodes(&self) -> &[usize];
+
+    /// Whether an element joins two free nodes.
+    fn joins(&self, a: usize, b: usize) -> bool;
+
+    /// Evaluates gradients and filtered second derivatives where the energies were evaluated last.
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey;
+
+    /// Adds the product of the second derivatives with a displacement of few nodes.
+    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]);
+
+    /// Solves for the direction, zero at pinned nodes.
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+    ) -> Result<Solution, NewtonError>;
+}
+
+/// How a system was solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Solution {
+    /// The multiple of inertia that was added.
+    pub(crate) shift: f64,
+    pub(crate) iterations: usize,
+    /// Whether it was given up before its tolerance.
+    pub(crate) truncated: bool,
+}
+
+impl Solution {
+    /// Of an iteration that has left finite numbers.
+    fn of(Iteration { iterations, end }: Iteration) -> Result<Self, NewtonError> {
+        match end {
+            End::Converged => Ok(Self { iterations, ..Self::default() }),
+            End::Limit | End::NegativeCurvature => {
+                Ok(Self { iterations, truncated: true, ..Self::default() })
+            }
+            End::NotFinite => Err(NewtonError::NotFinite),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

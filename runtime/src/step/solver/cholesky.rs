@@ -1,0 +1,45 @@
+//! A factorisation in f64.
+
+use crate::system::linear::{Cholesky, LinearError};
+use crate::system::pattern::Pattern;
+
+use super::super::newton::NewtonError;
+use super::Solution;
+use super::assembled::{Factorisation, Matrix};
+
+/// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky).
+pub(super) struct Exact {
+    cholesky: Cholesky,
+}
+
+impl Exact {
+    pub(super) fn new(pattern: &Pattern) -> Result<Self, LinearError> {
+        Ok(Self { cholesky: Cholesky::new(pattern.entries())? })
+    }
+}
+
+/// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or where inertia is lost
+/// beside the stiffness, it may not be. Inertia is then added tenfold more each time, as if the time step were shorter.
+impl Factorisation for Exact {
+    fn solve(
+        &mut self,
+        matrix: &mut Matrix,
+        fill: impl Fn(f64, &mut Matrix),
+        b: &mut [f64],
+    ) -> Result<Solution, NewtonError> {
+        let mut shift = 0.0;
+        loop {
+            fill(shift, matrix);
+            match self.cholesky.factor(matrix.entries()) {
+                Ok(()) => break,
+                Err(LinearError::NotPositive { .. }) if shift < 1e12 => {
+                    shift = if shift == 0.0 { 1.0 } else { 10.0 * shift }
+                }
+                Err(LinearError::NotPositive { column }) => return Err(matrix.not_positive(column, shift)),
+                Err(error) => return Err(NewtonError::Linear(error)),
+            }
+        }
+        self.cholesky.solve(b);
+        Ok(Solution { shift, ..Solution::default() })
+    }
+}

@@ -1,0 +1,211 @@
+use super::*;
+use crate::batch::Energy;
+use crate::hand_written::RotatedLinear;
+use crate::mesh::embed::Anchor;
+use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
+use crate::random::Random;
+use crate::step::{NewtonReport, NewtonSettings, Pull, Settings, SetupError, Simulation};
+use crate::system::testing::{KIRCHHOFF, ROTATED, Scaled, beam, shake};
+
+const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
+const INEXACT: [LinearSolver; 1] = [REFINED];
+const ALL: [LinearSolver; 2] = [LinearSolver::Cholesky, REFINED];
+
+fn simulation(mesh: &TetMesh, material: impl Energy<f64> + 'static, settings: Settings) -> Simulation {
+    let left = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
+    let pins = Pins::in_box(mesh, left).expect("the left end");
+    let body = Body::new(mesh, material, 1000.0).expect("a body");
+    Simulation::new(body, &pins, settings).expect("a simulation")
+}
+
+/// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
+fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {
+    let newton = NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() };
+    let mut body = simulation(
+        mesh,
+        ROTATED,
+        Settings { gravity: [0.0, -9.81, 0.0], damping: 0.5, newton, ..Settings::default() },
+    );
+    let last = body.body().elements().len() - 1;
+    let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
+    body.set_pulls(&[Pull { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
+    let mut reports = Vec::new();
+    for step in 1..=steps {
+        let angle = 0.05 * step as f64;
+        for node in body.pinned().to_vec() {
+            let [x, y, z] = mesh.positions[node];
+            let turned = [y * angle.cos() - z * angle.sin(), y * angle.sin() + z * angle.cos()];
+            body.prescribe(node, [x - 0.3 * angle, turned[0], turned[1]]).expect("pinned");
+        }
+        reports.push(body.step(0.02).expect("a step").newton);
+    }
+    (body, reports)
+}
+
+#[test]
+fn all_solvers_take_the_same_way() {
+    let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
+    let (exact, reports) = waved(LinearSolver::Cholesky, &mesh, 12);
+    assert!(reports.iter().all(|report| report.linear_iterations == 0 && report.truncated == 0));
+    for linear in INEXACT {
+        let (body, reports) = waved(linear, &mesh, 12);
+        for report in reports {
+            assert!(report.linear_iterations >= report.iterations, "{report:?}");
+            assert_eq!((report.truncated, report.shift), (0, 0.0));
+        }
+        for (x, expected) in body.positions().iter().zip(exact.positions()) {
+            for c in 0..3 {
+                // Each step is minimised to 10⁻⁹ of forces that would move the beam by its length.
+                assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}, {linear:?}", x[c], expected[c]);
+            }
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    // Enough nodes and elements for several chunks of every kind.
+    let mesh = tetrahedral_box([40, 6, 6], [4.0, 0.6, 0.6]).expect("a box");
+    for linear in INEXACT {
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| {
+                let (body, reports) = waved(linear, &mesh, 2);
+                (body.positions().to_vec(), reports)
+            })
+        };
+        let one = run(1);
+        // Equal floating-point numbers are equal bits but for the sign of zero, which cannot pass on.
+        assert!(one == run(2), "{linear:?}");
+    }
+}
+
+#[test]
+fn negative_curvature_is_left_aside_and_reported() {
+    let mesh = beam(6);
+    for linear in INEXACT {
+        let newton =
+            NewtonSettings { filter: Filter::None, linear, max_iterations: 200, ..NewtonSettings::default() };
+        let mut body = simulation(&mesh, KIRCHHOFF, Settings { newton, ..Settings::default() });
+        let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
+        let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();
+        body.set_positions(&shake(&mut Random::new(6), &start, 1e-3)).expect("finite");
+        let before = body.energies().total();
+        let report = body.step(0.1).expect("a step");
+        assert!(report.newton.truncated > 0, "{report:?}");
+        assert!(report.energies.total() < before && body.positions().iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+/// From rubber foam to what is stiffer than diamond: with time steps that scale along, the motion is the same.
+#[test]
+fn stiffness_of_any_unit_is_as_good() {
+    let mesh = beam(8);
+    let run = |linear: LinearSolver, factor: f64| {
+        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
+        let material = Scaled { material: RotatedLinear, factor };
+        let mut body = simulation(
+            &mesh,
+            material,
+            Settings { gravity: [0.0, -factor / 3e3, 0.0], newton, ..Settings::default() },
+        );
+        let reports: Vec<_> =
+            (0..3).map(|_| body.step(3.0 / factor.sqrt()).expect("a step").newton).collect();
+        (body.positions().to_vec(), reports)
+    };
+    let (expected, _) = run(LinearSolver::Cholesky, 3e4);
+    for linear in ALL {
+        for factor in [3e-12, 3e6, 3e12, 3e30] {
+            let (positions, reports) = run(linear, factor);
+            assert!(reports.iter().all(|report| report.truncated == 0 && report.shift == 0.0));
+            for (x, expected) in positions.iter().zip(&expected) {
+                for c in 0..3 {
+                    // Newton's tolerance of 10⁻⁶, three times.
+                    assert!((x[c] - expected[c]).abs() <= 1e-5, "{linear:?}, {factor:e} Pa");
+                }
+            }
+        }
+    }
+}
+
+/// A rigid translation of the pins moves a body without inertia along in the first linear system already.
+#[test]
+fn moving_pins_enter_the_right_side() {
+    let mesh = beam(3);
+    for linear in ALL {
+        let newton = NewtonSettings { linear, ..NewtonSettings::single() };
+        let mut body = simulation(&mesh, ROTATED, Settings { newton, ..Settings::default() });
+        for node in body.pinned().to_vec() {
+            let [x, y, z] = mesh.positions[node];
+            body.prescribe(node, [x + 1.0, y, z]).expect("pinned");
+        }
+        // In 10⁵ s inertia is 10⁻¹⁴ of the stiffness.
+        body.step(1e5).expect("a step");
+        for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+            // The tolerance of the linear system times its condition of about 10³.
+            assert!((x[0] - rest[0] - 1.0).abs() <= 1e-7, "{linear:?}");
+        }
+    }
+}
+
+#[test]
+fn solvers_are_exchanged_between_steps_and_know_the_same_pulls() {
+    let mesh = beam(4);
+    let gravity = [0.0, -9.81, 0.0];
+    let settings = |linear| Settings {
+        gravity,
+        newton: NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() },
+        ..Settings::default()
+    };
+    let mut exchanged = simulation(&mesh, ROTATED, settings(ALL[0]));
+    let mut exact = simulation(&mesh, ROTATED, settings(ALL[0]));
+    // Nodes 8 and 19 share no element; of nodes 0 and 19 the first is pinned.
+    let pull = |nodes, weights| Pull { anchor: Anchor { nodes, weights }, target: [0.5; 3], stiffness: 10.0 };
+    let across = pull([8, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    let to_a_pin = pull([0, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    exact.set_pulls(&[to_a_pin]).expect("one free node");
+    for linear in ALL {
+        exchanged.set_settings(settings(linear)).expect("a solver");
+        assert_eq!(exchanged.set_pulls(&[across]), Err(SetupError::PullAcrossElements { index: 0 }));
+        exchanged.set_pulls(&[to_a_pin]).expect("one free node");
+        exchanged.step(0.02).expect("a step");
+        exact.step(0.02).expect("a step");
+    }
+    for (x, expected) in exchanged.positions().iter().zip(exact.positions()) {
+        for c in 0..3 {
+            // Newton's tolerance, three times.
+            assert!((x[c] - expected[c]).abs() <= 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_body_with_every_node_pinned_has_nothing_to_solve() {
+    let mesh = beam(1);
+    for linear in ALL {
+        let settings =
+            Settings { newton: NewtonSettings { linear, ..Default::default() }, ..Default::default() };
+        let body = Body::new(&mesh, ROTATED, 1000.0).expect("a body");
+        let mut body = Simulation::new(body, &Pins::at(0..8), settings).expect("a simulation");
+        body.prescribe(3, [0.2, 0.2, 0.2]).expect("pinned");
+        body.step(0.1).expect("nothing to solve");
+        assert_eq!((body.positions()[3], body.positions()[4]), ([0.2; 3], mesh.positions[4]));
+    }
+}
+
+#[test]
+fn tolerances_and_limits_that_make_no_sense_are_refused() {
+    let mesh = beam(1);
+    let mut body = simulation(&mesh, ROTATED, Settings::default());
+    let mut message = |linear| {
+        let settings =
+            Settings { newton: NewtonSettings { linear, ..Default::default() }, ..Default::default() };
+        let error = body.set_settings(settings).expect_err("nonsense").to_string();
+        assert_eq!(body.settings(), &Settings::default(), "the settings before are still there");
+        error
+    };
+    for tolerance in [0.0, 1.0, -1e-3, f64::NAN] {
+        let rule = "the tolerance of the linear solver must be between 0 and 1";
+        assert_eq!(message(LinearSolver::RefinedCholesky { tolerance }), rule);
+    }
+}

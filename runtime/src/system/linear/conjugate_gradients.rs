@@ -1,0 +1,259 @@
+//! Conjugate gradients [HS52] for A x = b with a preconditioner, stopped where a minimisation wants it [NW06 §7.1].
+//!
+//! From x = 0 on, each iterate x of a positive definite system is a minimum of ½ xᵀA x − bᵀx over more directions than the one
+//! before, and bᵀx > 0: wherever the iteration stops, x is a direction of descent for a gradient −b. If a search direction
+//! p meets pᵀA p ≤ 0, A is not positive definite; the iteration stops with what it has, and in the first iteration with p
+//! itself, which is the preconditioned direction of steepest descent.
+//!
+//! The residual b − A x is carried along, not computed anew: it departs from the true one by about u ‖A‖ ‖x‖, which is what
+//! a factorisation leaves too. Sums are made in chunks of fixed size, so that they have the same bits for any number of
+//! threads. This module knows no nodes.
+//!
+//! \[HS52\] Hestenes, Stiefel, *Methods of Conjugate Gradients for Solving Linear Systems*, 1952.
+//! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006: "line search Newton–CG".
+
+#![expect(non_snake_case, reason = "A as in the literature")]
+
+use rayon::prelude::*;
+
+/// How many numbers one thread takes without a further division.
+const CHUNK: usize = 4096;
+
+/// A symmetric matrix, and something positive definite like its inverse.
+pub(crate) trait System {
+    /// A x.
+    fn apply(&mut self, x: &[f64], product: &mut [f64]);
+
+    /// About A⁻¹ r.
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]);
+}
+
+/// Memory of the iteration.
+pub(crate) struct ConjugateGradients {
+    /// r = b − A x.
+    residual: Vec<f64>,
+    /// z = M⁻¹ r.
+    preconditioned: Vec<f64>,
+    /// p.
+    search: Vec<f64>,
+    /// A p.
+    product: Vec<f64>,
+    /// Sums of chunks.
+    sums: Vec<f64>,
+}
+
+/// What an iteration did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Iteration {
+    /// How many products with A it took.
+    pub(crate) iterations: usize,
+    pub(crate) end: End,
+}
+
+/// Why an iteration ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// ‖r‖ ≤ tolerance ‖b‖.
+    Converged,
+    /// The limit of iterations is reached.
+    Limit,
+    /// A is not positive definite.
+    NegativeCurvature,
+    /// A number is infinite or NaN, or the preconditioner not positive definite; x means nothing.
+    NotFinite,
+}
+
+impl ConjugateGradients {
+    pub(crate) fn new(unknowns: usize) -> Self {
+        let zeros = || vec![0.0; unknowns];
+        Self {
+            residual: zeros(),
+            preconditioned: zeros(),
+            search: zeros(),
+            product: zeros(),
+            sums: vec![0.0; unknowns.div_ceil(CHUNK)],
+        }
+    }
+
+    /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖, Euclidean norms, or by what there is before that.
+    pub(crate) fn solve(
+        &mut self,
+        system: &mut impl System,
+        b: &mut [f64],
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Iteration {
+        let Self { residual: r, preconditioned: z, search: p, product: Ap, sums } = self;
+        r.copy_from_slice(b);
+        let x = b;
+        x.fill(0.0);
+        p.fill(0.0);
+        let mut norm = dot(r, r, sums).sqrt();
+        let goal = tolerance * norm;
+        let mut rz_before = f64::INFINITY;
+        let mut iterations = 0;
+        let end = loop {
+            if !norm.is_finite() {
+                break End::NotFinite;
+            }
+            if norm <= goal {
+                break End::Converged;
+            }
+            if iterations == max_iterations {
+                break End::Limit;
+            }
+            system.precondition(r, z);
+            let rz = dot(r, z, sums);
+            let beta = rz / rz_before;
+            combine(p, |p, z| z + beta * p, z);
+            system.apply(p, Ap);
+            iterations += 1;
+            let curvature = dot(p, Ap, sums);
+            if !(rz > 0.0 && curvature.is_finite()) {
+                break End::NotFinite;
+            }
+            if curvature <= 0.0 {
+                if iterations == 1 {
+                    x.copy_from_slice(p);
+                }
+                break End::NegativeCurvature;
+            }
+            let step = rz / curvature;
+            combine(x, |x, p| x + step * p, p);
+            combine(r, |r, Ap| r - step * Ap, Ap);
+            norm = dot(r, r, sums).sqrt();
+            rz_before = rz;
+        };
+        Iteration { iterations, end }
+    }
+}
+
+/// Σ a·b, in the same order for any number of threads.
+fn dot(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
+    let chunks = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK));
+    sums.par_iter_mut().zip(chunks).for_each(|(sum, (a, b))| {
+        *sum = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    });
+    sums.iter().sum()
+}
+
+/// Replaces each number of `to` by what becomes of it and one of `from`.
+fn combine(to: &mut [f64], with: impl Fn(f64, f64) -> f64 + Sync, from: &[f64]) {
+    to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK)).for_each(|(to, from)| {
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = with(*to, *from);
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    /// A diagonal matrix between dense reflections I − 2wwᵀ, and its diagonal part as a preconditioner.
+    struct Reflected {
+        diagonal: Vec<f64>,
+        w: Vec<f64>,
+    }
+
+    impl Reflected {
+        fn new(diagonal: Vec<f64>) -> Self {
+            let mut random = Random::new(1);
+            let w: Vec<f64> = diagonal.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
+            let norm = w.iter().map(|w| w * w).sum::<f64>().sqrt();
+            Self { w: w.into_iter().map(|w| w / norm).collect(), diagonal }
+        }
+
+        fn reflect(&self, x: &mut [f64]) {
+            let along: f64 = x.iter().zip(&self.w).map(|(x, w)| x * w).sum();
+            x.iter_mut().zip(&self.w).for_each(|(x, w)| *x -= 2.0 * along * w);
+        }
+    }
+
+    impl System for Reflected {
+        fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+            product.copy_from_slice(x);
+            self.reflect(product);
+            product.iter_mut().zip(&self.diagonal).for_each(|(x, d)| *x *= d);
+            self.reflect(product);
+        }
+
+        fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
+            z.copy_from_slice(r);
+        }
+    }
+
+    /// A right side, what becomes of it, and how.
+    fn solve(diagonal: Vec<f64>, tolerance: f64, limit: usize) -> (Vec<f64>, Vec<f64>, Iteration) {
+        let mut random = Random::new(2);
+        let b: Vec<f64> = diagonal.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
+        let mut x = b.clone();
+        let mut memory = ConjugateGradients::new(b.len());
+        let iteration = memory.solve(&mut Reflected::new(diagonal), &mut x, tolerance, limit);
+        (b, x, iteration)
+    }
+
+    fn norm(x: &[f64]) -> f64 {
+        x.iter().map(|x| x * x).sum::<f64>().sqrt()
+    }
+
+    #[test]
+    fn few_eigenvalues_take_few_iterations() {
+        // Enough numbers for three chunks.
+        let diagonal: Vec<f64> = (0..10_000).map(|i| [1.0, 3.0, 10.0, 40.0][i % 4]).collect();
+        let (b, x, iteration) = solve(diagonal.clone(), 1e-12, 100);
+        assert_eq!(iteration, Iteration { iterations: 4, end: End::Converged });
+        let mut residual = vec![0.0; b.len()];
+        Reflected::new(diagonal).apply(&x, &mut residual);
+        residual.iter_mut().zip(&b).for_each(|(r, b)| *r -= b);
+        // The true residual is the carried one up to u ‖A‖ ‖x‖ ≤ 40 u ‖b‖ for each of the four steps.
+        assert!(norm(&residual) <= (1e-12 + 160.0 * f64::EPSILON) * norm(&b), "{}", norm(&residual));
+    }
+
+    #[test]
+    fn whatever_stops_it_the_direction_descends() {
+        let spread: Vec<f64> = (0..500).map(|i| 1.0 + f64::from(i)).collect();
+        let indefinite: Vec<f64> = (0..500).map(|i| 1.0 - f64::from(i) / 300.0).collect();
+        let negative = vec![-2.0; 500];
+        for (diagonal, limit, expected) in [
+            (spread, 5, Iteration { iterations: 5, end: End::Limit }),
+            (negative.clone(), 100, Iteration { iterations: 1, end: End::NegativeCurvature }),
+        ] {
+            let (b, x, iteration) = solve(diagonal, 1e-10, limit);
+            assert_eq!(iteration, expected);
+            assert!(b.iter().zip(&x).map(|(b, x)| b * x).sum::<f64>() > 0.0);
+        }
+        let (b, x, iteration) = solve(indefinite, 1e-10, 500);
+        assert_eq!(iteration.end, End::NegativeCurvature);
+        assert!(iteration.iterations > 1, "it has found directions before the negative one");
+        assert!(b.iter().zip(&x).map(|(b, x)| b * x).sum::<f64>() > 0.0);
+        let (b, x, _) = solve(negative, 1e-10, 100);
+        assert_eq!(b, x, "steepest descent");
+    }
+
+    #[test]
+    fn nothing_to_solve_takes_no_iteration_and_nonsense_is_said() {
+        let mut memory = ConjugateGradients::new(3);
+        let mut system = Reflected::new(vec![1.0; 3]);
+        let mut b = [0.0; 3];
+        let iteration = memory.solve(&mut system, &mut b, 1e-3, 10);
+        assert_eq!((iteration, b), (Iteration { iterations: 0, end: End::Converged }, [0.0; 3]));
+        for wrong in [f64::NAN, f64::INFINITY, 1e200] {
+            assert_eq!(memory.solve(&mut system, &mut [1.0, wrong, 0.0], 1e-3, 10).end, End::NotFinite);
+        }
+        system.diagonal[1] = f64::NAN;
+        assert_eq!(memory.solve(&mut system, &mut [1.0; 3], 1e-3, 10).end, End::NotFinite);
+    }
+
+    #[test]
+    fn sums_have_the_same_bits_for_any_number_of_threads() {
+        let diagonal: Vec<f64> = (0..50_000).map(|i| 1.0 + f64::from(i % 1000)).collect();
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| solve(diagonal.clone(), 1e-6, 50))
+        };
+        let one = run(1);
+        assert!(one == run(2) && one == run(3));
+    }
+}
