@@ -13,6 +13,7 @@ use crate::mesh::{MeshError, TetMesh};
 pub(crate) mod assemble;
 pub mod block_matrix;
 pub mod element;
+pub(crate) mod factored;
 mod fill;
 pub mod linear;
 pub mod operator;

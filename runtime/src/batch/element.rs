@@ -3,7 +3,8 @@
 //! One decomposition of each element serves the energy, the gradient and the stiffness.
 
 use super::energy::{Energy, TileOf, Verdict};
-use super::sink::{Layout, Lines, Sink};
+use super::operator::StiffnessFactors;
+use super::sink::{Layout, Lines, Sink, Source};
 use super::stage::{Decompose, Deform, Forces, Judge, Points, Respond, Stages, StiffnessForm};
 use super::workspace::Workspace;
 use crate::lanes::Backend;
@@ -18,21 +19,20 @@ pub(crate) use super::tile::TILE;
 pub(crate) struct ElementTile {
     backend: Backend,
     count: usize,
-    rest: Lines<f64, 10>,
+    rest: RestShapes,
     volumes: [f64; TILE],
     points: Points<f64>,
 }
 
 impl ElementTile {
     pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
-        let mut tile =
-            Self { backend, count: 0, rest: Lines::zero(), volumes: [0.0; TILE], points: Points::new() };
-        for (lane, shape) in shapes.enumerate() {
-            set_shape(&mut tile.rest, lane, &shape);
-            tile.volumes[lane] = shape.volume;
-            tile.count = lane + 1;
-        }
-        tile
+        let mut volumes = [0.0; TILE];
+        let mut count = 0;
+        let rest = RestShapes::new(shapes.inspect(|shape| {
+            volumes[count] = shape.volume;
+            count += 1;
+        }));
+        Self { backend, count, rest, volumes, points: Points::new() }
     }
 
     /// λ1, λ2, λ3 of an element, as evaluated last.
@@ -90,6 +90,28 @@ impl ElementTile {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> Marks {
+        self.respond(energy, filter, gradients, StiffnessForm::Blocks, by_elements(stiffnesses))
+    }
+
+    /// Gradients, and filtered stiffnesses as what they are made of.
+    pub(crate) fn factored_stiffnesses(
+        &self,
+        energy: &dyn Energy<f64>,
+        filter: Filter,
+        gradients: &mut [f64],
+        factors: &mut StiffnessFactors,
+    ) -> Marks {
+        self.respond(energy, filter, gradients, StiffnessForm::Factored, factors.sink())
+    }
+
+    fn respond(
+        &self,
+        energy: &dyn Energy<f64>,
+        filter: Filter,
+        gradients: &mut [f64],
+        form: StiffnessForm,
+        stiffnesses: Sink<'_, f64>,
+    ) -> Marks {
         let Self { backend, count, rest, points, .. } = self;
         let (has_pole, count) = (energy.has_pole(), *count);
         f64::with_workspace(|Workspace { blocks, line, .. }| {
@@ -99,9 +121,8 @@ impl ElementTile {
             let to = by_elements(gradients);
             let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
             let forced = f64::forces(*backend, kernel);
-            let to = by_elements(stiffnesses);
-            let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
-            let marks = f64::stiffness(*backend, StiffnessForm::Blocks, kernel).or(forced).or(judged);
+            let kernel = Respond { points, blocks, rest, count, has_pole, line, to: stiffnesses };
+            let marks = f64::stiffness(*backend, form, kernel).or(forced).or(judged);
             Marks { refused, ..marks }
         })
     }
@@ -111,11 +132,24 @@ impl ElementTile {
     }
 }
 
-/// Stores the ten numbers of a shape at rest.
-pub(super) fn set_shape(rest: &mut Lines<f64, 10>, lane: usize, shape: &RestShape) {
-    let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
-    for (k, &number) in numbers.enumerate() {
-        rest.set(lane, k, number);
+/// The shapes at rest of a tile's elements.
+#[derive(Clone, Debug)]
+pub(crate) struct RestShapes(Lines<f64, 10>);
+
+impl RestShapes {
+    pub(crate) fn new(shapes: impl Iterator<Item = RestShape>) -> Self {
+        let mut lines = Lines::zero();
+        for (lane, shape) in shapes.enumerate() {
+            let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
+            for (k, &number) in numbers.enumerate() {
+                lines.set(lane, k, number);
+            }
+        }
+        Self(lines)
+    }
+
+    pub(super) fn source(&self) -> Source<'_, f64, 10> {
+        self.0.source()
     }
 }
 

@@ -12,7 +12,7 @@
 
 #![expect(non_snake_case, reason = "F, U, V, W, D as in the literature")]
 
-use super::element::{by_elements, set_edges, set_shape};
+use super::element::{RestShapes, by_elements, set_edges};
 use super::energy::{Energy, TileOf};
 use super::form::{Factored, put, put_at_nodes};
 use super::sink::{Lines, Sink, Source};
@@ -21,33 +21,33 @@ use super::tile::for_each_group;
 use super::workspace::{Line, Workspace};
 use crate::lanes::{Backend, Element, Kernel, Lanes};
 use crate::material::Blocks;
-use crate::mesh::RestShape;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Filter, Matrix3, Tangent};
 
-/// Up to [`TILE`](super::tile::TILE) elements of one material, and their stiffness where they were linearised last.
+/// The stiffnesses of up to [`TILE`](super::tile::TILE) elements of one material where they were linearised last: zero before
+/// that.
 #[derive(Clone, Debug)]
-pub(crate) struct StiffnessTile {
+pub(crate) struct StiffnessFactors {
     backend: Backend,
     count: usize,
-    rest: Lines<f64, 10>,
     /// U, W, ψij, flips, twists.
     factors: Lines<f64, 30>,
 }
 
-impl StiffnessTile {
-    pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
-        let mut tile = Self { backend, count: 0, rest: Lines::zero(), factors: Lines::zero() };
-        for (lane, shape) in shapes.enumerate() {
-            set_shape(&mut tile.rest, lane, &shape);
-            tile.count = lane + 1;
-        }
-        tile
+impl StiffnessFactors {
+    pub(crate) fn new(backend: Backend, count: usize) -> Self {
+        Self { backend, count, factors: Lines::zero() }
     }
 
-    /// Takes the filtered stiffness where the nodes of each element are at `corners`.
+    /// Where [`StiffnessForm::Factored`] goes.
+    pub(super) fn sink(&mut self) -> Sink<'_, f64> {
+        self.factors.sink()
+    }
+
+    /// Takes the filtered stiffnesses where the nodes of each element are at `corners`.
     pub(crate) fn linearise(
         &mut self,
+        rest: &RestShapes,
         energy: &dyn Energy<f64>,
         filter: Filter,
         corners: impl Iterator<Item = [[f64; 3]; 4]>,
@@ -56,13 +56,19 @@ impl StiffnessTile {
             for (lane, corners) in corners.enumerate() {
                 set_edges(&mut workspace.F, lane, corners);
             }
-            self.respond(energy, filter, workspace)
+            self.respond(rest, energy, filter, workspace)
         })
     }
 
     /// The stages from edges to factors.
-    fn respond(&mut self, energy: &dyn Energy<f64>, filter: Filter, workspace: &mut Workspace<f64>) -> Marks {
-        let Self { backend, count, ref rest, ref mut factors } = *self;
+    fn respond(
+        &mut self,
+        rest: &RestShapes,
+        energy: &dyn Energy<f64>,
+        filter: Filter,
+        workspace: &mut Workspace<f64>,
+    ) -> Marks {
+        let Self { backend, count, ref mut factors } = *self;
         let Workspace { F: edges, points, blocks, line, .. } = workspace;
         let (rest, is_signed, has_pole) = (rest.source(), energy.ends_at_zero_volume(), energy.has_pole());
         f64::deform(backend, Deform { edges, rest, count });

@@ -138,6 +138,22 @@ impl Quadratic<'_> {
         }
     }
 
+    /// Adds the second derivatives in the coordinates of each node to the block of the node.
+    pub(crate) fn add_to_blocks(&self, blocks: &mut [[[f64; 3]; 3]]) {
+        for (node, block) in blocks.iter_mut().enumerate() {
+            for c in 0..3 {
+                block[c][c] += self.diagonal(node);
+            }
+        }
+        for pull in self.pulls {
+            for (node, weight) in pull.weights() {
+                for c in 0..3 {
+                    blocks[node][c][c] += pull.stiffness * weight * weight;
+                }
+            }
+        }
+    }
+
     /// dᵀ H d.
     fn curvature(&self, d: &[[f64; 3]]) -> f64 {
         let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];

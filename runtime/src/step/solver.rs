@@ -5,6 +5,7 @@
 
 mod assembled;
 mod cholesky;
+mod matrix_free;
 mod refined;
 
 use crate::point::Filter;
@@ -18,6 +19,7 @@ use super::newton::NewtonError;
 use super::objective::Objective;
 use assembled::Assembled;
 use cholesky::Exact;
+use matrix_free::MatrixFree;
 use refined::Refined;
 
 /// How the linear systems A p = b of Newton's method are solved, b being minus the gradient.
@@ -43,16 +45,35 @@ pub enum LinearSolver {
         /// Where to stop.
         tolerance: f64,
     },
+    /// Conjugate gradients without a matrix, preconditioned by the 3×3 blocks on the diagonal, taken anew with each
+    /// linearisation, until ‖b − A p‖ ≤ tolerance ‖b‖.
+    ///
+    /// For bodies of hundreds of thousands of elements, whose factor does not fit into memory: its own grows with the elements,
+    /// about a kilobyte each. Needs the more iterations the stiffer a body is for its time step, the finer and the thinner.
+    /// The system is given up at negative curvature, with the direction so far or that of steepest descent in the first
+    /// iteration, as in Nocedal and Wright, *Numerical Optimization*, algorithm 7.1.
+    ConjugateGradients {
+        /// Where to stop.
+        tolerance: f64,
+        /// After how many iterations to give up.
+        max_iterations: usize,
+    },
 }
 
 impl LinearSolver {
     /// The rule that it breaks, if it breaks one.
     pub(super) fn broken_rule(&self) -> Option<&'static str> {
-        match *self {
-            Self::RefinedCholesky { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
-                Some("the tolerance of the linear solver must be between 0 and 1")
-            }
-            _ => None,
+        let (tolerance, max_iterations) = match *self {
+            Self::Cholesky => return None,
+            Self::RefinedCholesky { tolerance } => (tolerance, usize::MAX),
+            Self::ConjugateGradients { tolerance, max_iterations } => (tolerance, max_iterations),
+        };
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            Some("the tolerance of the linear solver must be between 0 and 1")
+        } else if max_iterations == 0 {
+            Some("conjugate gradients need at least one iteration")
+        } else {
+            None
         }
     }
 
@@ -63,6 +84,9 @@ impl LinearSolver {
             Self::RefinedCholesky { tolerance } => Box::new(Assembled::new(body, pins, |pattern| {
                 Ok(Refined { factor: RefinedCholesky::new(pattern.entries())?, tolerance })
             })?),
+            Self::ConjugateGradients { tolerance, max_iterations } => {
+                Box::new(MatrixFree::new(body, pins, tolerance, max_iterations))
+            }
         })
     }
 }

@@ -13,7 +13,8 @@
 //! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a division. A sum
 //! therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes of stiffness for each
 //! element, which stays in the cache for the bodies this is made for. Whoever assembles brings it
-//! ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)).
+//! ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products alone a third of it is enough
+//! ([`FactoredStiffness`](super::factored::FactoredStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken per
 //! element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is left.

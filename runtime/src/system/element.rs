@@ -20,6 +20,7 @@
 
 use crate::batch::Energy;
 use crate::batch::element::{ElementTile, Marks, TILE};
+use crate::batch::operator::StiffnessFactors;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::{Filter, stretches_in_range};
@@ -188,6 +189,18 @@ impl Group {
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
         Survey::of_marks(&self.tile.stiffnesses(material, filter, gradients, stiffnesses), elements)
+    }
+
+    /// Gradients, and second derivatives after the filter as what they are made of.
+    pub(crate) fn evaluate_factors(
+        &mut self,
+        material: &dyn Energy<f64>,
+        elements: &[Element],
+        filter: Filter,
+        factors: &mut StiffnessFactors,
+    ) -> Survey {
+        let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
+        Survey::of_marks(&self.tile.factored_stiffnesses(material, filter, gradients, factors), elements)
     }
 }
 

@@ -4,8 +4,8 @@
 //! bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes; unknowns come already
 //! in an order that keeps L sparse.
 //!
-//! Beside it lie what the steps of a simulation can choose instead: a factor in f32, and conjugate gradients that refine what it
-//! solves.
+//! Beside it lie what the steps of a simulation can choose instead: conjugate gradients, a preconditioner for them where there
+//! is no matrix, and a factor in f32 that they refine.
 
 use std::fmt;
 
@@ -19,6 +19,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::traits::RealField;
 use faer::{Conj, MatMut, Par, Side};
 
+pub(crate) mod block_jacobi;
 pub(crate) mod conjugate_gradients;
 pub(crate) mod refined;
 

@@ -4,8 +4,10 @@
 //! a quarter of the operations that its entries take to make; nothing is assembled, nor factored. Products are made in
 //! two stages, as in assembly, and have the same bits for any number of threads:
 //!
-//! 1. *Elements.* Tiles of elements multiply in parallel, each element into a place of its own.
-//! 2. *Nodes.* Each node has a list of the elements around it, made once and sorted; nodes are summed in parallel, each by
+//! 1. *Elements.* Tiles of 64 elements multiply in parallel, and each sums its elements one after the other at the nodes
+//!    they share: where neighbours are near in the numbering there are half as many as elements, so that little is left to
+//!    pass through memory.
+//! 2. *Nodes.* Each node has a list of the tiles around it, made once and sorted; nodes are summed in parallel, each by
 //!    one thread in the order of its list.
 //!
 //! This module knows no pins and no masses: it is for the solver to leave out the rows and columns of pinned nodes, and to
@@ -16,16 +18,11 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Body;
-use crate::batch::operator::StiffnessTile;
+use super::assemble::Tangents;
+use super::factored::{FactoredStiffness, TILES};
+use crate::batch::element::RestShapes;
 use crate::batch::{LengthError, Survey};
-use crate::lanes::Backend;
 use crate::point::Filter;
-
-/// Tiles that one thread takes without a further division: enough to pay for handing them over.
-const TILES: usize = 4;
-
-/// Nodes likewise.
-const NODES: usize = 256;
 
 /// The filtered stiffness K of a body, N/m, where it was linearised last: zero before that.
 ///
@@ -59,58 +56,31 @@ const NODES: usize = 256;
 /// ```
 #[derive(Clone, Debug)]
 pub struct StiffnessOperator {
+    factored: FactoredStiffness,
+    /// One for each tile of it.
     tiles: Vec<Tile>,
     elements: usize,
-    /// Where the contributions to each node start, and where the last ends.
-    starts: Vec<usize>,
-    contributions: Vec<Contribution>,
 }
 
-/// Elements of one material and their part of the product made last.
+/// Elements of one material, and what was said of them last.
 #[derive(Clone, Debug)]
 struct Tile {
-    stiffness: StiffnessTile,
-    nodes: Vec<[usize; 4]>,
+    rest: RestShapes,
     elements: Range<usize>,
     survey: Survey,
-    /// One vector for each corner of each element.
-    products: Vec<[[f64; 3]; 4]>,
-}
-
-/// A corner of an element.
-#[derive(Clone, Copy, Debug)]
-struct Contribution {
-    tile: u32,
-    lane: u8,
-    corner: u8,
 }
 
 impl StiffnessOperator {
-    /// With memory for all that later calls need: about 500 bytes for each element.
+    /// With memory for all that later calls need: about 400 bytes for each element.
     #[must_use]
     pub fn new(body: &Body) -> Self {
-        let tiles: Vec<Tile> = body.groups().map(|(_, elements)| Tile::new(body, elements)).collect();
-        let mut starts = vec![0; body.rest().len() + 1];
-        for element in body.elements() {
-            for node in element.nodes {
-                starts[node + 1] += 1;
-            }
-        }
-        for node in 0..body.rest().len() {
-            starts[node + 1] += starts[node];
-        }
-        let mut next = starts.clone();
-        let mut contributions = vec![Contribution { tile: 0, lane: 0, corner: 0 }; 4 * body.elements().len()];
-        for (number, tile) in tiles.iter().enumerate() {
-            for (lane, nodes) in tile.nodes.iter().enumerate() {
-                for (corner, &node) in nodes.iter().enumerate() {
-                    contributions[next[node]] =
-                        Contribution { tile: number as u32, lane: lane as u8, corner: corner as u8 };
-                    next[node] += 1;
-                }
-            }
-        }
-        Self { tiles, elements: body.elements().len(), starts, contributions }
+        let tile = |elements: Range<usize>| Tile {
+            rest: RestShapes::new(body.elements()[elements.clone()].iter().map(|element| element.shape)),
+            elements,
+            survey: Survey::NONE,
+        };
+        let tiles = body.groups().map(|(_, elements)| tile(elements)).collect();
+        Self { factored: FactoredStiffness::new(body), tiles, elements: body.elements().len() }
     }
 
     /// Takes the stiffness at these positions, m, with the filter on dP/dF of each element, of the body it was made for.
@@ -131,10 +101,10 @@ impl StiffnessOperator {
         if found != points {
             return Err(LengthError { slice: "elements", found, numbers: 1, points, group: 1 });
         }
-        self.tiles.par_iter_mut().with_min_len(TILES).for_each(|tile| {
-            let corners = tile.nodes.iter().map(|nodes| nodes.map(|node| positions[node]));
+        let tiles = self.tiles.par_iter_mut().zip(self.factored.tiles()).with_min_len(TILES);
+        tiles.for_each(|(tile, stiffness)| {
             let material = body.material(tile.elements.start);
-            let marks = tile.stiffness.linearise(material, filter, corners);
+            let marks = stiffness.linearise(&tile.rest, material, filter, positions);
             tile.survey = Survey::of(&marks, tile.elements.start);
         });
         Ok(self.tiles.iter().fold(Survey::NONE, |sum, tile| sum.and(tile.survey)))
@@ -147,10 +117,7 @@ impl StiffnessOperator {
     pub fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), LengthError> {
         self.check("x", x.len(), 3)?;
         self.check("product", product.len(), 3)?;
-        self.for_each_tile(|stiffness, nodes, products| {
-            stiffness.multiply(nodes.iter().map(|nodes| nodes.map(|node| x[node])), products);
-        });
-        self.sum(product, |total, sum| *total = sum);
+        self.factored.multiply(x, product);
         Ok(())
     }
 
@@ -161,61 +128,17 @@ impl StiffnessOperator {
     /// Where there are not as many as nodes.
     pub fn diagonal_blocks(&mut self, blocks: &mut [[[f64; 3]; 3]]) -> Result<(), LengthError> {
         self.check("blocks", blocks.len(), 9)?;
-        for c in 0..3 {
-            self.for_each_tile(|stiffness, _, columns| stiffness.diagonal_columns(c, columns));
-            self.sum(blocks, |block, column| {
-                for a in 0..3 {
-                    block[a][c] = column[a];
-                }
-            });
-        }
+        self.factored.diagonal_blocks(blocks);
         Ok(())
-    }
-
-    /// Lets the elements make their products.
-    fn for_each_tile(&mut self, make: impl Fn(&StiffnessTile, &[[usize; 4]], &mut [f64]) + Sync) {
-        self.tiles.par_iter_mut().with_min_len(TILES).for_each(|tile| {
-            let Tile { stiffness, nodes, products, .. } = tile;
-            make(stiffness, nodes, products.as_flattened_mut().as_flattened_mut());
-        });
-    }
-
-    /// Hands each node's sum over its elements to `put`.
-    fn sum<T: Send>(&self, totals: &mut [T], put: impl Fn(&mut T, [f64; 3]) + Sync) {
-        totals.par_iter_mut().with_min_len(NODES).enumerate().for_each(|(node, total)| {
-            let mut sum = [0.0; 3];
-            for contribution in &self.contributions[self.starts[node]..self.starts[node + 1]] {
-                let Contribution { tile, lane, corner } = *contribution;
-                let part = self.tiles[tile as usize].products[usize::from(lane)][usize::from(corner)];
-                for a in 0..3 {
-                    sum[a] += part[a];
-                }
-            }
-            put(total, sum);
-        });
     }
 
     /// Whether a slice holds something for each node, of so many numbers.
     fn check(&self, slice: &'static str, found: usize, numbers: usize) -> Result<(), LengthError> {
-        let points = self.starts.len() - 1;
+        let points = self.factored.nodes();
         if found == points {
             return Ok(());
         }
         Err(LengthError { slice, found: numbers * found, numbers, points, group: 1 })
-    }
-}
-
-impl Tile {
-    fn new(body: &Body, elements: Range<usize>) -> Self {
-        let of_tile = &body.elements()[elements.clone()];
-        let shapes = of_tile.iter().map(|element| element.shape);
-        Self {
-            stiffness: StiffnessTile::new(Backend::best(), shapes),
-            nodes: of_tile.iter().map(|element| element.nodes).collect(),
-            products: vec![[[0.0; 3]; 4]; elements.len()],
-            elements,
-            survey: Survey::NONE,
-        }
     }
 }
 

@@ -8,8 +8,9 @@ use crate::step::{NewtonReport, NewtonSettings, Pull, Settings, SetupError, Simu
 use crate::system::testing::{KIRCHHOFF, ROTATED, Scaled, beam, shake};
 
 const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
-const INEXACT: [LinearSolver; 1] = [REFINED];
-const ALL: [LinearSolver; 2] = [LinearSolver::Cholesky, REFINED];
+const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 };
+const INEXACT: [LinearSolver; 2] = [REFINED, GRADIENTS];
+const ALL: [LinearSolver; 3] = [LinearSolver::Cholesky, REFINED, GRADIENTS];
 
 fn simulation(mesh: &TetMesh, material: impl Energy<f64> + 'static, settings: Settings) -> Simulation {
     let left = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
@@ -63,10 +64,24 @@ fn all_solvers_take_the_same_way() {
 }
 
 #[test]
+fn a_loose_tolerance_costs_newton_iterations_and_no_accuracy() {
+    let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
+    let (exact, _) = waved(LinearSolver::Cholesky, &mesh, 6);
+    let loose = LinearSolver::ConjugateGradients { tolerance: 0.05, max_iterations: 1000 };
+    let (body, _) = waved(loose, &mesh, 6);
+    for (x, expected) in body.positions().iter().zip(exact.positions()) {
+        for c in 0..3 {
+            // As above: Newton's tolerance is the same.
+            assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}", x[c], expected[c]);
+        }
+    }
+}
+
+#[test]
 fn any_number_of_threads_gives_the_same_bits() {
     // Enough nodes and elements for several chunks of every kind.
     let mesh = tetrahedral_box([40, 6, 6], [4.0, 0.6, 0.6]).expect("a box");
-    for linear in INEXACT {
+    for linear in [REFINED, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 50 }] {
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| {
@@ -94,6 +109,20 @@ fn negative_curvature_is_left_aside_and_reported() {
         let report = body.step(0.1).expect("a step");
         assert!(report.newton.truncated > 0, "{report:?}");
         assert!(report.energies.total() < before && body.positions().iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn a_limit_of_iterations_leaves_a_direction_of_descent() {
+    let mesh = beam(10);
+    let linear = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 3 };
+    let newton = NewtonSettings { linear, ..NewtonSettings::single() };
+    let mut body =
+        simulation(&mesh, ROTATED, Settings { gravity: [0.0, -9.81, 0.0], newton, ..Settings::default() });
+    for _ in 0..5 {
+        let report = body.step(0.02).expect("a step").newton;
+        assert_eq!((report.linear_iterations, report.truncated), (3, 1));
+        assert_eq!(report.step_lengths, [1.0]);
     }
 }
 
@@ -207,5 +236,8 @@ fn tolerances_and_limits_that_make_no_sense_are_refused() {
     for tolerance in [0.0, 1.0, -1e-3, f64::NAN] {
         let rule = "the tolerance of the linear solver must be between 0 and 1";
         assert_eq!(message(LinearSolver::RefinedCholesky { tolerance }), rule);
+        assert_eq!(message(LinearSolver::ConjugateGradients { tolerance, max_iterations: 9 }), rule);
     }
+    let rule = "conjugate gradients need at least one iteration";
+    assert_eq!(message(LinearSolver::ConjugateGradients { tolerance: 0.1, max_iterations: 0 }), rule);
 }

@@ -1,0 +1,115 @@
+//! Conjugate gradients on products of the elements.
+
+use crate::point::Filter;
+use crate::system::element::Survey;
+use crate::system::factored::FactoredStiffness;
+use crate::system::linear::block_jacobi::BlockJacobi;
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::{Body, Pins};
+
+use super::super::newton::NewtonError;
+use super::super::objective::{Objective, Quadratic};
+use super::{Solution, Solver};
+
+/// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
+///
+/// Unknowns are those of all nodes: right sides, and products with what is zero at pinned nodes, are set to zero there.
+pub(super) struct MatrixFree {
+    stiffness: FactoredStiffness,
+    pinned: Vec<usize>,
+    free: Vec<usize>,
+    blocks: Vec<[[f64; 3]; 3]>,
+    preconditioner: BlockJacobi,
+    conjugate_gradients: ConjugateGradients,
+    tolerance: f64,
+    max_iterations: usize,
+}
+
+impl MatrixFree {
+    pub(super) fn new(body: &Body, pins: &Pins, tolerance: f64, max_iterations: usize) -> Self {
+        let nodes = body.rest().len();
+        let is_free = |node: &usize| pins.nodes().binary_search(node).is_err();
+        Self {
+            stiffness: FactoredStiffness::new(body),
+            pinned: pins.nodes().to_vec(),
+            free: (0..nodes).filter(is_free).collect(),
+            blocks: vec![[[0.0; 3]; 3]; nodes],
+            preconditioner: BlockJacobi::new(nodes),
+            conjugate_gradients: ConjugateGradients::new(3 * nodes),
+            tolerance,
+            max_iterations,
+        }
+    }
+}
+
+impl Solver for MatrixFree {
+    fn free_nodes(&self) -> &[usize] {
+        &self.free
+    }
+
+    fn joins(&self, a: usize, b: usize) -> bool {
+        self.stiffness.joins(a, b)
+    }
+
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey {
+        objective.elastic.linearise(objective.body, filter, &mut self.stiffness)
+    }
+
+    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        self.stiffness.add_product(displacement, total);
+        objective.quadratic.add_product(displacement, total);
+    }
+
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+    ) -> Result<Solution, NewtonError> {
+        let Self { stiffness, pinned, blocks, preconditioner, conjugate_gradients, .. } = self;
+        let quadratic = &objective.quadratic;
+        stiffness.diagonal_blocks(blocks);
+        quadratic.add_to_blocks(blocks);
+        preconditioner.factor(blocks);
+
+        for (direction, gradient) in direction.iter_mut().zip(gradient) {
+            *direction = gradient.map(|g| -g);
+        }
+        pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
+        let mut system = Linearised { stiffness, quadratic, pinned, preconditioner };
+        let (tolerance, max_iterations) = (self.tolerance, self.max_iterations);
+        let unknowns = direction.as_flattened_mut();
+        let solution =
+            Solution::of(conjugate_gradients.solve(&mut system, unknowns, tolerance, max_iterations))?;
+        if unknowns.iter().any(|x| !x.is_finite()) {
+            return Err(NewtonError::NotFinite);
+        }
+        Ok(solution)
+    }
+}
+
+/// The second derivatives as an operator on displacements that are zero at pinned nodes.
+struct Linearised<'a> {
+    stiffness: &'a mut FactoredStiffness,
+    quadratic: &'a Quadratic<'a>,
+    pinned: &'a [usize],
+    preconditioner: &'a BlockJacobi,
+}
+
+impl System for Linearised<'_> {
+    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+        let (x, product) = (vectors(x), product.as_chunks_mut().0);
+        self.stiffness.multiply(x, product);
+        self.quadratic.add_product(x, product);
+        self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+    }
+
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
+        self.preconditioner.solve(vectors(r), z.as_chunks_mut().0);
+    }
+}
+
+/// Three numbers for each node.
+fn vectors(numbers: &[f64]) -> &[[f64; 3]] {
+    numbers.as_chunks().0
+}
