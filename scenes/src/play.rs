@@ -53,6 +53,11 @@ impl Play {
         &self.simulation
     }
 
+    /// The same, for those who put it elsewhere or push it before the next step.
+    pub fn simulation_mut(&mut self) -> &mut Simulation {
+        &mut self.simulation
+    }
+
     /// Name of its material in the catalogue.
     #[must_use]
     pub fn material(&self) -> &'static str {
