@@ -15,6 +15,7 @@ use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
 
 mod arrays;
 mod decomposition;
+mod front;
 mod machine;
 mod paper;
 mod task;
@@ -22,6 +23,7 @@ mod timing;
 
 pub use arrays::Arrays;
 pub use decomposition::Decompositions;
+pub use front::{RESOLUTION, beats, front};
 pub use machine::processor;
 pub use paper::PointByPoint;
 pub use task::Task;

@@ -38,7 +38,8 @@ fn hand_written_in<E: Stages>(effort: Effort, task: Task, table: &mut String) {
 /// P and 81 entries of dP/dF, f64: the paper's method, compiled for the instructions of each back end, beside a batch with the
 /// best one.
 pub(crate) fn paper(effort: Effort) -> String {
-    let mut table = header(&["energy", "compiled for", "[SZLSB11]", "tangents", "factor (goal: ≥ 20)"]);
+    let titles = ["energy", "compiled for", "decomposition", "[SZLSB11]", "tangents", "factor (goal: ≥ 20)"];
+    let mut table = header(&titles);
     let [stvk, neo_hookean, three_terms] = &materials::<f64>();
     let material = StVenantKirchhoff::new(MU, LAMBDA).expect("admissible parameters");
     paper_of(effort, &material, stvk, &mut table);
@@ -60,7 +61,10 @@ fn paper_of(
     for backend in Backend::available() {
         let theirs: &mut dyn FnMut() = &mut || points.run(material, backend);
         let times = time_in_turns(effort, IN_CACHE, [theirs, &mut || arrays.run(&batch)]);
-        compare(table, &[name, backend.name()], times);
+        compare(table, &[name, backend.name(), "piola's"], times);
+        let theirs: &mut dyn FnMut() = &mut || points.run_with_library(material, backend);
+        let times = time_in_turns(effort, IN_CACHE, [theirs, &mut || arrays.run(&batch)]);
+        compare(table, &[name, backend.name(), "nalgebra's"], times);
     }
 }
 

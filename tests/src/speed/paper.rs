@@ -12,13 +12,13 @@ use piola::point::{Matrix3, stress, svd};
 
 use super::IN_CACHE;
 use super::task::Input;
+use crate::baselines::decompositions;
 use crate::baselines::svd_gradients::{self, Regularization};
 use crate::random::Random;
 
 /// [`IN_CACHE`] deformation gradients with room for P and the 81 entries of dP/dF.
 ///
-/// [`svd_gradients`] with the singular value decomposition of this library, a scalar at a time: what a good engineer makes
-/// of \[SZLSB11\] without lanes.
+/// [`svd_gradients`], a scalar at a time: what a good engineer makes of \[SZLSB11\] without lanes.
 #[derive(Debug)]
 pub struct PointByPoint {
     F: Vec<Matrix3<f64>>,
@@ -37,9 +37,16 @@ impl PointByPoint {
         Self { F, results: vec![Default::default(); IN_CACHE] }
     }
 
-    /// Computes all, compiled for the instructions of a back end: the compiler may use them as it likes.
+    /// Computes all after the decomposition of this library, compiled for the instructions of a back end: the compiler may use
+    /// them as it likes.
     pub fn run(&mut self, material: &impl Material, backend: Backend) {
-        backend.run(Compute { material, points: self });
+        backend.run(Compute::<_, false> { material, points: self });
+        black_box(&self.results);
+    }
+
+    /// The same after the decomposition that a library has ready, nalgebra's. A point where it fails keeps its numbers.
+    pub fn run_with_library(&mut self, material: &impl Material, backend: Backend) {
+        backend.run(Compute::<_, true> { material, points: self });
         black_box(&self.results);
     }
 }
@@ -50,19 +57,20 @@ impl Default for PointByPoint {
     }
 }
 
-struct Compute<'a, M> {
+struct Compute<'a, M, const BY_LIBRARY: bool> {
     material: &'a M,
     points: &'a mut PointByPoint,
 }
 
-impl<M: Material> Kernel<f64> for Compute<'_, M> {
+impl<M: Material, const BY_LIBRARY: bool> Kernel<f64> for Compute<'_, M, BY_LIBRARY> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Lanes<Element = f64>>(self) {
         let PointByPoint { F, results } = self.points;
         for (F, result) in F.iter().zip(results) {
-            let svd = svd(F);
+            let svd = if BY_LIBRARY { decompositions::nalgebra(F) } else { Some(svd(F)) };
+            let Some(svd) = svd else { continue };
             let P = stress(&svd, self.material.gradient(svd.stretches));
             *result = (P, svd_gradients::tangent(self.material, &svd, Regularization::default()));
         }
