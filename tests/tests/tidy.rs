@@ -62,7 +62,8 @@ fn imports_point_one_way() {
 /// Vector instructions are unsafe, and at home in `lanes`; there every block says why it is sound.
 #[test]
 fn unsafe_code_stays_in_the_lanes_and_says_why() {
-    let folders = ["macros", "runtime", "materials", "scenes", "tests/src", "tests/examples"];
+    let folders =
+        ["macros", "runtime", "materials", "scenes", "tests/src", "tests/examples", "tests/benches"];
     for (path, text) in folders.into_iter().flat_map(sources) {
         let lines: Vec<&str> = text.lines().collect();
         for (number, line) in lines.iter().enumerate() {

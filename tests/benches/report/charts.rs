@@ -1,0 +1,40 @@
+//! The charts, as SVG.
+
+use crate::data::Report;
+
+mod growth;
+mod heat;
+mod panel;
+mod point;
+mod steps;
+mod sweeps;
+
+pub(crate) use point::{best_settings, materials};
+
+/// A chart and what stands beside it.
+pub(crate) struct Chart {
+    pub(crate) file: String,
+    pub(crate) svg: String,
+    /// What is seen on it, in a sentence.
+    pub(crate) caption: String,
+}
+
+/// Those of the sections that were measured.
+///
+/// # Errors
+/// Where one cannot be drawn.
+pub(crate) fn draw(report: &Report) -> Result<Vec<Chart>, String> {
+    let mut charts = Vec::new();
+    if !report.rows.is_empty() {
+        charts.extend(point::draw(&report.rows)?);
+        charts.extend(heat::draw(&report.rows)?);
+        charts.push(sweeps::draw(&report.rows)?);
+    }
+    if !report.steps.is_empty() {
+        charts.extend(steps::draw(&report.steps)?);
+    }
+    if !report.growth.is_empty() {
+        charts.push(growth::draw(&report.growth)?);
+    }
+    Ok(charts)
+}

@@ -1,0 +1,101 @@
+//! What the report measures, as `report.json` has it.
+
+use serde::Serialize;
+
+/// All of it. What does not apply or is not finite is `null`.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Report {
+    pub(crate) machine: String,
+    /// Instructions of the lanes.
+    pub(crate) back_end: String,
+    /// Of the sources, where they are a Git checkout.
+    pub(crate) commit: Option<String>,
+    /// Seconds since 1970.
+    pub(crate) time: u64,
+    pub(crate) rows: Vec<PointRow>,
+    pub(crate) steps: Vec<StepRow>,
+    pub(crate) growth: Vec<GrowthRow>,
+}
+
+/// A method at a family of deformation gradients.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct PointRow {
+    pub(crate) section: &'static str,
+    /// `tangent`: P and dP/dF; `projected`: P and the nearest semidefinite matrix to dP/dF.
+    pub(crate) work: &'static str,
+    pub(crate) material: &'static str,
+    pub(crate) precision: &'static str,
+    pub(crate) method: &'static str,
+    pub(crate) setting: String,
+    /// Least and median of the repeats.
+    pub(crate) ns_per_element: f64,
+    pub(crate) median_ns_per_element: f64,
+    /// The larger of ‖X − X*‖/(‖X*‖ + sens) of P and of the matrix; `null` for what is not finite.
+    #[serde(serialize_with = "finite")]
+    pub(crate) worst_error: f64,
+    #[serde(serialize_with = "finite")]
+    pub(crate) median_error: f64,
+    pub(crate) family: String,
+    /// Number of reference cases.
+    pub(crate) cases: usize,
+    /// Whether it takes any ψ(λ1, λ2, λ3).
+    pub(crate) is_general: bool,
+    /// Whether no other method for any ψ(λ) is both faster and more accurate in the worst case.
+    pub(crate) is_on_front: bool,
+}
+
+/// A way to step a body through a scene.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct StepRow {
+    pub(crate) scene: &'static str,
+    /// What is varied: `h`, `newton`, `filter`, `solver`, `precision`, or nothing: `reference`.
+    pub(crate) axis: &'static str,
+    pub(crate) setting: String,
+    /// Time step, s.
+    pub(crate) h: f64,
+    /// Wall time of all steps, s.
+    #[serde(serialize_with = "finite")]
+    pub(crate) seconds: f64,
+    pub(crate) steps: usize,
+    pub(crate) newton_iterations: usize,
+    pub(crate) linear_iterations: usize,
+    /// Largest distance of a node from the reference trajectory at the instants compared, body heights.
+    #[serde(serialize_with = "finite")]
+    pub(crate) error: f64,
+    /// The same distance from the motion with the same time step whose steps are solved as far as rounding allows.
+    #[serde(serialize_with = "finite")]
+    pub(crate) algebraic_error: f64,
+    /// Of a free body, from begin to end: the change of the total energy relative to it,
+    #[serde(serialize_with = "finite")]
+    pub(crate) energy_drift: f64,
+    /// of the momentum relative to Σ m |v|,
+    #[serde(serialize_with = "finite")]
+    pub(crate) linear_momentum_drift: f64,
+    /// and of the angular momentum relative to it.
+    #[serde(serialize_with = "finite")]
+    pub(crate) angular_momentum_drift: f64,
+    /// Why it did not come to the end.
+    pub(crate) failure: Option<String>,
+}
+
+/// A step of a box.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct GrowthRow {
+    pub(crate) solver: &'static str,
+    pub(crate) threads: usize,
+    pub(crate) elements: usize,
+    pub(crate) unknowns: usize,
+    /// `null` where it was stopped.
+    #[serde(serialize_with = "finite")]
+    pub(crate) seconds_per_step: f64,
+    #[serde(serialize_with = "finite")]
+    pub(crate) peak_bytes: f64,
+    pub(crate) newton_iterations: f64,
+    pub(crate) linear_iterations: f64,
+    /// Why it was stopped.
+    pub(crate) stopped: Option<String>,
+}
+
+fn finite<S: serde::Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    number.is_finite().then_some(*number).serialize(serializer)
+}

@@ -1,0 +1,158 @@
+//! Time and memory of a time step against the number of elements, for each linear solver.
+//!
+//! A cube of rubber, one face held, falls under its own weight: boxes of all sizes solve the same problem. Each step makes one
+//! iteration of Newton's method to a relative residual of 10⁻⁶. A solver is stopped where the next box would, by what the ones
+//! before it took, take it beyond 2 GiB or 60 s.
+
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+use peak_alloc::PeakAlloc;
+use piola::material::Moduli;
+use piola::mesh::Bounds;
+use piola::mesh::boxes::tetrahedral_box;
+use piola::step::{self, LinearSolver, NewtonSettings, Simulation};
+use piola::system::{Body, Pins};
+use piola_materials::StableNeoHookean;
+use rayon::ThreadPool;
+
+use crate::data::GrowthRow;
+
+/// Cells along an edge; a cell has six elements.
+const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 55];
+
+/// Steps of which the first, which finds cold caches, is not counted.
+const STEPS: usize = 3;
+
+const MOST_BYTES: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
+const MOST_SECONDS: f64 = 60.0;
+
+/// Of a solver and a number of threads, from small to large.
+pub(crate) struct Series {
+    solver: &'static str,
+    linear: LinearSolver,
+    threads: usize,
+    cells: &'static [usize],
+}
+
+/// What is to be measured.
+pub(crate) fn plan(is_quick: bool) -> Vec<Series> {
+    const ITERATIVE: LinearSolver =
+        LinearSolver::ConjugateGradients { tolerance: 1e-6, max_iterations: 10_000 };
+    const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-6 };
+    let cells = if is_quick { &CELLS[..4] } else { &CELLS };
+    let solvers = [
+        ("Cholesky f64", LinearSolver::Cholesky),
+        ("Cholesky f32, refined", REFINED),
+        ("conjugate gradients", ITERATIVE),
+    ];
+    let with = |threads| solvers.map(|(solver, linear)| Series { solver, linear, threads, cells });
+    with(1).into_iter().chain(with(2)).collect()
+}
+
+/// A row for each box, and one that says why where a series ends early.
+///
+/// # Errors
+/// Where a box cannot be made or stepped.
+pub(crate) fn rows(
+    plan: &[Series],
+    memory: &PeakAlloc,
+    progress: &ProgressBar,
+) -> Result<Vec<GrowthRow>, String> {
+    let mut rows = Vec::new();
+    for series in plan {
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(series.threads).build();
+        let threads = threads.map_err(|error| error.to_string())?;
+        let failed = |error: Box<dyn std::error::Error>| format!("{}: {error}", series.solver);
+        // Each thread gets its buffers, such as 64 MiB for dense products, with the first box, which does not count.
+        series.measure(series.cells[0], memory, &threads).map_err(failed)?;
+        let mut before: Vec<GrowthRow> = Vec::new();
+        for &cells in series.cells {
+            progress.set_message(format!("{} {}", series.solver, 6 * cells.pow(3)));
+            if let Some(reason) = too_large(&before, cells) {
+                before.push(GrowthRow { stopped: Some(reason), ..series.row(cells) });
+                break;
+            }
+            before.push(series.measure(cells, memory, &threads).map_err(failed)?);
+        }
+        rows.extend(before);
+        progress.inc(1);
+    }
+    Ok(rows)
+}
+
+/// What the last two boxes say of the next, by a power of the number of elements.
+fn too_large(before: &[GrowthRow], cells: usize) -> Option<String> {
+    let elements = 6 * cells.pow(3);
+    let before: Vec<&GrowthRow> = before.iter().collect();
+    let last = before.last()?;
+    let next = |value: fn(&GrowthRow) -> f64| {
+        let slope = slope(&before, value)?;
+        Some(value(last) * (elements as f64 / last.elements as f64).powf(slope))
+    };
+    let (bytes, seconds) = (next(|row| row.peak_bytes)?, next(|row| row.seconds_per_step)?);
+    if bytes > MOST_BYTES {
+        return Some(format!("{elements} elements would take about {:.1} GiB", bytes / MOST_BYTES * 2.0));
+    }
+    (seconds > MOST_SECONDS).then(|| format!("{elements} elements would take about {seconds:.0} s a step"))
+}
+
+/// The exponent of growth between the two largest boxes.
+pub(crate) fn slope(rows: &[&GrowthRow], value: impl Fn(&GrowthRow) -> f64) -> Option<f64> {
+    let [.., first, second] = rows else { return None };
+    let ratio = second.elements as f64 / first.elements as f64;
+    Some((value(second) / value(first)).ln() / ratio.ln())
+}
+
+impl Series {
+    fn row(&self, cells: usize) -> GrowthRow {
+        GrowthRow {
+            solver: self.solver,
+            threads: self.threads,
+            elements: 6 * cells.pow(3),
+            unknowns: 0,
+            seconds_per_step: f64::NAN,
+            peak_bytes: f64::NAN,
+            newton_iterations: f64::NAN,
+            linear_iterations: f64::NAN,
+            stopped: None,
+        }
+    }
+
+    fn measure(
+        &self,
+        cells: usize,
+        memory: &PeakAlloc,
+        threads: &ThreadPool,
+    ) -> Result<GrowthRow, Box<dyn std::error::Error>> {
+        memory.reset_peak_usage();
+        let before = memory.current_usage();
+        let mut simulation = self.simulation(cells)?;
+        let mut row = self.row(cells);
+        row.unknowns = 3 * (simulation.positions().len() - simulation.pinned().len());
+        (row.seconds_per_step, row.newton_iterations, row.linear_iterations) = (0.0, 0.0, 0.0);
+        for step in 0..STEPS {
+            let clock = Instant::now();
+            let report = threads.install(|| simulation.step(1.0 / 30.0))?;
+            if step > 0 {
+                let share = 1.0 / (STEPS - 1) as f64;
+                row.seconds_per_step += share * clock.elapsed().as_secs_f64();
+                row.newton_iterations += share * report.newton.iterations as f64;
+                row.linear_iterations += share * report.newton.linear_iterations as f64;
+            }
+        }
+        row.peak_bytes = memory.peak_usage().saturating_sub(before) as f64;
+        Ok(row)
+    }
+
+    fn simulation(&self, cells: usize) -> Result<Simulation, Box<dyn std::error::Error>> {
+        let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
+        let moduli = Moduli::from_young_poisson(1e6, 0.45);
+        let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
+        let (min, max) = ([-1.0; 3], [1e-9, 2.0, 2.0]);
+        let pins = Pins::in_box(&mesh, Bounds { min, max })?;
+        let newton = NewtonSettings { linear: self.linear, ..NewtonSettings::single() };
+        let settings = step::Settings { gravity: [0.0, -9.81, 0.0], newton, ..step::Settings::default() };
+        Ok(Simulation::new(body, &pins, settings)?)
+    }
+}

@@ -1,0 +1,290 @@
+//! The page that tells what was found.
+
+use std::fmt::{self, Write};
+
+use piola_tests::speed::{RESOLUTION, beats};
+
+use crate::charts::{Chart, best_settings, materials};
+use crate::data::{GrowthRow, PointRow, Report, StepRow};
+use crate::growth::slope;
+use crate::point::{HARD, ORDINARY, OURS, Work};
+/// The page, with the charts by their files' names.
+pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut text, report, charts);
+    text
+}
+
+fn write(text: &mut String, report: &Report, charts: &[Chart]) -> fmt::Result {
+    let commit = report.commit.as_deref().unwrap_or("unknown");
+    writeln!(text, "# Speed against error\n")?;
+    writeln!(
+        text,
+        "Made by `cargo speed-report` on {}, {}, one core unless said otherwise, at commit {commit}.\n",
+        report.machine, report.back_end
+    )?;
+    if !report.rows.is_empty() {
+        writeln!(text, "{POINT}")?;
+        pictures(text, charts, &["point-", "families-", "sweeps"])?;
+        for material in materials(&report.rows) {
+            for precision in ["f64", "f32"] {
+                methods(text, &report.rows, material, precision)?;
+            }
+        }
+        fronts(text, &report.rows)?;
+        paper(text, &report.rows)?;
+    }
+    if !report.steps.is_empty() {
+        writeln!(text, "{STEPS}")?;
+        pictures(text, charts, &["steps-"])?;
+        steps(text, &report.steps)?;
+    }
+    if !report.growth.is_empty() {
+        writeln!(text, "{GROWTH}")?;
+        pictures(text, charts, &["growth"])?;
+        growth(text, &report.growth)?;
+    }
+    Ok(())
+}
+
+const POINT: &str = "\
+## A point: P and dP/dF
+
+All methods get the same F in the same run, in turns; the time is the least of the repeats, for a tile of 64 points. The error is
+the worst ‖X − X*‖/(‖X*‖ + sens) of P and dP/dF beside reference values of 25 digits, sens being what a relative change of F by one
+changes in X; ∞ where an entry is infinite or NaN, or the exact answer zero and the method's not. *Ordinary*: F = I + 0.3 X with entries of X uniform in [−1, 1), 32 of them. *Hard*: the families of `tests/reference/cases.json`.
+Methods with a setting run with many; charts and tables show the one of least error, `report.json` has all. Lanes: `piola`, plain
+quotients, the switch, [ITF04], Jacobi and the invariants without SVD compute 8 or 16 points side by side; the others a point at a time,
+compiled for the same instructions where their libraries let them.
+";
+
+const STEPS: &str = "\
+## A trajectory
+
+Wall time of the solver for a second of motion, one thread, against the largest distance of a node from the reference with 1/64 of the
+scene's time step, in body heights; the row `reference` is the distance of that reference from one with 1/128. The
+algebraic error is the distance from the same time steps solved as far as rounding allows: what filter, solver and stop add to the error of implicit
+Euler. Drifts are those of the free flight.
+";
+
+const GROWTH: &str = "\
+## Growth
+
+A cube of rubber under its own weight, one iteration of Newton's method a step to a relative 10⁻⁶, from a thousand elements on. Memory is all that is allocated,
+the mesh included.
+";
+
+fn pictures(text: &mut String, charts: &[Chart], prefixes: &[&str]) -> fmt::Result {
+    for chart in charts.iter().filter(|chart| prefixes.iter().any(|prefix| chart.file.starts_with(prefix))) {
+        writeln!(text, "![{}]({})\n", chart.caption, chart.file)?;
+    }
+    Ok(())
+}
+
+/// A row for each method: the setting that is best at hard cases.
+fn methods(text: &mut String, rows: &[PointRow], material: &str, precision: &str) -> fmt::Result {
+    writeln!(text, "### {material}, {precision}\n")?;
+    writeln!(
+        text,
+        "| method | setting | ns | worst, ordinary | worst, hard | median, hard | ns with projection | worst, hard |"
+    )?;
+    writeln!(text, "|---|---|--:|--:|--:|--:|--:|--:|")?;
+    let of = |work: Work, family: &str| {
+        let (work, family) = (work.name(), family.to_owned());
+        rows.iter().filter(move |row| {
+            (row.material, row.precision, row.work) == (material, precision, work) && row.family == family
+        })
+    };
+    let same = |a: &PointRow, b: &PointRow| (a.method, &a.setting) == (b.method, &b.setting);
+    let hard: Vec<&PointRow> = of(Work::Tangent, HARD).collect();
+    for best in best_settings(&hard) {
+        let ordinary = of(Work::Tangent, ORDINARY).find(|row| same(row, best));
+        let projected = of(Work::Projected, ORDINARY).find(|row| same(row, best));
+        let projected_hard = of(Work::Projected, HARD).find(|row| same(row, best));
+        let ns =
+            |row: Option<&PointRow>| row.map_or_else(String::new, |row| format!("{:.1}", row.ns_per_element));
+        let worst = |row: Option<&PointRow>| row.map_or_else(String::new, |row| error(row.worst_error));
+        writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            best.method,
+            best.setting,
+            ns(ordinary),
+            worst(ordinary),
+            error(best.worst_error),
+            error(best.median_error),
+            ns(projected),
+            worst(projected_hard)
+        )?;
+    }
+    writeln!(text)
+}
+
+/// Where no other method for any energy is both faster and more accurate, and where one is.
+fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
+    writeln!(text, "### Who is on the front\n")?;
+    let ours: Vec<&PointRow> = rows.iter().filter(|row| row.method == OURS && row.family != HARD).collect();
+    let on_front = ours.iter().filter(|row| row.is_on_front).count();
+    writeln!(
+        text,
+        "Of {} contests (an energy, a precision, with or without projection, at ordinary F or at a hard family) piola is on the front of the \
+         methods for any ψ(λ) in {on_front}, each of these with whatever setting is best for that family, and times within {:.0} % counting as equal. In \
+         the others a method is faster and its error no larger, or its error smaller in the same time:\n",
+        ours.len(),
+        100.0 * RESOLUTION
+    )?;
+    writeln!(text, "| work | energy | precision | family | piola | error | faster | ns | error |")?;
+    writeln!(text, "|---|---|---|---|--:|--:|---|--:|--:|")?;
+    let together = rows.iter().filter(|row| row.method == OURS && row.family == HARD);
+    let (on, all) = together.fold((0, 0), |(on, all), row| (on + usize::from(row.is_on_front), all + 1));
+    let lost: Vec<&&PointRow> = ours.iter().filter(|row| !row.is_on_front).collect();
+    for row in lost {
+        let beats = |other: &&PointRow| {
+            let same =
+                (other.work, other.material, other.precision) == (row.work, row.material, row.precision);
+            let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
+            same && other.family == row.family && other.is_general && beats(pair(other), pair(row))
+        };
+        let rivals = rows.iter().filter(beats);
+        let Some(rival) = rivals.min_by(|a, b| a.ns_per_element.total_cmp(&b.ns_per_element)) else {
+            continue;
+        };
+        let setting = if rival.setting.is_empty() { String::new() } else { format!(" {}", rival.setting) };
+        writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.1} | {} | {}{setting} | {:.1} | {} |",
+            row.work,
+            row.material,
+            row.precision,
+            row.family.replace('_', " "),
+            row.ns_per_element,
+            error(row.worst_error),
+            rival.method,
+            rival.ns_per_element,
+            error(rival.worst_error)
+        )?;
+    }
+    writeln!(
+        text,
+        "\nWith one setting for all hard families together, piola is on the front in {on} of {all}.\n"
+    )
+}
+
+/// The comparison of [SZLSB11], rebuilt.
+fn paper(text: &mut String, rows: &[PointRow]) -> fmt::Result {
+    let time = |method: &str| {
+        let of_method = rows.iter().filter(|row| {
+            (row.material, row.precision, row.work) == ("Saint Venant–Kirchhoff", "f64", "tangent")
+                && row.family == ORDINARY
+                && row.method == method
+        });
+        of_method.map(|row| row.ns_per_element).reduce(f64::min)
+    };
+    let (Some(stretches), Some(invariants), Some(ours)) = (time("[SZLSB11]"), time("[TSIF05]"), time(OURS))
+    else {
+        return Ok(());
+    };
+    writeln!(
+        text,
+        "### The paper's comparison\n\nSaint Venant–Kirchhoff, f64, ordinary F, the same decomposition: by stretches and gradients of the \
+         decomposition [SZLSB11] {stretches:.0} ns a point, by invariants [TSIF05] {invariants:.0} ns, a ratio of {:.2} (the paper: 2.64 ms \
+         and 3.33 ms for a mesh, 1.26). piola: {ours:.1} ns.\n",
+        invariants / stretches
+    )
+}
+
+fn steps(text: &mut String, rows: &[StepRow]) -> fmt::Result {
+    writeln!(
+        text,
+        "| body | axis | setting | h | ms per second | Newton iterations a step | linear iterations a step | error | algebraic error | energy | momentum | angular momentum |"
+    )?;
+    writeln!(text, "|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|")?;
+    for row in rows {
+        if let Some(failure) = &row.failure {
+            writeln!(
+                text,
+                "| {} | {} | {} | 1/{:.0} | failed: {failure} | | | | | | | |",
+                row.scene,
+                row.axis,
+                row.setting,
+                1.0 / row.h
+            )?;
+            continue;
+        }
+        let per_step = |count: usize| count as f64 / row.steps.max(1) as f64;
+        let milliseconds = 1e3 * row.seconds / (row.steps as f64 * row.h);
+        let milliseconds =
+            if milliseconds.is_finite() { format!("{milliseconds:.0}") } else { String::new() };
+        writeln!(
+            text,
+            "| {} | {} | {} | 1/{:.0} | {milliseconds} | {:.2} | {:.1} | {} | {} | {} | {} | {} |",
+            row.scene,
+            row.axis,
+            row.setting,
+            1.0 / row.h,
+            per_step(row.newton_iterations),
+            per_step(row.linear_iterations),
+            error(row.error),
+            number(row.algebraic_error),
+            number(row.energy_drift),
+            number(row.linear_momentum_drift),
+            number(row.angular_momentum_drift)
+        )?;
+    }
+    writeln!(text)
+}
+
+fn growth(text: &mut String, rows: &[GrowthRow]) -> fmt::Result {
+    writeln!(text, "| solver | threads | elements | unknowns | s per step | linear iterations | MiB |")?;
+    writeln!(text, "|---|--:|--:|--:|--:|--:|--:|")?;
+    for row in rows {
+        match &row.stopped {
+            Some(reason) => {
+                writeln!(
+                    text,
+                    "| {} | {} | {} | | stopped: {reason} | | |",
+                    row.solver, row.threads, row.elements
+                )?;
+            }
+            None => writeln!(
+                text,
+                "| {} | {} | {} | {} | {:.4} | {:.0} | {:.1} |",
+                row.solver,
+                row.threads,
+                row.elements,
+                row.unknowns,
+                row.seconds_per_step,
+                row.linear_iterations,
+                row.peak_bytes / f64::from(1 << 20)
+            )?,
+        }
+    }
+    writeln!(text)?;
+    for threads in [1, 2] {
+        let of = |solver: &str| -> Vec<&GrowthRow> {
+            let of_solver = rows.iter().filter(|row| (row.solver, row.threads) == (solver, threads));
+            of_solver.filter(|row| row.stopped.is_none()).collect()
+        };
+        let (direct, iterative) = (of("Cholesky f64"), of("conjugate gradients"));
+        let loses = direct.iter().zip(&iterative).find(|(a, b)| a.seconds_per_step > b.seconds_per_step);
+        if let (Some((row, _)), Some(slope)) = (loses, slope(&iterative, |row| row.seconds_per_step)) {
+            let plural = if threads == 1 { "" } else { "s" };
+            writeln!(
+                text,
+                "{threads} thread{plural}: Cholesky loses to conjugate gradients from {} elements on; time grows like n^{slope:.2} with the latter.\n",
+                row.elements
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn error(error: f64) -> String {
+    if error.is_finite() { format!("{error:.1e}") } else { "∞".to_owned() }
+}
+
+/// Nothing where there is none.
+fn number(number: f64) -> String {
+    if number.is_finite() { format!("{number:.1e}") } else { String::new() }
+}

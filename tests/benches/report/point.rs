@@ -1,0 +1,250 @@
+//! Nanoseconds and errors of P and dP/dF, method by method, at the reference cases.
+//!
+//! Each family of cases is a contest of its own: all methods get its deformation gradients in one run, in turns, and what
+//! they leave behind is judged.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::hint::black_box;
+
+use indicatif::ProgressBar;
+use piola_tests::cases::{Case, Quantity};
+use piola_tests::speed::{Effort, Times, front, time_all_in_turns};
+
+use crate::data::PointRow;
+
+mod contestant;
+mod methods;
+mod subject;
+
+use contestant::{Contestant, Number, Output, POINTS, Points};
+pub(crate) use methods::{OURS, OURS_AS_A_SCALAR, SWEPT};
+use subject::Subject;
+
+/// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
+pub(crate) const ORDINARY: &str = "ordinary";
+
+/// All families but [`ORDINARY`] in one row: the worst error, the median of errors, the mean of times.
+pub(crate) const HARD: &str = "every hard family";
+
+/// What is computed beside P.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Work {
+    Tangent,
+    Projected,
+}
+
+impl Work {
+    pub(crate) const ALL: [Self; 2] = [Self::Tangent, Self::Projected];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Tangent => "tangent",
+            Self::Projected => "projected",
+        }
+    }
+
+    fn quantity(self) -> Quantity {
+        match self {
+            Self::Tangent => Quantity::Tangent,
+            Self::Projected => Quantity::Projected,
+        }
+    }
+}
+
+/// All rows of these cases.
+///
+/// # Errors
+/// Where a case does not fit its material.
+pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
+    let mut rows = Vec::new();
+    subject::for_each!(Subject => {
+        progress.set_message(Subject::NAME);
+        contests::<Subject, f64>(cases, effort, progress, &mut rows)?;
+        contests::<Subject, f32>(cases, effort, progress, &mut rows)?;
+    });
+    Ok(rows)
+}
+
+/// How many contests there are: the steps of the progress bar.
+pub(crate) fn count(cases: &[Case]) -> u64 {
+    let mut count = 0;
+    subject::for_each!(Subject => {
+        count += Work::ALL.len() * (families::<Subject, f64>(cases).len() + families::<Subject, f32>(cases).len());
+    });
+    count as u64
+}
+
+/// The cases of a subject that a format can hold, by family.
+fn families<S: Subject, E: Number>(cases: &[Case]) -> BTreeMap<&str, Vec<&Case>> {
+    let mut families: BTreeMap<&str, Vec<&Case>> = BTreeMap::new();
+    for case in cases.iter().filter(|case| case.material == S::IN_CATALOGUE) {
+        let fits = |quantity| case.reference(quantity).into_iter().all(|x| E::fits(x));
+        let is_exact = E::IS_DOUBLE || case.f32_exact;
+        if is_exact && [Quantity::Stress, Quantity::Tangent, Quantity::Projected].into_iter().all(fits) {
+            families.entry(&case.tag).or_default().push(case);
+        }
+    }
+    families
+}
+
+fn contests<S: Subject, E: Number>(
+    cases: &[Case],
+    effort: Effort,
+    progress: &ProgressBar,
+    rows: &mut Vec<PointRow>,
+) -> Result<(), String> {
+    for work in Work::ALL {
+        let mut of_work = Vec::new();
+        for (family, cases) in families::<S, E>(cases) {
+            of_work.extend(contest::<S, E>(work, family, &cases, effort)?);
+            progress.inc(1);
+        }
+        let together = all_hard(&of_work);
+        of_work.extend(together);
+        mark_fronts(&mut of_work);
+        rows.extend(of_work);
+    }
+    Ok(())
+}
+
+/// Deformation gradients of one energy: point i is that of case i mod the number of cases.
+struct Group<'a, E: Number> {
+    cases: Vec<&'a Case>,
+    points: Points<E>,
+    contestants: Vec<Contestant<E>>,
+}
+
+/// The rows of one family.
+fn contest<S: Subject, E: Number>(
+    work: Work,
+    family: &str,
+    cases: &[&Case],
+    effort: Effort,
+) -> Result<Vec<PointRow>, String> {
+    let mut groups: Vec<Group<'_, E>> = Vec::new();
+    // Ordinary cases share one energy and go side by side; each hard case has parameters of its own.
+    let size = if family == ORDINARY { cases.len() } else { 1 };
+    for cases in cases.chunks(size) {
+        let subject = S::of_case(cases[0])?;
+        groups.push(Group {
+            cases: cases.to_vec(),
+            points: Points::new(|point| cases[point % cases.len()].deformation),
+            contestants: methods::all(&subject, work),
+        });
+    }
+    let labels: Vec<_> = groups[0].contestants.iter().map(|contestant| contestant.label.clone()).collect();
+    let mut output = Output::new();
+    let mut errors = vec![Vec::new(); labels.len()];
+    for group in &mut groups {
+        for (contestant, errors) in group.contestants.iter_mut().zip(&mut errors) {
+            output.clear();
+            (contestant.run)(&group.points, &mut output);
+            errors.extend(group.cases.iter().enumerate().map(|(point, case)| {
+                let (stress, tangent) = output.of_point(point, contestant.layout);
+                judge::<E>(case, Quantity::Stress, &stress).max(judge::<E>(case, work.quantity(), &tangent))
+            }));
+        }
+    }
+    let times = in_turns(&mut groups, effort);
+    let rows = labels.into_iter().zip(errors).zip(times).map(|((label, mut errors), times)| {
+        errors.sort_by(f64::total_cmp);
+        PointRow {
+            section: "point",
+            work: work.name(),
+            material: S::NAME,
+            precision: E::NAME,
+            method: label.method,
+            setting: label.setting,
+            ns_per_element: times.least,
+            median_ns_per_element: times.median,
+            worst_error: errors[errors.len() - 1],
+            median_error: errors[errors.len() / 2],
+            family: family.to_owned(),
+            cases: errors.len(),
+            is_general: label.is_general,
+            is_on_front: false,
+        }
+    });
+    Ok(rows.collect())
+}
+
+/// ‖X − X*‖/(‖X*‖ + sens).
+fn judge<E: Number>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
+    case.error(quantity, values, 0.0, E::ROUNDOFF) * E::ROUNDOFF
+}
+
+/// The times of the contestants, each over all groups.
+fn in_turns<E: Number>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
+    let count = groups[0].contestants.len();
+    let points = POINTS * groups.len();
+    let mut by_method: Vec<Vec<(&Points<E>, &mut Contestant<E>)>> = (0..count).map(|_| Vec::new()).collect();
+    for Group { points, contestants, .. } in groups {
+        for (of_method, contestant) in by_method.iter_mut().zip(contestants) {
+            of_method.push((points, contestant));
+        }
+    }
+    let mut calls: Vec<_> = by_method
+        .into_iter()
+        .map(|mut of_method| {
+            let mut output = Output::new();
+            move || {
+                for (points, contestant) in &mut of_method {
+                    (contestant.run)(points, &mut output);
+                    black_box(&output);
+                }
+            }
+        })
+        .collect();
+    let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
+    time_all_in_turns(effort, points, &mut calls)
+}
+
+/// A row for each method that was in every hard family.
+fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
+    let mut together: Vec<PointRow> = Vec::new();
+    let mut counts: Vec<(usize, Vec<f64>)> = Vec::new();
+    for row in rows.iter().filter(|row| row.family != ORDINARY) {
+        let same = |other: &PointRow| (other.method, &other.setting) == (row.method, &row.setting);
+        let index = together.iter().position(same).unwrap_or_else(|| {
+            let zero = PointRow {
+                ns_per_element: 0.0,
+                median_ns_per_element: 0.0,
+                worst_error: 0.0,
+                cases: 0,
+                ..row.clone()
+            };
+            together.push(PointRow { family: HARD.to_owned(), ..zero });
+            counts.push((0, Vec::new()));
+            together.len() - 1
+        });
+        let (sum, (families, medians)) = (&mut together[index], &mut counts[index]);
+        *families += 1;
+        medians.push(row.median_error);
+        sum.ns_per_element += row.ns_per_element;
+        sum.median_ns_per_element += row.median_ns_per_element;
+        sum.worst_error = sum.worst_error.max(row.worst_error);
+        sum.cases += row.cases;
+    }
+    for (row, (families, mut medians)) in together.iter_mut().zip(counts) {
+        row.ns_per_element /= families as f64;
+        row.median_ns_per_element /= families as f64;
+        medians.sort_by(f64::total_cmp);
+        row.median_error = medians[medians.len() / 2];
+    }
+    together
+}
+
+/// Marks the rows of each family that no method for any ψ(λ) beats in both time and worst error.
+fn mark_fronts(rows: &mut [PointRow]) {
+    let families: BTreeSet<String> = rows.iter().map(|row| row.family.clone()).collect();
+    for family in families {
+        let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
+        let general = |row: &&PointRow| row.family == family && row.is_general;
+        let rivals: Vec<(f64, f64)> = rows.iter().filter(general).map(pair).collect();
+        for row in rows.iter_mut().filter(|row| row.family == family) {
+            // One more than the rivals: itself a second time, or a method for particular energies.
+            let all: Vec<(f64, f64)> = rivals.iter().copied().chain([pair(row)]).collect();
+            row.is_on_front = front(&all)[rivals.len()];
+        }
+    }
+}

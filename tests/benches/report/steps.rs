@@ -1,0 +1,242 @@
+//! Wall time of a trajectory against its error, over time steps, Newton's method, filters, linear solvers and precisions.
+//!
+//! The dinosaur is played as its scene says. So is the horse, but from a start at two thirds of its height: from the ground,
+//! where most elements are flat, each time step leads elsewhere, which is measured too. A further body flies free: the
+//! dinosaur without pins, pulls and damping, turning and stretching, whose momenta no force changes. The reference is the same motion with 1/64 of the scene's time step
+//! and Newton's method to a relative 10⁻¹⁰; that of 1/128 says how far the reference itself may be off.
+
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+use piola::point::Filter;
+use piola::step::{self, LinearSolver, NewtonSettings};
+
+use crate::data::StepRow;
+
+mod embedded;
+mod motion;
+
+use motion::{Motion, Track};
+
+/// How much finer than the scene the reference is.
+const FINE: usize = 64;
+
+/// A body and how long it is followed.
+pub(crate) struct Course {
+    body: Body,
+    /// In time steps of the scene.
+    frames: usize,
+    /// Whether as many settings as there are, or some.
+    is_quick: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Body {
+    /// As in the scene.
+    FlatHorse,
+    Horse,
+    Dinosaur,
+    Free,
+}
+
+impl Body {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::FlatHorse => "flattened horse",
+            Self::Horse => "horse",
+            Self::Dinosaur => "dinosaur",
+            Self::Free => "dinosaur in free flight",
+        }
+    }
+}
+
+/// One way to go the course.
+struct Way {
+    axis: &'static str,
+    setting: String,
+    /// By what the scene's time step is divided; less than one makes it longer.
+    division: f64,
+    newton: NewtonSettings,
+}
+
+/// What is to be measured.
+pub(crate) fn plan(is_quick: bool) -> Vec<Course> {
+    let course = |body, [quick, whole]: [usize; 2]| Course {
+        body,
+        frames: if is_quick { quick } else { whole },
+        is_quick,
+    };
+    vec![course(Body::Horse, [8, 60]), course(Body::Dinosaur, [8, 90]), course(Body::Free, [8, 30])]
+}
+
+/// Steps of the progress bar.
+pub(crate) fn count(plan: &[Course]) -> u64 {
+    plan.iter().map(|course| course.ways().len() as u64 + 3).sum()
+}
+
+/// All rows of a plan.
+///
+/// # Errors
+/// Where a reference cannot be computed: a way that fails is a row that says so.
+pub(crate) fn rows(plan: &[Course], progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
+    let mut rows = Vec::new();
+    for course in plan {
+        progress.set_message(course.body.name());
+        let reference = reference(course, FINE, progress)?;
+        let finer = reference_row(course, &reference, progress)?;
+        let exact = NewtonSettings { tolerance: 1e-12, max_iterations: 100, ..NewtonSettings::default() };
+        let (solved, _) = follow(course, 1.0, exact).map_err(|error| named(course, &error))?;
+        progress.inc(1);
+        rows.push(finer);
+        for way in course.ways() {
+            rows.push(row(course, &way, &reference, &solved));
+            progress.inc(1);
+        }
+        if course.body == Body::Free {
+            rows.extend(embedded::rows(course.frames, &reference, &solved)?);
+        }
+    }
+    Ok(rows)
+}
+
+fn named(course: &Course, error: &str) -> String {
+    format!("{}: {error}", course.body.name())
+}
+
+impl Course {
+    /// Those that tell something about it.
+    fn ways(&self) -> Vec<Way> {
+        let mut ways = ways();
+        if self.body == Body::FlatHorse {
+            ways.retain(|way| way.axis == "h" && way.division <= 8.0);
+        }
+        if self.is_quick {
+            ways.retain(|way| way.division <= 4.0);
+        }
+        ways
+    }
+}
+
+/// Full Newton unless the axis is another.
+fn ways() -> Vec<Way> {
+    let full = NewtonSettings::default();
+    let way =
+        |axis, setting: &str, division, newton| Way { axis, setting: setting.to_owned(), division, newton };
+    let mut ways = Vec::new();
+    for division in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0] {
+        ways.push(way("h", "full Newton", division, full));
+        ways.push(way("h", "one iteration", division, NewtonSettings::single()));
+    }
+    for iterations in [2, 4] {
+        let newton = NewtonSettings { max_iterations: iterations, tolerance: 0.0, ..full };
+        ways.push(way("newton", &format!("{iterations} iterations"), 1.0, newton));
+    }
+    for tolerance in [1e-1, 1e-2, 1e-4, 1e-8] {
+        ways.push(way(
+            "newton",
+            &format!("tolerance {tolerance:e}"),
+            1.0,
+            NewtonSettings { tolerance, ..full },
+        ));
+    }
+    for (name, filter) in
+        [("no filter", Filter::None), ("clamp", Filter::Clamp), ("absolute", Filter::Absolute)]
+    {
+        ways.push(way("filter", name, 1.0, NewtonSettings { filter, ..full }));
+    }
+    ways.push(way("solver", "Cholesky f64", 1.0, full));
+    let refined = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
+    ways.push(way("solver", "Cholesky f32, refined", 1.0, NewtonSettings { linear: refined, ..full }));
+    for tolerance in [1e-1, 1e-2, 1e-4, 1e-8] {
+        let linear = LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 };
+        let setting = format!("conjugate gradients {tolerance:e}");
+        ways.push(way("solver", &setting, 1.0, NewtonSettings { linear, ..full }));
+    }
+    ways
+}
+
+fn follow(course: &Course, division: f64, newton: NewtonSettings) -> Result<(Track, f64), String> {
+    let mut motion = Motion::new(course.body, division, newton)?;
+    let steps = (course.frames as f64 * division).round() as usize;
+    let clock = Instant::now();
+    motion.follow(steps)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    Ok((motion.into_track(), seconds))
+}
+
+fn reference(course: &Course, fine: usize, progress: &ProgressBar) -> Result<Track, String> {
+    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let (track, _) = follow(course, fine as f64, newton).map_err(|error| named(course, &error))?;
+    progress.inc(1);
+    Ok(track)
+}
+
+/// The reference itself, judged by one of half its time step.
+fn reference_row(course: &Course, reference: &Track, progress: &ProgressBar) -> Result<StepRow, String> {
+    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let way =
+        Way { axis: "reference", setting: "h/64 beside h/128".to_owned(), division: FINE as f64, newton };
+    let (finer, _) = follow(course, 2.0 * FINE as f64, newton).map_err(|error| named(course, &error))?;
+    progress.inc(1);
+    Ok(judged(course, &way, Ok((reference.clone(), f64::NAN)), &finer, reference))
+}
+
+fn row(course: &Course, way: &Way, reference: &Track, solved: &Track) -> StepRow {
+    judged(course, way, follow(course, way.division, way.newton), reference, solved)
+}
+
+fn judged(
+    course: &Course,
+    way: &Way,
+    result: Result<(Track, f64), String>,
+    reference: &Track,
+    solved: &Track,
+) -> StepRow {
+    let mut row = empty_row(course.body, way);
+    match result {
+        Ok((track, seconds)) => row.fill(&track, seconds, reference, (way.division == 1.0).then_some(solved)),
+        Err(error) => row.failure = Some(error),
+    }
+    row
+}
+
+/// Of a way that nobody has gone yet.
+fn empty_row(body: Body, way: &Way) -> StepRow {
+    StepRow {
+        scene: body.name(),
+        axis: way.axis,
+        setting: way.setting.clone(),
+        h: motion::TIME_STEP / way.division,
+        seconds: f64::NAN,
+        steps: 0,
+        newton_iterations: 0,
+        linear_iterations: 0,
+        error: f64::NAN,
+        algebraic_error: f64::NAN,
+        energy_drift: f64::NAN,
+        linear_momentum_drift: f64::NAN,
+        angular_momentum_drift: f64::NAN,
+        failure: None,
+    }
+}
+
+impl StepRow {
+    /// `solved` is the same motion with the same time step, each step solved as far as rounding allows.
+    fn fill(&mut self, track: &Track, seconds: f64, reference: &Track, solved: Option<&Track>) {
+        let drift = track.drift();
+        self.seconds = seconds;
+        self.steps = track.steps;
+        self.newton_iterations = track.newton_iterations;
+        self.linear_iterations = track.linear_iterations;
+        self.error = track.distance(reference);
+        self.algebraic_error = solved.map_or(f64::NAN, |solved| track.distance(solved));
+        self.energy_drift = drift.energy;
+        self.linear_momentum_drift = drift.linear_momentum;
+        self.angular_momentum_drift = drift.angular_momentum;
+    }
+}
+
+/// What the scenes ask for, with another Newton.
+fn step_settings(damping: f64, newton: NewtonSettings) -> step::Settings {
+    step::Settings { damping, newton, ..step::Settings::default() }
+}

@@ -1,0 +1,230 @@
+//! A body that is followed.
+
+use piola::material::{Inadmissible, Moduli};
+use piola::mesh::TetMesh;
+use piola::step::{NewtonSettings, Simulation};
+use piola::system::{self, Pins};
+use piola_materials::StableNeoHookean;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::play::Play;
+use piola_scenes::scene::{DINOSAUR, HORSE, Scene};
+use piola_scenes::settings::Settings;
+
+use super::{Body, step_settings};
+
+/// Of all scenes, s.
+pub(super) const TIME_STEP: f64 = 1.0 / 30.0;
+
+/// In motion.
+pub(super) struct Motion {
+    stage: Stage,
+    division: f64,
+    dt: f64,
+    track: Track,
+}
+
+enum Stage {
+    Scene(Play),
+    Free(Flight),
+}
+
+/// A body that nothing holds.
+struct Flight {
+    simulation: Simulation,
+    /// Of the body at rest, J: the energy of its material is not zero there.
+    rest_energy: f64,
+}
+
+/// Where it has been.
+#[derive(Clone)]
+pub(super) struct Track {
+    /// Positions at the time steps of the scene, m.
+    frames: Vec<Vec<[f64; 3]>>,
+    height: f64,
+    /// Before the first step and after each frame; none of a body that is held.
+    momenta: Vec<Momenta>,
+    pub(super) steps: usize,
+    pub(super) newton_iterations: usize,
+    pub(super) linear_iterations: usize,
+}
+
+/// Energy beyond that of rest, J, linear and angular momentum, N s and N m s.
+#[derive(Clone, Copy)]
+struct Momenta {
+    energy: f64,
+    linear: [f64; 3],
+    angular: [f64; 3],
+    /// Σ m |v|, beside which the linear momentum is judged: it may be zero itself.
+    size: f64,
+}
+
+/// What a free body has gained or lost at the end, relative to what it had; NaN of one that is held.
+pub(super) struct Drift {
+    pub(super) energy: f64,
+    pub(super) linear_momentum: f64,
+    pub(super) angular_momentum: f64,
+}
+
+impl Motion {
+    pub(super) fn new(body: Body, division: f64, newton: NewtonSettings) -> Result<Self, String> {
+        let (stage, height) = stage(body, division, newton).map_err(|error| error.to_string())?;
+        let mut motion = Self { stage, division, dt: TIME_STEP / division, track: Track::new(height) };
+        motion.note_momenta();
+        Ok(motion)
+    }
+
+    /// So many steps further.
+    pub(super) fn follow(&mut self, steps: usize) -> Result<(), String> {
+        for step in 1..=steps {
+            let report = match &mut self.stage {
+                Stage::Scene(play) => play.step().map_err(|error| error.to_string())?,
+                Stage::Free(flight) => flight.simulation.step(self.dt).map_err(|error| error.to_string())?,
+            };
+            self.track.steps += 1;
+            self.track.newton_iterations += report.newton.iterations;
+            self.track.linear_iterations += report.newton.linear_iterations;
+            // With less than one step for a frame every step is one that the reference has, too.
+            if self.division < 1.0 || step % self.division as usize == 0 {
+                let positions = match &self.stage {
+                    Stage::Scene(play) => play.simulation().positions(),
+                    Stage::Free(flight) => flight.simulation.positions(),
+                };
+                self.track.frames.push(positions.to_vec());
+                self.note_momenta();
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn into_track(self) -> Track {
+        self.track
+    }
+
+    fn note_momenta(&mut self) {
+        if let Stage::Free(flight) = &mut self.stage {
+            self.track.momenta.push(Momenta::of(flight));
+        }
+    }
+}
+
+fn stage(
+    body: Body,
+    division: f64,
+    newton: NewtonSettings,
+) -> Result<(Stage, f64), Box<dyn std::error::Error>> {
+    let scene = match body {
+        Body::FlatHorse | Body::Horse => &HORSE,
+        Body::Dinosaur | Body::Free => &DINOSAUR,
+    };
+    let settings = Settings { dt: TIME_STEP / division, ..Settings::of(scene) };
+    let geometry = Geometry::load(&settings)?;
+    let mesh = &geometry.mesh;
+    let stage = if body == Body::Free {
+        Stage::Free(free(mesh, scene, newton)?)
+    } else {
+        let mut play = Play::new(&settings, &geometry)?;
+        play.set_step_settings(step_settings(scene.damping, newton))?;
+        if body == Body::Horse {
+            let pressed = pressed(mesh, play.simulation().pinned());
+            play.simulation_mut().set_positions(&pressed)?;
+        }
+        Stage::Scene(play)
+    };
+    Ok((stage, mesh.bounds().size()[1]))
+}
+
+/// The horse's nodes above the ground at two thirds of their height: no element is flat or inverted.
+fn pressed(mesh: &TetMesh, pinned: &[usize]) -> Vec<[f64; 3]> {
+    let ground = pinned.iter().map(|&node| mesh.positions[node][1]).fold(f64::NEG_INFINITY, f64::max);
+    let press = |&[x, y, z]: &[f64; 3]| [x, if y > ground { ground + (y - ground) / 1.5 } else { y }, z];
+    mesh.positions.iter().map(press).collect()
+}
+
+fn free(mesh: &TetMesh, scene: &Scene, newton: NewtonSettings) -> Result<Flight, Box<dyn std::error::Error>> {
+    let body = system::Body::new(mesh, free_material()?, scene.density)?;
+    let mut simulation = Simulation::new(body, &Pins::none(), step_settings(0.0, newton))?;
+    let rest_energy = simulation.energies().elastic;
+    simulation.set_velocities(&turning_and_stretching(mesh))?;
+    Ok(Flight { simulation, rest_energy })
+}
+
+/// What flies free, as stiff as the bodies of the scenes.
+pub(super) fn free_material() -> Result<StableNeoHookean, Inadmissible> {
+    let moduli = Moduli::from_young_poisson(1e6, 0.45);
+    StableNeoHookean::new(moduli.mu, moduli.lambda)
+}
+
+/// v = ω × x + A x about the centre of the box, m/s: a turn in two seconds, and a stretching along x that the body's own
+/// stiffness turns back at a strain of about a third.
+pub(super) fn turning_and_stretching(mesh: &TetMesh) -> Vec<[f64; 3]> {
+    const SPIN: f64 = std::f64::consts::PI;
+    const STRETCHING: f64 = 6.0;
+    let bounds = mesh.bounds();
+    let centre: [f64; 3] = std::array::from_fn(|c| 0.5 * (bounds.min[c] + bounds.max[c]));
+    let velocity = |position: &[f64; 3]| {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|c| position[c] - centre[c]);
+        [STRETCHING * x + SPIN * z, -0.5 * STRETCHING * y, -0.5 * STRETCHING * z - SPIN * x]
+    };
+    mesh.positions.iter().map(velocity).collect()
+}
+
+impl Momenta {
+    fn of(Flight { simulation, rest_energy }: &mut Flight) -> Self {
+        let energies = simulation.energies();
+        let energy = energies.kinetic + energies.elastic - *rest_energy;
+        let mut momenta = Self { energy, linear: [0.0; 3], angular: [0.0; 3], size: 0.0 };
+        let states = simulation.positions().iter().zip(simulation.velocities());
+        for (&mass, (x, v)) in simulation.body().masses().iter().zip(states) {
+            let cross = [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
+            for c in 0..3 {
+                momenta.linear[c] += mass * v[c];
+                momenta.angular[c] += mass * cross[c];
+            }
+            momenta.size += mass * norm(*v);
+        }
+        momenta
+    }
+}
+
+impl Track {
+    /// From a body of this height; frames are added by whoever moves it.
+    pub(super) fn new(height: f64) -> Self {
+        let (frames, momenta) = (Vec::new(), Vec::new());
+        Self { frames, height, momenta, steps: 0, newton_iterations: 0, linear_iterations: 0 }
+    }
+
+    /// Adds a frame of a free body.
+    pub(super) fn note(&mut self, positions: &[[f64; 3]]) {
+        self.frames.push(positions.to_vec());
+    }
+
+    /// The largest distance of a node between two tracks at the frames that both have, body heights.
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        let (few, many) = if self.frames.len() < other.frames.len() { (self, other) } else { (other, self) };
+        // Of a track with longer steps each frame is one of several.
+        let stride = many.frames.len() / few.frames.len().max(1);
+        let mut largest = 0.0_f64;
+        for (index, frame) in few.frames.iter().enumerate() {
+            for (a, b) in frame.iter().zip(&many.frames[stride * (index + 1) - 1]) {
+                largest = largest.max(norm(std::array::from_fn(|c| a[c] - b[c])));
+            }
+        }
+        largest / self.height
+    }
+
+    pub(super) fn drift(&self) -> Drift {
+        let (Some(first), Some(last)) = (self.momenta.first(), self.momenta.last()) else {
+            return Drift { energy: f64::NAN, linear_momentum: f64::NAN, angular_momentum: f64::NAN };
+        };
+        let change = |a: [f64; 3], b: [f64; 3]| norm(std::array::from_fn(|c| a[c] - b[c]));
+        Drift {
+            energy: (last.energy - first.energy) / first.energy,
+            linear_momentum: change(last.linear, first.linear) / first.size,
+            angular_momentum: change(last.angular, first.angular) / norm(first.angular),
+        }
+    }
+}
+
+fn norm(x: [f64; 3]) -> f64 {
+    x.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
