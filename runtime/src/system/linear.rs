@@ -56,7 +56,9 @@ impl<E: RealField> Cholesky<E> {
             .factorize_numeric_llt_scratch::<E>(Par::Seq, Default::default())
             .or(symbolic.solve_in_place_scratch::<E>(1, Par::Seq));
         let memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
-        let factor = vec![E::zero_impl(); symbolic.len_val()];
+        let mut factor = Vec::new();
+        factor.try_reserve_exact(symbolic.len_val()).map_err(|_| LinearError::OutOfMemory)?;
+        factor.resize(symbolic.len_val(), E::zero_impl());
         Ok(Self { symbolic, factor, memory })
     }
 
