@@ -2,11 +2,12 @@
 
 use std::fmt::{self, Write};
 
+use piola::Real;
 use piola_tests::speed::{RESOLUTION, beats};
 
 use crate::charts::{Chart, best_settings, materials};
 use crate::data::{GrowthRow, PointRow, Report, StepRow};
-use crate::growth::slope;
+use crate::growth::{DIRECT, ITERATIVE, slope};
 use crate::point::{HARD, ORDINARY, OURS, Work};
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
@@ -71,7 +72,7 @@ Euler. Drifts are those of the free flight.
 const GROWTH: &str = "\
 ## Growth
 
-A cube of rubber under its own weight, one iteration of Newton's method a step to a relative 10⁻⁶, from a thousand elements on. Memory is all that is allocated,
+A cube of rubber under its own weight, one iteration of Newton's method a step of 1/100 s, from a thousand elements on. Memory is all that is allocated,
 the mesh included.
 ";
 
@@ -129,7 +130,7 @@ fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
     writeln!(
         text,
         "Of {} contests (an energy, a precision, with or without projection, at ordinary F or at a hard family) piola is on the front of the \
-         methods for any ψ(λ) in {on_front}, each of these with whatever setting is best for that family, and times within {:.0} % counting as equal. In \
+         methods for any ψ(λ) in {on_front}, each of these with whatever setting is best for that family, and times within {:.0} % and errors within a unit roundoff counting as equal. In \
          the others a method is faster and its error no larger, or its error smaller in the same time:\n",
         ours.len(),
         100.0 * RESOLUTION
@@ -144,7 +145,9 @@ fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
             let same =
                 (other.work, other.material, other.precision) == (row.work, row.material, row.precision);
             let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
-            same && other.family == row.family && other.is_general && beats(pair(other), pair(row))
+            same && other.family == row.family
+                && other.is_general
+                && beats(pair(other), pair(row), unit(row.precision))
         };
         let rivals = rows.iter().filter(beats);
         let Some(rival) = rivals.min_by(|a, b| a.ns_per_element.total_cmp(&b.ns_per_element)) else {
@@ -169,6 +172,10 @@ fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
         text,
         "\nWith one setting for all hard families together, piola is on the front in {on} of {all}.\n"
     )
+}
+
+fn unit(precision: &str) -> f64 {
+    if precision == "f64" { f64::UNIT_ROUNDOFF } else { f32::UNIT_ROUNDOFF }
 }
 
 /// The comparison of [SZLSB11], rebuilt.
@@ -266,7 +273,7 @@ fn growth(text: &mut String, rows: &[GrowthRow]) -> fmt::Result {
             let of_solver = rows.iter().filter(|row| (row.solver, row.threads) == (solver, threads));
             of_solver.filter(|row| row.stopped.is_none()).collect()
         };
-        let (direct, iterative) = (of("Cholesky f64"), of("conjugate gradients"));
+        let (direct, iterative) = (of(DIRECT), of(ITERATIVE));
         let loses = direct.iter().zip(&iterative).find(|(a, b)| a.seconds_per_step > b.seconds_per_step);
         if let (Some((row, _)), Some(slope)) = (loses, slope(&iterative, |row| row.seconds_per_step)) {
             let plural = if threads == 1 { "" } else { "s" };

@@ -101,7 +101,7 @@ fn contests<S: Subject, E: Number>(
         }
         let together = all_hard(&of_work);
         of_work.extend(together);
-        mark_fronts(&mut of_work);
+        mark_fronts(&mut of_work, E::ROUNDOFF);
         rows.extend(of_work);
     }
     Ok(())
@@ -235,7 +235,7 @@ fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
 }
 
 /// Marks the rows of each family that no method for any ψ(λ) beats in both time and worst error.
-fn mark_fronts(rows: &mut [PointRow]) {
+fn mark_fronts(rows: &mut [PointRow], unit: f64) {
     let families: BTreeSet<String> = rows.iter().map(|row| row.family.clone()).collect();
     for family in families {
         let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
@@ -244,7 +244,7 @@ fn mark_fronts(rows: &mut [PointRow]) {
         for row in rows.iter_mut().filter(|row| row.family == family) {
             // One more than the rivals: itself a second time, or a method for particular energies.
             let all: Vec<(f64, f64)> = rivals.iter().copied().chain([pair(row)]).collect();
-            row.is_on_front = front(&all)[rivals.len()];
+            row.is_on_front = front(&all, unit)[rivals.len()];
         }
     }
 }

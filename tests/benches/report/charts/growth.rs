@@ -17,7 +17,7 @@ pub(super) fn draw(rows: &[GrowthRow]) -> Result<Chart, String> {
         panel("memory", "bytes at most", |row| row.peak_bytes, &[1]),
     ];
     let title = "A step of a box of rubber: time and memory against its size";
-    let note = "One iteration of Newton's method to a relative 1e-6. Solid lines: one thread. Dashed lines: two. Exponents of growth are those \
+    let note = "One iteration of Newton's method a step of 1/100 s. Solid lines: one thread. Dashed lines: two. Exponents of growth are those \
                 of the largest two boxes.";
     let svg = sheet([1280, 620], 2, title, note, &panels)?;
     let caption = "Time and memory of a step from a thousand to a million elements".to_owned();

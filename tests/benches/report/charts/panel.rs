@@ -143,7 +143,7 @@ impl Panel {
                 EmptyElement::at((x_range.end, lost)) + Text::new("infinite or not a number", (-4, 0), style);
             chart.draw_series([note]).map_err(failed)?;
         }
-        let mut labels = Vec::new();
+        let (mut labels, mut marks) = (Vec::new(), Vec::new());
         for series in &self.series {
             let places: Vec<_> = series.points.iter().map(place).collect();
             let stroke = series.colour.stroke_width(2);
@@ -167,6 +167,9 @@ impl Panel {
                 chart.draw_series(marks).map_err(failed)?;
             }
             for (point, &place) in series.points.iter().zip(&places) {
+                if series.mark != Mark::None {
+                    marks.push(chart.backend_coord(&place));
+                }
                 if !point.label.is_empty() {
                     let (x, y) = chart.backend_coord(&place);
                     labels.push(Label { place, x, y, text: &point.label, colour: series.colour });
@@ -174,7 +177,7 @@ impl Panel {
             }
         }
         let bottom = chart.backend_coord(&(x_range.start, y_range.start)).1;
-        for (label, y) in spread(&mut labels, bottom) {
+        for (label, y) in spread(&mut labels, &marks, bottom) {
             let style = (FONT, 13).into_font().color(&label.colour).pos(Pos::new(HPos::Left, VPos::Center));
             let shift = y - label.y;
             if shift.abs() > LINE {
@@ -205,16 +208,21 @@ impl Label<'_> {
     }
 }
 
-/// Heights for the labels, none over another: each as near to its mark as those before it leave room.
-fn spread<'a>(labels: &'a mut [Label<'a>], bottom: i32) -> Vec<(&'a Label<'a>, i32)> {
+/// Heights for the labels, none over another or over a mark: each as near to its mark as those before it leave room.
+fn spread<'a>(labels: &'a mut [Label<'a>], marks: &[(i32, i32)], bottom: i32) -> Vec<(&'a Label<'a>, i32)> {
     labels.sort_by_key(|label| (label.y, label.x));
     let mut placed: Vec<(&Label<'_>, i32)> = Vec::new();
     for label in labels.iter() {
+        let extent = label.extent();
         let is_free = |y: i32| {
-            placed.iter().all(|(other, at)| {
-                let (a, b) = (label.extent(), other.extent());
-                (at - y).abs() >= LINE || a.end <= b.start || b.end <= a.start
-            })
+            let clear_of_labels = placed.iter().all(|(other, at)| {
+                let other = other.extent();
+                (at - y).abs() >= LINE || extent.end <= other.start || other.end <= extent.start
+            });
+            // Its own mark, and those over it, are to its left.
+            let clear_of_marks =
+                marks.iter().all(|&(x, at)| (at - y).abs() > 10 || x <= label.x + 4 || x >= extent.end);
+            clear_of_labels && clear_of_marks
         };
         let nearby = (0..60).flat_map(|k| [label.y + 3 * k, label.y - 3 * k]);
         let y = nearby.filter(|&y| y < bottom - 4).find(|&y| is_free(y)).unwrap_or(label.y);
@@ -223,16 +231,16 @@ fn spread<'a>(labels: &'a mut [Label<'a>], bottom: i32) -> Vec<(&'a Label<'a>, i
     placed
 }
 
-/// From below the least finite number to above the greatest, by these shares of the decades between them; a decade at least,
-/// so that the axis has a number.
+/// From below the least finite number to above the greatest, by these shares of the decades between them; two decades at
+/// least, so that the axis has numbers.
 fn range(numbers: impl Iterator<Item = f64>, below: f64, above: f64) -> Range<f64> {
     let finite = numbers.filter(|x| x.is_finite() && *x > 0.0);
     let (least, greatest) = finite.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
     if least > greatest {
         return 0.1..10.0;
     }
-    let missing = 0.5 * (1.0 - (greatest / least).log10()).max(0.0);
-    let decades = (greatest / least).log10().max(1.0);
+    let missing = 0.5 * (2.0 - (greatest / least).log10()).max(0.0);
+    let decades = (greatest / least).log10().max(2.0);
     let (below, above) = (missing + below * decades, missing + above * decades);
     least * 10f64.powf(-below)..greatest * 10f64.powf(above)
 }
