@@ -1,6 +1,6 @@
 //! Counts the instructions of every kernel with callgrind, which no other program on the machine disturbs.
 //!
-//! `cargo run --release -p piola-tests --example instructions` prints them; with `-- --check` it compares them with the
+//! `cargo bench -p piola-tests --bench instructions` prints them; with `-- --check` it compares them with the
 //! committed ones of this compiler's version, `tests/instructions/rustc-*.txt`, and fails where a kernel has grown by more
 //! than 3 %; with `-- --bless` it writes those. Where valgrind or AVX2 is missing it says so and checks nothing.
 //!
@@ -25,7 +25,8 @@ const SLACK: f64 = 1.03;
 const COUNTED: &str = "--counted";
 
 fn main() -> ExitCode {
-    let argument = env::args().nth(1).unwrap_or_default();
+    // `cargo bench` adds an argument of its own.
+    let argument = env::args().skip(1).find(|argument| argument != "--bench").unwrap_or_default();
     if argument == COUNTED {
         for (_, mut kernel) in kernels() {
             // The first call of a thread makes its workspace.

@@ -1,9 +1,10 @@
 //! What the report measures, as `report.json` has it.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// All of it. What does not apply or is not finite is `null`.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
 pub(crate) struct Report {
     pub(crate) machine: String,
     /// Instructions of the lanes.
@@ -18,7 +19,7 @@ pub(crate) struct Report {
 }
 
 /// A method at a family of deformation gradients.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct PointRow {
     pub(crate) section: &'static str,
     /// `tangent`: P and dP/dF; `projected`: P and the nearest semidefinite matrix to dP/dF.
@@ -31,9 +32,9 @@ pub(crate) struct PointRow {
     pub(crate) ns_per_element: f64,
     pub(crate) median_ns_per_element: f64,
     /// The larger of ‖X − X*‖/(‖X*‖ + sens) of P and of the matrix; `null` for what is not finite.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) worst_error: f64,
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) median_error: f64,
     pub(crate) family: String,
     /// Number of reference cases.
@@ -45,7 +46,7 @@ pub(crate) struct PointRow {
 }
 
 /// A way to step a body through a scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct StepRow {
     pub(crate) scene: &'static str,
     /// What is varied: `h`, `newton`, `filter`, `solver`, `precision`, or nothing: `reference`.
@@ -54,41 +55,41 @@ pub(crate) struct StepRow {
     /// Time step, s.
     pub(crate) h: f64,
     /// Wall time of all steps, s.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) seconds: f64,
     pub(crate) steps: usize,
     pub(crate) newton_iterations: usize,
     pub(crate) linear_iterations: usize,
     /// Largest distance of a node from the reference trajectory at the instants compared, body heights.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) error: f64,
     /// The same distance from the motion with the same time step whose steps are solved as far as rounding allows.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) algebraic_error: f64,
     /// Of a free body, from begin to end: the change of the total energy relative to it,
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) energy_drift: f64,
     /// of the momentum relative to Σ m |v|,
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) linear_momentum_drift: f64,
     /// and of the angular momentum relative to it.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) angular_momentum_drift: f64,
     /// Why it did not come to the end.
     pub(crate) failure: Option<String>,
 }
 
 /// A step of a box.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct GrowthRow {
     pub(crate) solver: &'static str,
     pub(crate) threads: usize,
     pub(crate) elements: usize,
     pub(crate) unknowns: usize,
     /// `null` where it was stopped.
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) seconds_per_step: f64,
-    #[serde(serialize_with = "finite")]
+    #[serde(with = "finite")]
     pub(crate) peak_bytes: f64,
     pub(crate) newton_iterations: f64,
     pub(crate) linear_iterations: f64,
@@ -96,6 +97,15 @@ pub(crate) struct GrowthRow {
     pub(crate) stopped: Option<String>,
 }
 
-fn finite<S: serde::Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    number.is_finite().then_some(*number).serialize(serializer)
+/// `null` for what is not finite. Read again, it is NaN.
+mod finite {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        number.is_finite().then_some(*number).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    }
 }

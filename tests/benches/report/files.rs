@@ -11,6 +11,9 @@ use crate::{charts, page};
 /// The page.
 pub(crate) const PAGE: &str = "report.md";
 
+/// The numbers.
+const NUMBERS: &str = "report.json";
+
 /// A folder that can be written to.
 pub(crate) struct Folder(PathBuf);
 
@@ -21,6 +24,15 @@ impl Folder {
         Ok(Self(folder.to_owned()))
     }
 
+    /// The numbers of the run before.
+    pub(crate) fn read(&self) -> Result<Report, String> {
+        let file = self.0.join(NUMBERS);
+        let text = fs::read_to_string(&file).map_err(|error| about(&file, error))?;
+        // Once in a run, since what was measured has its names from the program.
+        let text: &'static str = text.leak();
+        serde_json::from_str(text).map_err(|error| about(&file, error))
+    }
+
     /// Writes charts, page and numbers. What was not measured leaves no chart.
     pub(crate) fn write(&self, report: &Report) -> Result<(), String> {
         let charts = charts::draw(report)?;
@@ -29,7 +41,7 @@ impl Folder {
         for chart in &charts {
             self.put(&chart.file, &chart.svg)?;
         }
-        self.put("report.json", &numbers)?;
+        self.put(NUMBERS, &numbers)?;
         self.put(PAGE, &page)
     }
 

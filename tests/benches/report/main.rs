@@ -43,6 +43,9 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
+    /// Measure nothing, and make charts and page again from the numbers of the run before
+    #[arg(long, conflicts_with_all = ["quick", "only"])]
+    redraw: bool,
     /// What `cargo bench` adds
     #[arg(long, hide = true)]
     bench: bool,
@@ -79,6 +82,9 @@ fn main() -> ExitCode {
 fn make(arguments: &Arguments) -> Result<(), String> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
     let folder = files::Folder::prepare(&folder())?;
+    if arguments.redraw {
+        return folder.write(&folder.read()?);
+    }
     let mut report = Report {
         machine: processor(),
         back_end: Backend::best().to_string(),

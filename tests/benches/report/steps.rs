@@ -66,7 +66,12 @@ pub(crate) fn plan(is_quick: bool) -> Vec<Course> {
         frames: if is_quick { quick } else { whole },
         is_quick,
     };
-    vec![course(Body::Horse, [8, 60]), course(Body::Dinosaur, [8, 90]), course(Body::Free, [8, 30])]
+    vec![
+        course(Body::Horse, [2, 60]),
+        course(Body::Dinosaur, [4, 90]),
+        course(Body::Free, [4, 30]),
+        course(Body::FlatHorse, [2, 8]),
+    ]
 }
 
 /// Steps of the progress bar.
@@ -74,11 +79,16 @@ pub(crate) fn count(plan: &[Course]) -> u64 {
     plan.iter().map(|course| course.ways().len() as u64 + 3).sum()
 }
 
-/// All rows of a plan.
+/// All rows of a plan, computed by one thread.
 ///
 /// # Errors
 /// Where a reference cannot be computed: a way that fails is a row that says so.
 pub(crate) fn rows(plan: &[Course], progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
+    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    thread.map_err(|error| error.to_string())?.install(|| rows_by_this_thread(plan, progress))
+}
+
+fn rows_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
     let mut rows = Vec::new();
     for course in plan {
         progress.set_message(course.body.name());

@@ -1,4 +1,4 @@
-//! Prints how fast everything is, as Markdown: `cargo run --release -p piola-tests --example speed`.
+//! Prints how fast everything is, as Markdown: `cargo bench -p piola-tests --bench speed`.
 //!
 //! With `--quick` less often repeated, and for the best back end only. One core; nothing else should run on the machine, and
 //! where something does, the least of the times is disturbed least.
