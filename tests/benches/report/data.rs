@@ -32,9 +32,9 @@ pub(crate) struct PointRow {
     pub(crate) ns_per_element: f64,
     pub(crate) median_ns_per_element: f64,
     /// The larger of ‖X − X*‖/(‖X*‖ + sens) of P and of the matrix; `null` for what is not finite.
-    #[serde(with = "finite")]
+    #[serde(serialize_with = "finite::serialize", deserialize_with = "finite::or_infinite")]
     pub(crate) worst_error: f64,
-    #[serde(with = "finite")]
+    #[serde(serialize_with = "finite::serialize", deserialize_with = "finite::or_infinite")]
     pub(crate) median_error: f64,
     pub(crate) family: String,
     /// Number of reference cases.
@@ -91,13 +91,15 @@ pub(crate) struct GrowthRow {
     pub(crate) seconds_per_step: f64,
     #[serde(with = "finite")]
     pub(crate) peak_bytes: f64,
+    #[serde(with = "finite")]
     pub(crate) newton_iterations: f64,
+    #[serde(with = "finite")]
     pub(crate) linear_iterations: f64,
     /// Why it was stopped.
     pub(crate) stopped: Option<String>,
 }
 
-/// `null` for what is not finite. Read again, it is NaN.
+/// `null` for what is not finite. Read again, it is NaN: nothing to show; but for errors, which are then as large as can be.
 mod finite {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -107,5 +109,9 @@ mod finite {
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    }
+
+    pub(super) fn or_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
     }
 }

@@ -138,9 +138,8 @@ impl Panel {
         if is_lost {
             let edge = [(x_range.start, ceiling), (x_range.end, ceiling)];
             chart.draw_series([PathElement::new(edge, GREY.mix(0.5))]).map_err(failed)?;
-            let style = small.color(&GREY).pos(Pos::new(HPos::Right, VPos::Center));
-            let note =
-                EmptyElement::at((x_range.end, lost)) + Text::new("infinite or not a number", (-4, 0), style);
+            let style = small.color(&BLACK).pos(Pos::new(HPos::Right, VPos::Center));
+            let note = EmptyElement::at((x_range.start, lost)) + Text::new("∞ or NaN", (-6, 0), style);
             chart.draw_series([note]).map_err(failed)?;
         }
         let (mut labels, mut marks) = (Vec::new(), Vec::new());
@@ -176,16 +175,19 @@ impl Panel {
                 }
             }
         }
-        let bottom = chart.backend_coord(&(x_range.start, y_range.start)).1;
-        for (label, y) in spread(&mut labels, &marks, bottom) {
-            let style = (FONT, 13).into_font().color(&label.colour).pos(Pos::new(HPos::Left, VPos::Center));
+        let (left, lowest) = chart.backend_coord(&(x_range.start, y_range.start));
+        let (_, highest) = chart.backend_coord(&(x_range.start, top));
+        for (label, Spot { y, is_left }) in spread(&mut labels, &marks, left, highest..lowest) {
+            let (side, across) = if is_left { (HPos::Right, -10) } else { (HPos::Left, 10) };
+            let style = (FONT, 13).into_font().color(&label.colour).pos(Pos::new(side, VPos::Center));
             let shift = y - label.y;
             if shift.abs() > LINE {
                 let leader = EmptyElement::at(label.place)
-                    + PathElement::new([(3, 0), (8, shift)], label.colour.mix(0.5));
+                    + PathElement::new([(0, 0), (across, shift)], label.colour.mix(0.5));
                 chart.draw_series([leader]).map_err(failed)?;
             }
-            let text = EmptyElement::at(label.place) + Text::new(label.text.to_owned(), (10, shift), style);
+            let text =
+                EmptyElement::at(label.place) + Text::new(label.text.to_owned(), (across, shift), style);
             chart.draw_series([text]).map_err(failed)?;
         }
         Ok(())
@@ -201,32 +203,52 @@ struct Label<'a> {
     colour: RGBColor,
 }
 
+/// Where a label goes.
+#[derive(Clone, Copy)]
+struct Spot {
+    /// Pixels.
+    y: i32,
+    /// Of its mark, and not on the right.
+    is_left: bool,
+}
+
 impl Label<'_> {
     /// Pixels from left to right, roughly.
-    fn extent(&self) -> Range<i32> {
-        self.x..self.x + 16 + 7 * self.text.chars().count() as i32
+    fn extent(&self, is_left: bool) -> Range<i32> {
+        let width = 16 + 7 * self.text.chars().count() as i32;
+        if is_left { self.x - width..self.x } else { self.x..self.x + width }
     }
 }
 
-/// Heights for the labels, none over another or over a mark: each as near to its mark as those before it leave room.
-fn spread<'a>(labels: &'a mut [Label<'a>], marks: &[(i32, i32)], bottom: i32) -> Vec<(&'a Label<'a>, i32)> {
+/// Spots for the labels, none over another or over a mark: each as near to its mark as those before it leave room.
+fn spread<'a>(
+    labels: &'a mut [Label<'a>],
+    marks: &[(i32, i32)],
+    left: i32,
+    heights: Range<i32>,
+) -> Vec<(&'a Label<'a>, Spot)> {
     labels.sort_by_key(|label| (label.y, label.x));
-    let mut placed: Vec<(&Label<'_>, i32)> = Vec::new();
+    let mut placed: Vec<(&Label<'_>, Spot)> = Vec::new();
     for label in labels.iter() {
-        let extent = label.extent();
-        let is_free = |y: i32| {
-            let clear_of_labels = placed.iter().all(|(other, at)| {
-                let other = other.extent();
-                (at - y).abs() >= LINE || extent.end <= other.start || other.end <= extent.start
+        let is_free = |spot: &Spot| {
+            let extent = label.extent(spot.is_left);
+            let is_clear_of_labels = placed.iter().all(|(other, at)| {
+                let other = other.extent(at.is_left);
+                (at.y - spot.y).abs() >= LINE || extent.end <= other.start || other.end <= extent.start
             });
-            // Its own mark, and those over it, are to its left.
-            let clear_of_marks =
-                marks.iter().all(|&(x, at)| (at - y).abs() > 10 || x <= label.x + 4 || x >= extent.end);
-            clear_of_labels && clear_of_marks
+            // Its own mark, and those over it, are at its side.
+            let is_clear_of_marks = marks
+                .iter()
+                .all(|&(x, y)| (y - spot.y).abs() > 10 || (x - label.x).abs() <= 4 || !extent.contains(&x));
+            let is_inside = heights.start + 6 < spot.y && spot.y < heights.end - 4 && left < extent.start;
+            is_inside && is_clear_of_labels && is_clear_of_marks
         };
-        let nearby = (0..60).flat_map(|k| [label.y + 3 * k, label.y - 3 * k]);
-        let y = nearby.filter(|&y| y < bottom - 4).find(|&y| is_free(y)).unwrap_or(label.y);
-        placed.push((label, y));
+        let beside = |is_left: bool, steps: Range<i32>| {
+            steps.flat_map(move |k| [label.y + 3 * k, label.y - 3 * k].map(|y| Spot { y, is_left }))
+        };
+        let mut spots = beside(false, 0..8).chain(beside(true, 0..8)).chain(beside(false, 8..60));
+        let spot = spots.find(is_free).unwrap_or(Spot { y: label.y, is_left: false });
+        placed.push((label, spot));
     }
     placed
 }

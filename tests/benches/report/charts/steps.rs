@@ -77,7 +77,10 @@ fn of(scene: &str, rows: &[StepRow]) -> Result<Chart, String> {
     let title = format!("Trajectory of the {scene}: wall time against error");
     let note = "Left and down is better. Right: vermilion Newton's stop, blue filter, green linear solver, purple precision of the \
                 point kernels.";
-    let svg = sheet([1280, 620], 2, &title, note, &[first, second])?;
+    let mut panels = vec![first, second];
+    // Of a body that is only followed over time steps there is nothing to compare.
+    panels.retain(|panel| panel.series.iter().map(|series| series.points.len()).sum::<usize>() > 1);
+    let svg = sheet([1280, 620], 2, &title, note, &panels)?;
     let caption = format!("{title}, over time step, Newton's method, filter, linear solver and precision");
     Ok(Chart { file: format!("steps-{}.svg", file_name(scene)), svg, caption })
 }
