@@ -183,11 +183,10 @@ fn reference(course: &Course, fine: usize, progress: &ProgressBar) -> Result<Tra
 
 /// The reference itself, judged by one of half its time step.
 fn reference_row(course: &Course, reference: &Track, progress: &ProgressBar) -> Result<StepRow, String> {
-    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let newton = NewtonSettings::default();
     let way =
         Way { axis: "reference", setting: "h/64 beside h/128".to_owned(), division: FINE as f64, newton };
-    let (finer, _) = follow(course, 2.0 * FINE as f64, newton).map_err(|error| named(course, &error))?;
-    progress.inc(1);
+    let finer = self::reference(course, 2 * FINE, progress)?;
     Ok(judged(course, &way, Ok((reference.clone(), f64::NAN)), &finer, reference))
 }
 
