@@ -31,7 +31,8 @@ const LARGE: usize = 200_000;
 pub(crate) const DIRECT: &str = "Cholesky f64";
 pub(crate) const ITERATIVE: &str = "CG 1e-3";
 
-const MOST_BYTES: f64 = 2.0 * 1024.0 * 1024.0 * 1024.0;
+const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
+const MOST_BYTES: f64 = 2.0 * GIB;
 const MOST_SECONDS: f64 = 60.0;
 
 /// Of a solver and a number of threads, from small to large.
@@ -102,7 +103,7 @@ fn too_large(before: &[GrowthRow], cells: usize) -> Option<String> {
     };
     let (bytes, seconds) = (next(|row| row.peak_bytes)?, next(|row| row.seconds_per_step)?);
     if bytes > MOST_BYTES {
-        return Some(format!("{elements} elements would take about {:.1} GiB", bytes / MOST_BYTES * 2.0));
+        return Some(format!("{elements} elements would take about {:.1} GiB", bytes / GIB));
     }
     (seconds > MOST_SECONDS).then(|| format!("{elements} elements would take about {seconds:.0} s a step"))
 }

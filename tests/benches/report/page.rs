@@ -9,6 +9,7 @@ use crate::charts::{Chart, best_settings, materials};
 use crate::data::{GrowthRow, PointRow, Report, StepRow};
 use crate::growth::{DIRECT, ITERATIVE, slope};
 use crate::point::{HARD, ORDINARY, OURS, Work};
+
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
     let mut text = String::new();

@@ -21,7 +21,7 @@ Tangents: for 8 points 570 multiplications and additions, at two a cycle 285 cyc
 the right singular vectors do not fit into 32 registers and are loaded as operands, and 170 registers are stored. Ogden: \
 the divided differences of powers take 10 ns of them. Streaming: the stores of a tile come in a burst after its \
 decomposition and not beside it. The paper's method is as fast as it is because it is given the decomposition of this \
-library.
+library; with that of nalgebra, which is shown beside it, it takes a fifth longer.
 ";
 
 /// Figures, goals, times and whether they are within the goals, measured with the best back end.
