@@ -4,14 +4,18 @@
 //! `solver` solves its linear systems, `line_search` shortens steps, `objective` is what decreases. Reports are values; nothing
 //! prints.
 
+pub mod damping;
+pub mod filtering;
 pub mod implicit_euler;
 pub mod line_search;
 pub mod newton;
 pub mod objective;
 pub mod solver;
 
+pub use damping::Damping;
+pub use filtering::Filtering;
 pub use implicit_euler::{Energies, Settings, SetupError, Simulation, StepError, StepReport};
 pub use line_search::{LineSearchSettings, Outcome};
-pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
+pub use newton::{Convergence, Guess, NewtonError, NewtonReport, NewtonSettings};
 pub use objective::Pull;
 pub use solver::LinearSolver;

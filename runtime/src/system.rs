@@ -126,7 +126,7 @@ impl Body {
     }
 
     /// The materials, each with the range of its elements.
-    fn materials(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
+    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
         let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
         self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
     }

@@ -12,6 +12,7 @@ pub use dinosaur::{DINOSAUR, DINOSAUR_OVERSTRETCHED};
 pub use horse::HORSE;
 
 use piola::mesh::Bounds;
+use piola::step::Damping;
 
 use crate::energy::Energy;
 use crate::error::Error;
@@ -35,8 +36,8 @@ pub struct Scene {
     pub energy: fn() -> Energy,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
-    /// Rate at which the damping force takes momentum away, 1/s.
-    pub damping: f64,
+    /// What works against velocity.
+    pub damping: Damping,
     /// Time step, s.
     pub dt: f64,
     /// How many steps of it.

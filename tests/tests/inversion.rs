@@ -4,7 +4,7 @@ use piola::Inversion;
 use piola::batch::Energy;
 use piola::mesh::TetMesh;
 use piola::point::svd;
-use piola::step::{NewtonSettings, Settings, Simulation, StepError};
+use piola::step::{Damping, NewtonSettings, Settings, Simulation, StepError};
 use piola::system::{Body, Part, Pins};
 use piola_materials::{CATALOGUE, Entry};
 
@@ -38,7 +38,11 @@ fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 fn relax(material: Box<dyn Energy<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
-    let settings = Settings { damping: 1.0, newton: NewtonSettings::default(), ..Settings::default() };
+    let settings = Settings {
+        damping: Damping::Mass { rate: 1.0 },
+        newton: NewtonSettings::default(),
+        ..Settings::default()
+    };
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     let positions = REST.map(|x| times(start, x));
     simulation.set_positions(&positions).expect("finite positions");

@@ -1,12 +1,15 @@
 //! A body in time.
 
 use std::fmt;
+use std::ops::Range;
 
+use crate::batch::Energy;
 use crate::system::assemble::Elastic;
 use crate::system::element::Survey;
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
 
+use super::damping::{Damping, Viscosity};
 use super::line_search::LineSearchSettings;
 use super::newton::{NewtonError, NewtonReport, NewtonSettings, Workspace, minimize};
 use super::objective::{Objective, Pull, Quadratic};
@@ -16,8 +19,8 @@ use super::objective::{Objective, Pull, Quadratic};
 pub struct Settings {
     /// Gravity, m/s².
     pub gravity: [f64; 3],
-    /// Mass-proportional damping α, 1/s: a force −α m v on each node.
-    pub damping: f64,
+    /// What works against velocity.
+    pub damping: Damping,
     /// How each step is minimised.
     pub newton: NewtonSettings,
     /// How Newton steps are shortened.
@@ -27,7 +30,7 @@ pub struct Settings {
 /// A body with its state, stepped by implicit Euler.
 ///
 /// ```math
-/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − α M v + M g − pulls
+/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − damping + M g − pulls
 /// ```
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear solver, but for the
@@ -44,6 +47,9 @@ pub struct Simulation {
     pins: Pins,
     elastic: Elastic,
     workspace: Workspace,
+    viscosity: Option<Viscosity>,
+    /// What a unit of regularisation adds for each mass in statics, 1/s².
+    static_regularisation: f64,
     next: Vec<[f64; 3]>,
     pins_move: Vec<[f64; 3]>,
     /// What the elastic energies at `positions` say, if they are what was evaluated last.
@@ -71,7 +77,7 @@ impl Simulation {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         check_settings(&settings)?;
-        let solver = settings.newton.linear.set_up(&body, pins).map_err(SetupError::Linear)?;
+        let workspace = Workspace::new(&body, pins, &settings.newton).map_err(SetupError::Linear)?;
         Ok(Self {
             settings,
             pulls: Vec::new(),
@@ -80,7 +86,9 @@ impl Simulation {
             targets: body.rest().to_vec(),
             pins: pins.clone(),
             elastic: Elastic::new(&body),
-            workspace: Workspace::new(nodes, solver),
+            workspace,
+            viscosity: settings.damping.viscosity(&body),
+            static_regularisation: static_regularisation(&body),
             next: vec![[0.0; 3]; nodes],
             pins_move: vec![[0.0; 3]; nodes],
             evaluated: None,
@@ -180,9 +188,12 @@ impl Simulation {
     /// Where one makes no sense, or memory does not suffice. The settings before are then still there.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), SetupError> {
         check_settings(&settings)?;
-        if settings.newton.linear != self.settings.newton.linear {
-            let solver = settings.newton.linear.set_up(&self.body, &self.pins);
-            self.workspace.solver = solver.map_err(SetupError::Linear)?;
+        let (new, old) = (&settings.newton, &self.settings.newton);
+        if (new.linear, new.filtering) != (old.linear, old.filtering) {
+            self.workspace = Workspace::new(&self.body, &self.pins, new).map_err(SetupError::Linear)?;
+        }
+        if settings.damping != self.settings.damping {
+            self.viscosity = settings.damping.viscosity(&self.body);
         }
         self.settings = settings;
         Ok(())
@@ -196,6 +207,23 @@ impl Simulation {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(StepError::TimeStep { dt });
         }
+        self.advance(dt)
+    }
+
+    /// Moves the body towards a minimum of its energy in the field of gravity and pulls, without inertia and damping, as far as
+    /// the settings of Newton's method say. Then it is at rest: its velocities are zero.
+    ///
+    /// Where the second derivatives are not positive definite, small parts of the stiffness are added to them; so they are,
+    /// one ten-thousandth of one, for a body with fewer than three pinned nodes, which may move as a whole at no cost.
+    ///
+    /// # Errors
+    /// Where there is no admissible next state. The state before is then untouched.
+    pub fn equilibrate(&mut self) -> Result<StepReport, StepError> {
+        self.advance(f64::INFINITY)
+    }
+
+    /// A step of any length, infinity included.
+    fn advance(&mut self, dt: f64) -> Result<StepReport, StepError> {
         self.next.copy_from_slice(&self.positions);
         let mut pins_move = false;
         for &node in self.pins.nodes() {
@@ -204,6 +232,17 @@ impl Simulation {
                 pins_move |= self.pins_move[node][c] != 0.0;
             }
         }
+        let survey = match self.evaluated.take() {
+            Some(survey) => survey,
+            None => self.elastic.evaluate(&self.body, &self.positions),
+        };
+        let is_static = dt == f64::INFINITY;
+        let viscosity = self.viscosity.as_mut().filter(|_| !is_static).map(|viscosity| {
+            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / dt);
+            &*viscosity
+        });
+        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (dt * dt) };
+        let may_drift = is_static && self.pins.nodes().len() < 3;
         let mut objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
@@ -212,14 +251,13 @@ impl Simulation {
                 start: &self.positions,
                 velocities: &self.velocities,
                 dt,
-                damping: self.settings.damping,
+                damping: self.settings.damping.rate(),
+                regularisation,
+                guard: if may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
                 pulls: &self.pulls,
             },
-        };
-        let survey = match self.evaluated.take() {
-            Some(survey) => survey,
-            None => objective.evaluate(&self.positions),
+            viscosity,
         };
         let (newton, survey) = minimize(
             &mut objective,
@@ -295,12 +333,24 @@ impl Simulation {
     }
 }
 
+/// How many units of regularisation a body gets in statics that may move as a whole.
+const DRIFT: f64 = 1e-4;
+
+/// What to add for each unit of mass, 1/s², so that it is small beside the stiffness of elements: a ten-thousandth of their
+/// stiffness over the mass of the body.
+fn static_regularisation(body: &Body) -> f64 {
+    let stiffness = |(material, elements): (&dyn Energy<f64>, Range<usize>)| -> f64 {
+        let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());
+        material.rest_stiffness().abs() * lengths.sum::<f64>()
+    };
+    1e-4 * body.materials().map(stiffness).sum::<f64>() / body.masses().iter().sum::<f64>()
+}
+
 fn check_settings(settings: &Settings) -> Result<(), SetupError> {
     let Settings { gravity, damping, newton, line_search } = settings;
     let between = |x: f64, low: f64, high: f64| low < x && x < high;
     let checks = [
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
-        (*damping >= 0.0 && damping.is_finite(), "damping must be finite and not negative"),
         (newton.max_iterations > 0, "Newton's method needs at least one iteration"),
         (newton.tolerance >= 0.0 && newton.tolerance < 1.0, "the tolerance must be at least 0 and below 1"),
         (
@@ -311,6 +361,7 @@ fn check_settings(settings: &Settings) -> Result<(), SetupError> {
         (line_search.max_trials > 0, "the line search needs at least one trial"),
     ];
     let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
+    let broken = broken.or(damping.broken_rule()).or(newton.filtering.broken_rule());
     match broken.or(newton.linear.broken_rule()) {
         Some(rule) => Err(SetupError::Setting { rule }),
         None => Ok(()),

@@ -51,6 +51,8 @@ pub enum Outcome {
     Accepted {
         /// The step, 0 < step ≤ 1.
         step: f64,
+        /// The objective there minus that at the start.
+        difference: f64,
         /// How many steps were tried, this one included.
         trials: usize,
         /// How many of them were outside the domain.
@@ -79,7 +81,7 @@ pub fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings
                 let noisy = difference.abs() <= noise;
                 // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without differences.
                 if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
-                    return Outcome::Accepted { step, trials, refused, by_slope: noisy };
+                    return Outcome::Accepted { step, difference, trials, refused, by_slope: noisy };
                 }
             }
         }
@@ -131,7 +133,7 @@ mod tests {
             |s| Some(s * s / 2.0 - s),
             |s| s - 1.0,
             0.0,
-            Outcome::Accepted { step: 1.0, trials: 1, refused: 0, by_slope: false },
+            Outcome::Accepted { step: 1.0, difference: -0.5, trials: 1, refused: 0, by_slope: false },
         );
     }
 
@@ -141,23 +143,25 @@ mod tests {
             |s| Some(8.0 * s * s - s),
             |s| 16.0 * s - 1.0,
             0.0,
-            Outcome::Accepted { step: 0.0625, trials: 5, refused: 0, by_slope: false },
+            Outcome::Accepted { step: 0.0625, difference: -0.03125, trials: 5, refused: 0, by_slope: false },
         );
         check(
             |s| (s < 0.3).then_some(-s),
             |_| -1.0,
             0.0,
-            Outcome::Accepted { step: 0.25, trials: 3, refused: 2, by_slope: false },
+            Outcome::Accepted { step: 0.25, difference: -0.25, trials: 3, refused: 2, by_slope: false },
         );
     }
 
     #[test]
     fn below_the_noise_the_slope_decides() {
         // The difference says "uphill", but it is noise: the minimum is at 1.
-        let accepted = Outcome::Accepted { step: 1.0, trials: 1, refused: 0, by_slope: true };
+        let accepted =
+            Outcome::Accepted { step: 1.0, difference: 1e-16, trials: 1, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted);
         // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
-        let halved = Outcome::Accepted { step: 0.5, trials: 2, refused: 0, by_slope: true };
+        let halved =
+            Outcome::Accepted { step: 0.5, difference: 1e-16, trials: 2, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
     }
 

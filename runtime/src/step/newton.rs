@@ -7,16 +7,20 @@ use std::fmt;
 use crate::point::Filter;
 use crate::system::element::Survey;
 use crate::system::linear::LinearError;
+use crate::system::{Body, Pins};
 
-use super::line_search::{LineSearchSettings, Outcome, backtrack};
+use super::filtering::{Filtering, Model};
+use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
 use super::objective::{Objective, product};
-use super::solver::{LinearSolver, Solver};
+use super::solver::{Demand, LinearSolver, Solver};
 
 /// How to minimise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonSettings {
     /// What happens to negative eigenvalues of dP/dF.
-    pub filter: Filter,
+    pub filtering: Filtering,
+    /// Where the iteration starts.
+    pub start: Guess,
     /// After how many iterations to stop; 1 is the mode of the paper.
     pub max_iterations: usize,
     /// Where the gradient has fallen to this part of its first norm, the minimum is found.
@@ -26,18 +30,36 @@ pub struct NewtonSettings {
 }
 
 impl Default for NewtonSettings {
-    /// Full Newton to a relative 10⁻⁶ with clamped eigenvalues and a Cholesky factorisation.
+    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped where the matrix demands it and a
+    /// linear solver that fits the body.
     fn default() -> Self {
-        Self { filter: Filter::Clamp, max_iterations: 50, tolerance: 1e-6, linear: LinearSolver::Cholesky }
+        Self {
+            filtering: Filtering::OnDemand,
+            start: Guess::Position,
+            max_iterations: 50,
+            tolerance: 1e-6,
+            linear: LinearSolver::Automatic,
+        }
     }
 }
 
 impl NewtonSettings {
-    /// One iteration per step, as in the paper: the gradient after it is not even looked at.
+    /// One iteration per step, as in the paper, with clamped eigenvalues: the gradient after it is not even looked at.
     #[must_use]
     pub fn single() -> Self {
-        Self { max_iterations: 1, ..Self::default() }
+        Self { filtering: Filtering::Always(Filter::Clamp), max_iterations: 1, ..Self::default() }
     }
+}
+
+/// Where an iteration starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Guess {
+    /// Where the body is.
+    #[default]
+    Position,
+    /// Where its velocities would take it, if that is admissible and no worse. The first residual, to which the
+    /// tolerance is relative, is then the one there. Where pins move, and in statics, the same as `Position`.
+    Velocity,
 }
 
 /// Why the iteration ended.
@@ -56,12 +78,14 @@ pub enum Convergence {
 pub struct NewtonReport {
     /// Why it ended.
     pub convergence: Convergence,
-    /// How many linear systems were solved.
+    /// How many directions were found.
     pub iterations: usize,
     /// Norm of the gradient over the free nodes before the first iteration, N. Where pins move, right after they have.
     pub first_residual: f64,
     /// The same where it was evaluated last, N: in the mode of one iteration equal to the first.
     pub residual: f64,
+    /// By how much the objective changed behind the motion of the pins, J: never more than the rounding error of its differences.
+    pub change: f64,
     /// Length of each step, 1 for a whole one.
     pub step_lengths: Vec<f64>,
     /// Trials of line searches that left the domain of a material.
@@ -70,7 +94,8 @@ pub struct NewtonReport {
     pub filtered: usize,
     /// Largest number of elements in an iteration whose tangent is at a pole.
     pub bounded: usize,
-    /// Largest multiple of inertia that had to be added for a positive definite matrix; 0 as a rule.
+    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that had to be added for a positive
+    /// definite matrix; 0 as a rule.
     pub shift: f64,
     /// How many iterations the linear solver took, over all systems: 0 for [`LinearSolver::Cholesky`].
     pub linear_iterations: usize,
@@ -82,19 +107,23 @@ pub struct NewtonReport {
 /// Memory of the iteration.
 pub(crate) struct Workspace {
     pub(crate) solver: Box<dyn Solver>,
+    pub(super) model: Option<Model>,
     gradient: Vec<[f64; 3]>,
     direction: Vec<[f64; 3]>,
     trial: Vec<[f64; 3]>,
 }
 
 impl Workspace {
-    pub(crate) fn new(nodes: usize, solver: Box<dyn Solver>) -> Self {
-        Self {
-            solver,
+    /// For the nodes of a body, of which pins hold some.
+    pub(crate) fn new(body: &Body, pins: &Pins, settings: &NewtonSettings) -> Result<Self, LinearError> {
+        let nodes = body.rest().len();
+        Ok(Self {
+            solver: settings.linear.set_up(body, pins)?,
+            model: settings.filtering.model(body),
             gradient: vec![[0.0; 3]; nodes],
             direction: vec![[0.0; 3]; nodes],
             trial: vec![[0.0; 3]; nodes],
-        }
+        })
     }
 
     /// Norm of the gradient over the free nodes.
@@ -107,116 +136,249 @@ impl Workspace {
 /// Moves `x` towards a minimum, the pinned nodes by `pins_move` (zero elsewhere) where it is given.
 ///
 /// Energies must have been evaluated at `x`, and on success they have been again, with the survey that is returned.
-///
-/// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is that of the
-/// state before they move, when elements next to them are not yet distorted; the line search starts behind the move.
 pub(crate) fn minimize(
     objective: &mut Objective<'_>,
     workspace: &mut Workspace,
     x: &mut [[f64; 3]],
     pins_move: Option<&[[f64; 3]]>,
-    mut survey: Survey,
+    survey: Survey,
     settings: &NewtonSettings,
     line_search: &LineSearchSettings,
 ) -> Result<(NewtonReport, Survey), NewtonError> {
     inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
-    let mut pins_move = pins_move;
-    let mut report = NewtonReport {
-        convergence: Convergence::Limit,
-        iterations: 0,
-        first_residual: f64::NAN,
-        residual: f64::NAN,
-        step_lengths: Vec::with_capacity(settings.max_iterations.min(8)),
-        refused_trials: 0,
-        filtered: 0,
-        bounded: 0,
-        shift: 0.0,
-        linear_iterations: 0,
-        truncated: 0,
-    };
-    // Whether the step before changed the objective by no more than noise.
-    let mut by_slope = false;
-    while report.iterations < settings.max_iterations {
-        // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
-        if report.iterations > 0 {
-            objective.elastic.evaluate_gradients(objective.body);
-            objective.gradient(x, &mut workspace.gradient);
-            let before = report.residual;
-            if report.note_residual(workspace.free_norm(), settings)? {
-                break;
-            }
-            if by_slope && report.residual > 0.5 * before {
-                report.convergence = Convergence::Rounding;
-                break;
-            }
-        }
-        let tangents = workspace.solver.linearise(objective, settings.filter);
-        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
-        report.filtered = report.filtered.max(tangents.filtered);
-        report.bounded = report.bounded.max(tangents.bounded);
-        objective.gradient(x, &mut workspace.gradient);
-        match pins_move {
-            Some(d) => workspace.solver.add_product(objective, d, &mut workspace.gradient),
-            None if report.iterations == 0 && report.note_residual(workspace.free_norm(), settings)? => {
-                break;
-            }
-            None => {}
-        }
-        let Workspace { solver, gradient, direction, .. } = workspace;
-        let solution = solver.solve(objective, gradient, direction)?;
-        report.shift = report.shift.max(solution.shift);
-        report.linear_iterations += solution.iterations;
-        report.truncated += usize::from(solution.truncated);
-        report.iterations += 1;
+    let report = NewtonReport::before(settings);
+    Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
+}
 
-        if let Some(d) = pins_move.take() {
-            for (x, d) in x.iter_mut().zip(d) {
-                for c in 0..3 {
-                    x[c] += d[c];
+/// A minimisation under way.
+struct Iteration<'a, 'b> {
+    objective: &'a mut Objective<'b>,
+    workspace: &'a mut Workspace,
+    settings: &'a NewtonSettings,
+    line_search: &'a LineSearchSettings,
+    /// Of the energies evaluated last.
+    survey: Survey,
+    report: NewtonReport,
+    /// Of actual to predicted decrease in the step before, where a prediction was made.
+    ratio: Option<f64>,
+}
+
+/// What a line search has brought.
+#[derive(PartialEq, Eq)]
+enum Progress {
+    Decrease,
+    /// The objective changed by no more than noise; the slope has decided.
+    BelowNoise,
+    /// Nothing is left to gain but noise.
+    Nothing,
+}
+
+impl Iteration<'_, '_> {
+    fn run(
+        mut self,
+        x: &mut [[f64; 3]],
+        mut pins_move: Option<&[[f64; 3]]>,
+    ) -> Result<(NewtonReport, Survey), NewtonError> {
+        if pins_move.is_none() && self.settings.start == Guess::Velocity {
+            self.follow_velocities(x);
+        }
+        // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the gradient.
+        let mut idle = 0;
+        let mut progress = Progress::Decrease;
+        // What the second system and later ones are to be solved to.
+        let mut forcing = 1.0;
+        while self.report.iterations < self.settings.max_iterations {
+            // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
+            if self.report.iterations > 0 {
+                let before = self.report.residual;
+                if self.note_gradient(x)? {
+                    break;
                 }
+                let is_idle = progress == Progress::BelowNoise && self.report.residual > 0.9 * before;
+                idle = if is_idle { idle + 1 } else { 0 };
+                // Twice, since the gradient of a filtered iteration need not fall each time.
+                if idle == 2 {
+                    self.report.convergence = Convergence::Rounding;
+                    break;
+                }
+                forcing = self.forcing(before);
             }
-            survey = objective.evaluate(x);
-            inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
-            objective.elastic.evaluate_gradients(objective.body);
-            objective.gradient(x, &mut workspace.gradient);
-            report.note_residual(workspace.free_norm(), settings)?;
-            if product(&workspace.gradient, &workspace.direction) >= 0.0 {
+            if !self.find_direction(x, pins_move, forcing)? {
+                break;
+            }
+            if let Some(d) = pins_move.take()
+                && !self.move_pins(x, d)?
+            {
                 // The tangent before the move says nothing about the state behind it; the next iteration takes its own.
-                report.step_lengths.push(0.0);
+                self.report.step_lengths.push(0.0);
                 continue;
             }
+            progress = self.search(x)?;
+            if progress == Progress::Nothing {
+                self.report.convergence = Convergence::Rounding;
+                break;
+            }
         }
-        let slope = product(&workspace.gradient, &workspace.direction);
+        Ok((self.report, self.survey))
+    }
+
+    /// Moves `x` on by the velocities where that is admissible and does not increase the objective.
+    fn follow_velocities(&mut self, x: &mut [[f64; 3]]) {
+        let Workspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
+        direction.fill([0.0; 3]);
+        for &node in solver.free_nodes() {
+            direction[node] = self.objective.quadratic.free_motion(node);
+        }
+        let change = self.objective.along(x, direction, trial, gradient).change(1.0);
+        match change {
+            Some(change) if change.difference <= 0.0 => {
+                self.report.change += change.difference;
+                x.copy_from_slice(trial);
+                self.survey = self.objective.elastic.survey();
+            }
+            _ => self.survey = self.objective.evaluate(x),
+        }
+    }
+
+    /// Evaluates the gradient and says whether it is small enough.
+    fn note_gradient(&mut self, x: &[[f64; 3]]) -> Result<bool, NewtonError> {
+        self.objective.elastic.evaluate_gradients(self.objective.body);
+        self.objective.gradient(x, &mut self.workspace.gradient);
+        self.report.note_residual(self.workspace.free_norm(), self.settings)
+    }
+
+    /// A relative tolerance for the next system [EW96, choice 2], no tighter than the last one of all needs to be.
+    fn forcing(&self, before: f64) -> f64 {
+        let NewtonReport { residual, first_residual, .. } = self.report;
+        let enough = 0.5 * self.settings.tolerance * first_residual / residual;
+        (0.9 * (residual / before).powi(2)).max(enough).max(f64::EPSILON)
+    }
+
+    /// Linearises and solves for a direction; false where the gradient is small enough already.
+    ///
+    /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is that of the
+    /// state before they move, when elements next to them are not yet distorted; the line search starts behind the move.
+    fn find_direction(
+        &mut self,
+        x: &[[f64; 3]],
+        pins_move: Option<&[[f64; 3]]>,
+        tolerance: f64,
+    ) -> Result<bool, NewtonError> {
+        let filtering = self.settings.filtering;
+        self.linearise(filtering.choice(self.ratio), x, pins_move)?;
+        if pins_move.is_none()
+            && self.report.iterations == 0
+            && self.report.note_residual(self.workspace.free_norm(), self.settings)?
+        {
+            return Ok(false);
+        }
+        let demand = Demand { tolerance, definite: filtering == Filtering::OnDemand };
+        if !self.solve(demand)? {
+            self.linearise(Filter::Clamp, x, pins_move)?;
+            self.solve(Demand { definite: false, ..demand })?;
+        }
+        self.report.iterations += 1;
+        Ok(true)
+    }
+
+    /// Evaluates the gradient and the filtered second derivatives.
+    fn linearise(
+        &mut self,
+        filter: Filter,
+        x: &[[f64; 3]],
+        pins_move: Option<&[[f64; 3]]>,
+    ) -> Result<(), NewtonError> {
+        let tangents = self.workspace.solver.linearise(self.objective, filter);
+        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+        self.report.filtered = self.report.filtered.max(tangents.filtered);
+        self.report.bounded = self.report.bounded.max(tangents.bounded);
+        let Workspace { solver, gradient, .. } = &mut *self.workspace;
+        self.objective.gradient(x, gradient);
+        if let Some(d) = pins_move {
+            solver.add_product(self.objective, d, gradient);
+        }
+        Ok(())
+    }
+
+    /// Solves for the direction; false where the matrix is indefinite and must not be.
+    fn solve(&mut self, demand: Demand) -> Result<bool, NewtonError> {
+        let Workspace { solver, gradient, direction, .. } = &mut *self.workspace;
+        let Some(solution) = solver.solve(self.objective, gradient, direction, demand)? else {
+            return Ok(false);
+        };
+        self.report.shift = self.report.shift.max(solution.shift);
+        self.report.linear_iterations += solution.iterations;
+        self.report.truncated += usize::from(solution.truncated);
+        Ok(true)
+    }
+
+    /// Moves the pins; false where the direction, found before they moved, does not descend behind the move.
+    fn move_pins(&mut self, x: &mut [[f64; 3]], d: &[[f64; 3]]) -> Result<bool, NewtonError> {
+        for (x, d) in x.iter_mut().zip(d) {
+            for c in 0..3 {
+                x[c] += d[c];
+            }
+        }
+        self.survey = self.objective.evaluate(x);
+        inadmissible(&self.survey).map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
+        self.note_gradient(x)?;
+        Ok(product(&self.workspace.gradient, &self.workspace.direction) < 0.0)
+    }
+
+    /// Moves `x` along the direction as far as it is good.
+    fn search(&mut self, x: &mut [[f64; 3]]) -> Result<Progress, NewtonError> {
+        let Workspace { model, direction, trial, gradient, .. } = &mut *self.workspace;
+        let slope = product(gradient, direction);
         if !slope.is_finite() {
             return Err(NewtonError::NotFinite);
         }
-        let outcome = {
-            let Workspace { direction, trial, gradient, .. } = workspace;
-            backtrack(&mut objective.along(x, direction, trial, gradient), slope, line_search)
-        };
+        if let Some(model) = model {
+            model.take(self.objective, slope, direction, trial);
+        }
+        let outcome =
+            backtrack(&mut self.objective.along(x, direction, trial, gradient), slope, self.line_search);
         match outcome {
-            Outcome::Accepted { step, refused, by_slope: slope_decided, .. } => {
-                by_slope = slope_decided;
-                x.copy_from_slice(&workspace.trial);
-                report.step_lengths.push(step);
-                report.refused_trials += refused;
-                survey = objective.elastic.survey();
+            Outcome::Accepted { step, difference, refused, by_slope, .. } => {
+                x.copy_from_slice(trial);
+                self.ratio = model.as_ref().map(|model| model.ratio(step, difference));
+                self.report.step_lengths.push(step);
+                self.report.refused_trials += refused;
+                self.report.change += difference;
+                self.survey = self.objective.elastic.survey();
+                Ok(if by_slope { Progress::BelowNoise } else { Progress::Decrease })
             }
             Outcome::Failed { step, refused } => {
-                report.refused_trials += refused;
-                survey = objective.evaluate(x);
-                if -slope > objective.elastic.difference_noise(objective.body) {
-                    return Err(NewtonError::LineSearch { step, refused, residual: report.residual });
+                self.report.refused_trials += refused;
+                self.survey = self.objective.evaluate(x);
+                if -slope > self.objective.elastic.difference_noise(self.objective.body) {
+                    let residual = self.report.residual;
+                    return Err(NewtonError::LineSearch { step, refused, residual });
                 }
-                report.convergence = Convergence::Rounding;
-                break;
+                Ok(Progress::Nothing)
             }
         }
     }
-    Ok((report, survey))
 }
 
 impl NewtonReport {
+    /// Of no iteration.
+    fn before(settings: &NewtonSettings) -> Self {
+        Self {
+            convergence: Convergence::Limit,
+            iterations: 0,
+            first_residual: f64::NAN,
+            residual: f64::NAN,
+            change: 0.0,
+            step_lengths: Vec::with_capacity(settings.max_iterations.min(8)),
+            refused_trials: 0,
+            filtered: 0,
+            bounded: 0,
+            shift: 0.0,
+            linear_iterations: 0,
+            truncated: 0,
+        }
+    }
+
     /// Keeps the norm of a gradient and says whether it is small enough.
     fn note_residual(&mut self, residual: f64, settings: &NewtonSettings) -> Result<bool, NewtonError> {
         if !residual.is_finite() {

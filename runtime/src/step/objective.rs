@@ -1,14 +1,17 @@
 //! What a step of implicit Euler minimises.
 //!
-//! With M the lumped masses, h the time step, α the mass-proportional damping, xₙ, vₙ the state before the step:
+//! With M the lumped masses, h the time step, xₙ, vₙ the state before the step, and D the quadratic form of its
+//! [damping](super::damping), α M or β K:
 //!
 //! ```text
-//! E(x) = ½‖x − xₙ − h vₙ‖²_M / h² + α/(2h) ‖x − xₙ‖²_M + Ψ(x) − Σ m g·x + Σ ½ k ‖p(x) − t‖²
+//! E(x) = ½‖x − xₙ − h vₙ‖²_M / h² + 1/(2h) ‖x − xₙ‖²_D + Ψ(x) − Σ m g·x + Σ ½ k ‖p(x) − t‖²
 //! ```
 //!
-//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − α M v + M g − (pulls) with v = (x − xₙ)/h: implicit Euler,
+//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − D v + M g − (pulls) with v = (x − xₙ)/h: implicit Euler,
 //! damping included. All but Ψ is quadratic, so that along a line it needs one slope and one curvature and no
 //! subtraction of close energies. Positions enter as displacements from xₙ.
+//!
+//! With h = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
 
 use crate::lanes::Real;
 use crate::mesh::embed::Anchor;
@@ -17,6 +20,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Survey;
 use crate::system::pattern::Pattern;
 
+use super::damping::Viscosity;
 use super::line_search::{Change, Line};
 
 /// A spring of rest length zero from a point of the body to a point in space.
@@ -65,8 +69,12 @@ pub(crate) struct Quadratic<'a> {
     pub(crate) velocities: &'a [[f64; 3]],
     /// h, s.
     pub(crate) dt: f64,
-    /// α, 1/s.
+    /// α of mass-proportional damping, 1/s.
     pub(crate) damping: f64,
+    /// What a unit of regularisation adds for each mass, 1/s².
+    pub(crate) regularisation: f64,
+    /// What is always added for each mass to the second derivatives, not to the objective, 1/s².
+    pub(crate) guard: f64,
     /// g, m/s².
     pub(crate) gravity: [f64; 3],
     pub(crate) pulls: &'a [Pull],
@@ -74,13 +82,23 @@ pub(crate) struct Quadratic<'a> {
 
 impl Quadratic<'_> {
     /// Second derivative in each coordinate of a node, without pulls: m (1/h² + α/h).
-    pub(crate) fn diagonal(&self, node: usize) -> f64 {
+    fn diagonal(&self, node: usize) -> f64 {
         self.masses[node] * (1.0 / self.dt + self.damping) / self.dt
     }
 
-    /// What inertia alone contributes to it: m/h².
-    pub(crate) fn inertia(&self, node: usize) -> f64 {
-        self.masses[node] / (self.dt * self.dt)
+    /// The same with the guard against drift.
+    pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
+        self.diagonal(node) + self.masses[node] * self.guard
+    }
+
+    /// h vₙ.
+    pub(crate) fn free_motion(&self, node: usize) -> [f64; 3] {
+        self.velocities[node].map(|v| self.dt * v)
+    }
+
+    /// What is added to it, some number of times, where the second derivatives are not positive definite.
+    pub(crate) fn regularisation(&self, node: usize) -> f64 {
+        self.masses[node] * self.regularisation
     }
 
     /// Adds the gradient at `x`.
@@ -106,7 +124,7 @@ impl Quadratic<'_> {
     pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
         for node in 0..d.len() {
             for c in 0..3 {
-                total[node][c] += self.diagonal(node) * d[node][c];
+                total[node][c] += self.guarded_diagonal(node) * d[node][c];
             }
         }
         for pull in self.pulls {
@@ -142,7 +160,7 @@ impl Quadratic<'_> {
     pub(crate) fn add_to_blocks(&self, blocks: &mut [[[f64; 3]; 3]]) {
         for (node, block) in blocks.iter_mut().enumerate() {
             for c in 0..3 {
-                block[c][c] += self.diagonal(node);
+                block[c][c] += self.guarded_diagonal(node);
             }
         }
         for pull in self.pulls {
@@ -167,6 +185,8 @@ pub(crate) struct Objective<'a> {
     pub(crate) body: &'a Body,
     pub(crate) elastic: &'a mut Elastic,
     pub(crate) quadratic: Quadratic<'a>,
+    /// Stiffness-proportional damping, where there is any.
+    pub(crate) viscosity: Option<&'a Viscosity>,
 }
 
 impl Objective<'_> {
@@ -177,9 +197,25 @@ impl Objective<'_> {
 
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
     pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
-        gradient.fill([0.0; 3]);
+        self.quadratic_gradient(x, gradient);
         self.elastic.add_gradient(self.body, gradient);
+    }
+
+    /// That of all but the elastic energy.
+    fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        gradient.fill([0.0; 3]);
         self.quadratic.add_gradient(x, gradient);
+        if let Some(viscosity) = self.viscosity {
+            let start = self.quadratic.start;
+            let displacement = |node: usize| std::array::from_fn(|c| x[node][c] - start[node][c]);
+            viscosity.add_product(self.body, displacement, gradient);
+        }
+    }
+
+    /// dᵀ H d of all but the elastic energy.
+    pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
+        self.quadratic.curvature(d) + viscosity
     }
 
     /// The objective along `x + step d`, whose point tried last is left in `trial`. The base of its differences is `x`,
@@ -195,10 +231,9 @@ impl Objective<'_> {
         Self: 'b,
     {
         self.elastic.set_base();
-        gradient.fill([0.0; 3]);
-        self.quadratic.add_gradient(x, gradient);
+        self.quadratic_gradient(x, gradient);
         let slope = product(gradient, direction);
-        let curvature = self.quadratic.curvature(direction);
+        let curvature = self.quadratic_curvature(direction);
         Along { objective: self, x, direction, trial, gradient, slope, curvature }
     }
 }

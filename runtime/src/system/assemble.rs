@@ -78,6 +78,7 @@ impl Elastic {
     /// Evaluates the energies at these positions.
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Survey {
         self.groups.par_iter_mut().for_each(|state| {
+            state.survey = Survey::NONE;
             state.evaluate(body, |group, material, elements| group.evaluate(material, elements, positions));
         });
         self.survey()
@@ -160,14 +161,15 @@ impl Elastic {
 }
 
 impl State {
-    /// Keeps what an evaluation says.
+    /// Keeps what an evaluation says, and the det F of the one before: derivatives do not say it again.
     fn evaluate(
         &mut self,
         body: &Body,
         evaluate: impl FnOnce(&mut Group, &dyn Energy<f64>, &[Element]) -> Survey,
     ) {
         let elements = &body.elements[self.elements.clone()];
-        self.survey = evaluate(&mut self.group, body.material(self.elements.start), elements);
+        let survey = evaluate(&mut self.group, body.material(self.elements.start), elements);
+        self.survey = Survey { min_det: self.survey.min_det.min(survey.min_det), ..survey };
     }
 }
 

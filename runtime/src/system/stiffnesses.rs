@@ -32,11 +32,34 @@ impl ElementStiffnesses {
         self.places.iter().map(|&(tile, lane)| &self.tiles[tile as usize][lane as usize])
     }
 
-    /// Adds K d to `total` for a displacement d that is zero at most nodes.
-    pub(crate) fn add_product(&self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+    /// Adds a factor times other stiffnesses of the same body.
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
+        for (block, other) in self
+            .tiles
+            .as_flattened_mut()
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(other.tiles.as_flattened().as_flattened())
+        {
+            for a in 0..3 {
+                for c in 0..3 {
+                    block[a][c] += factor * other[a][c];
+                }
+            }
+        }
+    }
+
+    /// Adds a factor times K d to `total` for the displacement d of each node; it may cost little to be zero.
+    pub(crate) fn add_product(
+        &self,
+        body: &Body,
+        factor: f64,
+        displacement: impl Fn(usize) -> [f64; 3],
+        total: &mut [[f64; 3]],
+    ) {
         for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
             for (j, &from) in element.nodes.iter().enumerate() {
-                let d = displacement[from];
+                let d = displacement(from);
                 if d == [0.0; 3] {
                     continue;
                 }
@@ -47,8 +70,40 @@ impl ElementStiffnesses {
                                 true => stiffness[pair(i, j)][a][c],
                                 false => stiffness[pair(j, i)][c][a],
                             };
-                            total[to][a] += entry * d[c];
+                            total[to][a] += factor * (entry * d[c]);
                         }
+                    }
+                }
+            }
+        }
+    }
+
+    /// dᵀ K d.
+    pub(crate) fn quadratic_form(&self, body: &Body, d: &[[f64; 3]]) -> f64 {
+        let mut sum = 0.0;
+        for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
+            for (i, &row) in element.nodes.iter().enumerate() {
+                for (j, &column) in element.nodes[..=i].iter().enumerate() {
+                    let twice = if i == j { 1.0 } else { 2.0 };
+                    let block = &stiffness[pair(i, j)];
+                    for a in 0..3 {
+                        for c in 0..3 {
+                            sum += twice * (d[row][a] * (block[a][c] * d[column][c]));
+                        }
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// Adds a factor times the 3×3 blocks of K on its diagonal, one for each node.
+    pub(crate) fn add_diagonal_blocks(&self, body: &Body, factor: f64, blocks: &mut [[[f64; 3]; 3]]) {
+        for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
+            for (i, &node) in element.nodes.iter().enumerate() {
+                for a in 0..3 {
+                    for c in 0..3 {
+                        blocks[node][a][c] += factor * stiffness[pair(i, i)][a][c];
                     }
                 }
             }

@@ -5,6 +5,7 @@
 
 use piola::material::Moduli;
 use piola::mesh::Bounds;
+use piola::step::Damping;
 
 use super::{Asset, Pull, Scene, Start};
 use crate::energy::Energy;
@@ -21,7 +22,7 @@ pub const DINOSAUR: Scene = Scene {
     surface: Asset { name: "dinosaur.obj", text: include_str!("../../assets/dinosaur.obj") },
     energy: ogden,
     density: 1000.0,
-    damping: 2.0,
+    damping: Damping::Mass { rate: 2.0 },
     dt: 1.0 / 30.0,
     frames: 360,
     pinned: Bounds { max: [f64::INFINITY, 0.08, f64::INFINITY], ..EVERYWHERE },

@@ -2,6 +2,7 @@
 
 use piola::material::Moduli;
 use piola::mesh::Bounds;
+use piola::step::Damping;
 
 use super::{Asset, Scene, Start};
 use crate::energy::Energy;
@@ -22,7 +23,7 @@ pub const HORSE: Scene = Scene {
         Energy::of("rotated linear").with("mu", [moduli.mu]).with("lambda", [moduli.lambda])
     },
     density: 1000.0,
-    damping: 2.0,
+    damping: Damping::Mass { rate: 2.0 },
     dt: 1.0 / 30.0,
     frames: 150,
     pinned: Bounds { max: [f64::INFINITY, 0.05, f64::INFINITY], ..EVERYWHERE },

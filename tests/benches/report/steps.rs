@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use piola::point::Filter;
-use piola::step::{self, LinearSolver, NewtonSettings};
+use piola::step::{self, Damping, Filtering, LinearSolver, NewtonSettings};
 
 use crate::data::StepRow;
 
@@ -149,10 +149,14 @@ fn ways() -> Vec<Way> {
             NewtonSettings { tolerance, ..full },
         ));
     }
-    for (name, filter) in
-        [("no filter", Filter::None), ("clamp", Filter::Clamp), ("absolute", Filter::Absolute)]
-    {
-        ways.push(way("filter", name, 1.0, NewtonSettings { filter, ..full }));
+    for (name, filtering) in [
+        ("no filter", Filtering::Always(Filter::None)),
+        ("clamp", Filtering::Always(Filter::Clamp)),
+        ("absolute", Filtering::Always(Filter::Absolute)),
+        ("on demand", Filtering::OnDemand),
+        ("trust region", Filtering::TrustRegion { tolerance: 0.01 }),
+    ] {
+        ways.push(way("filter", name, 1.0, NewtonSettings { filtering, ..full }));
     }
     ways.push(way("solver", "Cholesky f64", 1.0, full));
     let refined = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
@@ -246,6 +250,6 @@ impl StepRow {
 }
 
 /// What the scenes ask for, with another Newton.
-fn step_settings(damping: f64, newton: NewtonSettings) -> step::Settings {
+fn step_settings(damping: Damping, newton: NewtonSettings) -> step::Settings {
     step::Settings { damping, newton, ..step::Settings::default() }
 }

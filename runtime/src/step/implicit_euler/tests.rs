@@ -3,7 +3,7 @@ use crate::batch::Energy;
 use crate::mesh::{Bounds, TetMesh, read_msh};
 use crate::point::Filter;
 use crate::random::Random;
-use crate::step::{Convergence, NewtonSettings};
+use crate::step::{Convergence, Filtering, Guess, LinearSolver, NewtonSettings};
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 fn settings(newton: NewtonSettings) -> Settings {
@@ -31,13 +31,13 @@ fn total(masses: &[f64], vectors: &[[f64; 3]]) -> [f64; 3] {
 fn a_free_body_falls_without_deforming() {
     let mesh = beam(4);
     let gravity = [1.0, -9.81, 0.5];
-    let damping = 0.7;
+    let rate = 0.7;
     let dt = 0.02;
     let mut free = simulation(
         &mesh,
         ROTATED,
         &Pins::none(),
-        Settings { gravity, damping, ..settings(NewtonSettings::default()) },
+        Settings { gravity, damping: Damping::Mass { rate }, ..settings(NewtonSettings::default()) },
     );
     let (mut v, mut fall) = ([0.0; 3], [0.0; 3]);
     for _ in 0..10 {
@@ -45,7 +45,7 @@ fn a_free_body_falls_without_deforming() {
         assert_eq!(report.newton.step_lengths, [1.0], "one step, as the objective is quadratic along it");
         for c in 0..3 {
             // (v − vₙ)/h = g − α v
-            v[c] = (v[c] + dt * gravity[c]) / (1.0 + dt * damping);
+            v[c] = (v[c] + dt * gravity[c]) / (1.0 + dt * rate);
             fall[c] += dt * v[c];
         }
     }
@@ -106,7 +106,7 @@ fn full_newton_converges_quadratically() {
     let gravity = [0.0, -9.81, 0.0];
     let residual_after = |iterations: usize| {
         let newton = NewtonSettings {
-            filter: Filter::None,
+            filtering: Filtering::Always(Filter::None),
             max_iterations: iterations,
             tolerance: 1e-15,
             ..Default::default()
@@ -162,7 +162,12 @@ fn pins_hold_and_move_as_told() {
     let mesh = beam(4);
     let pins = left_end(&mesh);
     for newton in [NewtonSettings::single(), NewtonSettings::default()] {
-        let mut body = simulation(&mesh, ROTATED, &pins, Settings { damping: 5.0, ..settings(newton) });
+        let mut body = simulation(
+            &mesh,
+            ROTATED,
+            &pins,
+            Settings { damping: Damping::Mass { rate: 5.0 }, ..settings(newton) },
+        );
         for step in 1..=40 {
             let shift = 0.01 * step as f64;
             for &node in pins.nodes() {
@@ -211,7 +216,7 @@ fn a_pull_stretches_until_forces_balance() {
         &mesh,
         ROTATED,
         &Pins::none(),
-        Settings { damping: 10.0, ..settings(NewtonSettings::default()) },
+        Settings { damping: Damping::Mass { rate: 10.0 }, ..settings(NewtonSettings::default()) },
     );
     let element = body.body().elements()[3];
     let anchor = crate::mesh::embed::Anchor { nodes: element.nodes, weights: [0.25; 4] };
@@ -243,7 +248,7 @@ fn a_collapsed_body_recovers_without_nan() {
             &mesh,
             ROTATED,
             &pins,
-            Settings { damping: 2.0, ..settings(NewtonSettings::single()) },
+            Settings { damping: Damping::Mass { rate: 2.0 }, ..settings(NewtonSettings::single()) },
         );
         let start =
             mesh.positions.iter().enumerate().map(|(node, x)| if node < 4 { *x } else { collapse(x) });
@@ -287,7 +292,11 @@ fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
 #[test]
 fn an_indefinite_matrix_is_shifted_and_reported() {
     let mesh = beam(3);
-    let newton = NewtonSettings { filter: Filter::None, tolerance: 0.0, ..NewtonSettings::single() };
+    let newton = NewtonSettings {
+        filtering: Filtering::Always(Filter::None),
+        tolerance: 0.0,
+        ..NewtonSettings::single()
+    };
     let mut body = simulation(&mesh, KIRCHHOFF, &left_end(&mesh), settings(newton));
     let squeezed: Vec<_> = mesh.positions.iter().map(|x| [0.4 * x[0], x[1], x[2]]).collect();
     body.set_positions(&squeezed).expect("finite");
@@ -304,7 +313,10 @@ fn nonsense_is_refused_with_a_reason() {
         change(&mut settings);
         Simulation::new(body(), &Pins::none(), settings).expect_err("nonsense").to_string()
     };
-    assert_eq!(message(&|s| s.damping = -1.0), "damping must be finite and not negative");
+    assert_eq!(
+        message(&|s| s.damping = Damping::Mass { rate: -1.0 }),
+        "damping must be finite and not negative"
+    );
     assert_eq!(message(&|s| s.gravity[1] = f64::NAN), "gravity must be finite");
     assert_eq!(message(&|s| s.newton.max_iterations = 0), "Newton's method needs at least one iteration");
     assert_eq!(message(&|s| s.newton.tolerance = f64::NAN), "the tolerance must be at least 0 and below 1");
@@ -352,4 +364,166 @@ fn any_number_of_threads_gives_the_same_bits() {
     // Equal floating-point numbers are equal bits but for the sign of zero, which cannot pass on.
     assert_eq!(one, two);
     assert_eq!(one, run(3));
+}
+
+/// Forces balance to the last digits, under gravity and a pull.
+#[test]
+fn statics_finds_an_equilibrium() {
+    let mesh = beam(6);
+    let newton = NewtonSettings { tolerance: 1e-12, ..NewtonSettings::default() };
+    for linear in
+        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
+    {
+        let settings = Settings {
+            gravity: [0.0, -9.81, 0.0],
+            newton: NewtonSettings { linear, ..newton },
+            ..Settings::default()
+        };
+        let mut body = simulation(&mesh, KIRCHHOFF, &left_end(&mesh), settings);
+        body.set_velocities(&vec![[1.0, 0.0, 0.0]; mesh.positions.len()]).expect("finite");
+        let report = body.equilibrate().expect("an equilibrium").newton;
+        assert_eq!(report.convergence, Convergence::Tolerance, "{report:?}");
+        assert!(report.residual <= 1e-12 * report.first_residual);
+        assert!(body.velocities().iter().all(|v| *v == [0.0; 3]));
+        // Dynamics, started there, finds nothing to do: h² g would be 4 mm.
+        let hanging = body.positions().to_vec();
+        body.step(0.02).expect("a step");
+        for (x, before) in body.positions().iter().zip(&hanging) {
+            for c in 0..3 {
+                assert!((x[c] - before[c]).abs() <= 1e-11, "{} for {}", x[c], before[c]);
+            }
+        }
+    }
+}
+
+/// Without pins the matrix is singular; the body still neither drifts nor turns away.
+#[test]
+fn statics_of_a_free_body_leaves_it_where_it_is() {
+    let mesh = beam(4);
+    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let mut body = simulation(&mesh, ROTATED, &Pins::none(), settings(newton));
+    let start = shake(&mut Random::new(8), &mesh.positions, 0.02);
+    body.set_positions(&start).expect("finite");
+    let before = total(body.body().masses(), &start);
+    let report = body.equilibrate().expect("an equilibrium");
+    assert!(report.newton.residual <= 1e-8 * report.newton.first_residual, "{report:?}");
+    assert!(report.energies.elastic <= 1e-14 * -report.newton.change, "{report:?}");
+    let after = total(body.body().masses(), body.positions());
+    let mass: f64 = body.body().masses().iter().sum();
+    for c in 0..3 {
+        // What rounding leaves of the sum of the forces, 10⁻¹³ N, meets the guard alone, 10⁻⁸ of a stiffness of 10⁴ N/m.
+        assert!((after[c] - before[c]).abs() <= 1e-8 * mass, "{before:?} became {after:?}");
+    }
+    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+        for c in 0..3 {
+            assert!((x[c] - rest[c]).abs() <= 0.02, "{x:?} for {rest:?}");
+        }
+    }
+}
+
+#[test]
+fn velocities_are_a_good_guess_in_flight_and_harmless_elsewhere() {
+    let mesh = beam(4);
+    let newton = NewtonSettings { start: Guess::Velocity, ..NewtonSettings::default() };
+    let mut flying = simulation(&mesh, ROTATED, &Pins::none(), settings(newton));
+    flying.set_velocities(&vec![[1.0, 2.0, 0.0]; mesh.positions.len()]).expect("finite");
+    let report = flying.step(0.5).expect("a step").newton;
+    // What is left to do is to undo the rounding of 1 m.
+    assert!(report.first_residual <= 1e-6, "{report:?}");
+
+    let mut turning = simulation(&mesh, NEO_HOOKEAN, &Pins::none(), settings(newton));
+    let spin: Vec<_> = mesh.positions.iter().map(|&[x, y, z]| [z, 1e3 * y, -1e3 * x]).collect();
+    turning.set_velocities(&spin).expect("finite");
+    let report = turning.step(0.5).expect("the guess is refused, the step is made");
+    assert!(report.newton.change <= 0.0 && report.energies.total().is_finite(), "{report:?}");
+}
+
+/// Any setting that is accepted gives finite numbers or an error that leaves the state as it was.
+#[test]
+fn no_setting_returns_nan() {
+    let mesh = beam(2);
+    let mut random = Random::new(17);
+    let mut ends = [0; 3];
+    for case in 0..400 {
+        let mut number = || match (random.uniform(0.0, 1.0) * 10.0) as usize {
+            0 => 0.0,
+            1 => f64::NAN,
+            2 => f64::INFINITY,
+            3 => -1.0,
+            4 => f64::MAX,
+            5 => f64::MIN_POSITIVE,
+            _ => 10f64.powf(random.uniform(-6.0, 3.0)),
+        };
+        let filters = [Filter::None, Filter::Clamp, Filter::Absolute].map(Filtering::Always);
+        let filtering = [Filtering::OnDemand, Filtering::TrustRegion { tolerance: number() }];
+        let linear = [
+            LinearSolver::Automatic,
+            LinearSolver::RefinedCholesky { tolerance: number() },
+            LinearSolver::ConjugateGradients { tolerance: number(), max_iterations: number() as usize % 50 },
+        ];
+        let damping =
+            [Damping::None, Damping::Mass { rate: number() }, Damping::Stiffness { time: number() }];
+        let settings = Settings {
+            gravity: [0.0, if case % 5 == 0 { number() } else { -9.81 }, 0.0],
+            damping: damping[case % 3],
+            newton: NewtonSettings {
+                filtering: if case % 2 == 0 { filters[case / 2 % 3] } else { filtering[case / 2 % 2] },
+                start: [Guess::Position, Guess::Velocity][case / 3 % 2],
+                max_iterations: 1 + case % 7,
+                tolerance: if case % 11 == 0 { number() } else { 1e-8 },
+                linear: linear[case / 5 % 3],
+            },
+            line_search: LineSearchSettings::default(),
+        };
+        let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
+        let Ok(mut body) = Simulation::new(body, &left_end(&mesh), settings) else {
+            ends[0] += 1;
+            continue;
+        };
+        let dt = number();
+        let velocities = shake(&mut Random::new(case as u64), &vec![[0.0; 3]; mesh.positions.len()], 3.0);
+        body.set_velocities(&velocities).expect("finite");
+        for step in 0..3 {
+            let before = (body.positions().to_vec(), body.velocities().to_vec());
+            let result = if step == 1 { body.equilibrate() } else { body.step(dt) };
+            match result {
+                Ok(report) => {
+                    let state = body.positions().iter().chain(body.velocities());
+                    assert!(state.flatten().all(|x| x.is_finite()), "{settings:?}, dt {dt:e}: {report:?}");
+                    let NewtonReport { residual, change, .. } = report.newton;
+                    assert!(residual.is_finite() && change <= 1e-9, "{settings:?}, dt {dt:e}: {report:?}");
+                    assert!(report.min_det.is_finite() && report.energies.elastic.is_finite(), "{report:?}");
+                    ends[1] += 1;
+                }
+                Err(_) => {
+                    assert_eq!(
+                        before,
+                        (body.positions().to_vec(), body.velocities().to_vec()),
+                        "{settings:?}"
+                    );
+                    ends[2] += 1;
+                }
+            }
+        }
+    }
+    assert!(ends.iter().all(|&count| count > 20), "refused, stepped, failed: {ends:?}");
+}
+
+#[test]
+fn the_solver_fits_the_body_and_may_be_chosen() {
+    assert_eq!(LinearSolver::for_elements(1031), LinearSolver::Cholesky);
+    assert!(matches!(LinearSolver::for_elements(50_000), LinearSolver::RefinedCholesky { .. }));
+    assert!(matches!(LinearSolver::for_elements(1_000_000), LinearSolver::ConjugateGradients { .. }));
+    let mesh = beam(3);
+    let run = |linear| {
+        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
+        let mut body = simulation(
+            &mesh,
+            ROTATED,
+            &left_end(&mesh),
+            Settings { gravity: [0.0, -9.81, 0.0], ..settings(newton) },
+        );
+        body.step(0.05).expect("a step")
+    };
+    assert_eq!(run(LinearSolver::Automatic), run(LinearSolver::Cholesky));
 }

@@ -11,7 +11,7 @@ use crate::system::{Body, Pins};
 
 use super::super::newton::NewtonError;
 use super::super::objective::Objective;
-use super::{Solution, Solver};
+use super::{Demand, Solution, Solver};
 
 /// A solver that fills a matrix and hands it to a factorisation.
 pub(super) struct Assembled<F> {
@@ -30,13 +30,14 @@ pub(super) struct Matrix {
 
 /// What is done with the matrix.
 pub(super) trait Factorisation: Send + Sync {
-    /// Replaces b by the solution; `fill` puts the second derivatives plus a multiple of those of inertia into the matrix.
+    /// Replaces b by the solution, or leaves it where the matrix is indefinite and must not be; `fill` puts the second derivatives into the matrix, regularised so many times.
     fn solve(
         &mut self,
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-    ) -> Result<Solution, NewtonError>;
+        demand: Demand,
+    ) -> Result<Option<Solution>, NewtonError>;
 }
 
 impl Matrix {
@@ -78,11 +79,15 @@ impl<F: Factorisation> Solver for Assembled<F> {
     }
 
     fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey {
-        objective.elastic.linearise(objective.body, filter, &mut self.stiffnesses)
+        let survey = objective.elastic.linearise(objective.body, filter, &mut self.stiffnesses);
+        if let Some(viscosity) = objective.viscosity {
+            viscosity.add_to(&mut self.stiffnesses);
+        }
+        survey
     }
 
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.stiffnesses.add_product(objective.body, displacement, total);
+        self.stiffnesses.add_product(objective.body, 1.0, |node| displacement[node], total);
         objective.quadratic.add_product(displacement, total);
     }
 
@@ -91,7 +96,8 @@ impl<F: Factorisation> Solver for Assembled<F> {
         objective: &Objective<'_>,
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
-    ) -> Result<Solution, NewtonError> {
+        demand: Demand,
+    ) -> Result<Option<Solution>, NewtonError> {
         let Self { stiffnesses, matrix, unknowns, factorisation } = self;
         let nodes = matrix.pattern.node_of_free();
         for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(nodes) {
@@ -101,17 +107,18 @@ impl<F: Factorisation> Solver for Assembled<F> {
         }
         let fill = |shift: f64, Matrix { pattern, values }: &mut Matrix| {
             let quadratic = &objective.quadratic;
-            let diagonal = |node: usize| quadratic.diagonal(node) + shift * quadratic.inertia(node);
+            let diagonal =
+                |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
             stiffnesses.fill(pattern, diagonal, values);
             quadratic.add_pulls(pattern, values);
         };
-        let solution = factorisation.solve(matrix, fill, unknowns)?;
+        let Some(solution) = factorisation.solve(matrix, fill, unknowns, demand)? else { return Ok(None) };
         if unknowns.iter().any(|x| !x.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.pattern.node_of_free()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];
         }
-        Ok(solution)
+        Ok(Some(solution))
     }
 }

@@ -4,8 +4,8 @@ use crate::system::linear::{Cholesky, LinearError};
 use crate::system::pattern::Pattern;
 
 use super::super::newton::NewtonError;
-use super::Solution;
 use super::assembled::{Factorisation, Matrix};
+use super::{Demand, Solution};
 
 /// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky).
 pub(super) struct Exact {
@@ -19,19 +19,21 @@ impl Exact {
 }
 
 /// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or where inertia is lost
-/// beside the stiffness, it may not be. Inertia is then added tenfold more each time, as if the time step were shorter.
+/// beside the stiffness, it may not be. Mass is then added tenfold more each time, as if the time step were shorter.
 impl Factorisation for Exact {
     fn solve(
         &mut self,
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-    ) -> Result<Solution, NewtonError> {
+        demand: Demand,
+    ) -> Result<Option<Solution>, NewtonError> {
         let mut shift = 0.0;
         loop {
             fill(shift, matrix);
             match self.cholesky.factor(matrix.entries()) {
                 Ok(()) => break,
+                Err(LinearError::NotPositive { .. }) if demand.definite => return Ok(None),
                 Err(LinearError::NotPositive { .. }) if shift < 1e12 => {
                     shift = if shift == 0.0 { 1.0 } else { 10.0 * shift }
                 }
@@ -40,6 +42,6 @@ impl Factorisation for Exact {
             }
         }
         self.cholesky.solve(b);
-        Ok(Solution { shift, ..Solution::default() })
+        Ok(Some(Solution { shift, ..Solution::default() }))
     }
 }

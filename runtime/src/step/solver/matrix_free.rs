@@ -7,9 +7,10 @@ use crate::system::linear::block_jacobi::BlockJacobi;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
 use crate::system::{Body, Pins};
 
+use super::super::damping::Viscosity;
 use super::super::newton::NewtonError;
 use super::super::objective::{Objective, Quadratic};
-use super::{Solution, Solver};
+use super::{Demand, Solution, Solver};
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
 ///
@@ -58,6 +59,9 @@ impl Solver for MatrixFree {
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
         self.stiffness.add_product(displacement, total);
         objective.quadratic.add_product(displacement, total);
+        if let Some(viscosity) = objective.viscosity {
+            viscosity.add_product(objective.body, |node| displacement[node], total);
+        }
     }
 
     fn solve(
@@ -65,23 +69,28 @@ impl Solver for MatrixFree {
         objective: &Objective<'_>,
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
-    ) -> Result<Solution, NewtonError> {
+        demand: Demand,
+    ) -> Result<Option<Solution>, NewtonError> {
         let Self { stiffness, pinned, blocks, preconditioner, conjugate_gradients, .. } = self;
-        let quadratic = &objective.quadratic;
         stiffness.diagonal_blocks(blocks);
-        quadratic.add_to_blocks(blocks);
+        objective.quadratic.add_to_blocks(blocks);
+        if let Some(viscosity) = objective.viscosity {
+            viscosity.add_to_blocks(objective.body, blocks);
+        }
         preconditioner.factor(blocks);
 
         for (direction, gradient) in direction.iter_mut().zip(gradient) {
             *direction = gradient.map(|g| -g);
         }
         pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
-        let mut system = Linearised { stiffness, quadratic, pinned, preconditioner };
-        let (tolerance, max_iterations) = (self.tolerance, self.max_iterations);
+        let Objective { body, quadratic, viscosity, .. } = objective;
+        let mut system =
+            Linearised { stiffness, quadratic, body, viscosity: *viscosity, pinned, preconditioner };
+        let tolerance = self.tolerance.min(demand.tolerance);
         let unknowns = direction.as_flattened_mut();
-        let solution =
-            Solution::of(conjugate_gradients.solve(&mut system, unknowns, tolerance, max_iterations))?;
-        if unknowns.iter().any(|x| !x.is_finite()) {
+        let iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, self.max_iterations);
+        let solution = Solution::of(iteration, demand)?;
+        if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
         Ok(solution)
@@ -92,6 +101,8 @@ impl Solver for MatrixFree {
 struct Linearised<'a> {
     stiffness: &'a mut FactoredStiffness,
     quadratic: &'a Quadratic<'a>,
+    body: &'a Body,
+    viscosity: Option<&'a Viscosity>,
     pinned: &'a [usize],
     preconditioner: &'a BlockJacobi,
 }
@@ -101,6 +112,9 @@ impl System for Linearised<'_> {
         let (x, product) = (vectors(x), product.as_chunks_mut().0);
         self.stiffness.multiply(x, product);
         self.quadratic.add_product(x, product);
+        if let Some(viscosity) = self.viscosity {
+            viscosity.add_product(self.body, |node| x[node], product);
+        }
         self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
     }
 

@@ -4,8 +4,8 @@ use crate::system::linear::LinearError;
 use crate::system::linear::refined::RefinedCholesky;
 
 use super::super::newton::NewtonError;
-use super::Solution;
 use super::assembled::{Factorisation, Matrix};
+use super::{Demand, Solution};
 
 /// [`LinearSolver::RefinedCholesky`](super::LinearSolver::RefinedCholesky).
 pub(super) struct Refined {
@@ -20,10 +20,14 @@ impl Factorisation for Refined {
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-    ) -> Result<Solution, NewtonError> {
+        demand: Demand,
+    ) -> Result<Option<Solution>, NewtonError> {
         fill(0.0, matrix);
         match self.factor.factor(matrix.entries()) {
-            Ok(()) => Solution::of(self.factor.solve(matrix.entries(), b, self.tolerance)),
+            Ok(()) => {
+                let tolerance = self.tolerance.min(demand.tolerance);
+                Solution::of(self.factor.solve(matrix.entries(), b, tolerance), demand)
+            }
             Err(LinearError::NotPositive { column }) => Err(matrix.not_positive(column, 0.0)),
             Err(error) => Err(NewtonError::Linear(error)),
         }

@@ -4,7 +4,7 @@ use crate::hand_written::RotatedLinear;
 use crate::mesh::embed::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::random::Random;
-use crate::step::{NewtonReport, NewtonSettings, Pull, Settings, SetupError, Simulation};
+use crate::step::{Damping, Filtering, NewtonReport, NewtonSettings, Pull, Settings, SetupError, Simulation};
 use crate::system::testing::{KIRCHHOFF, ROTATED, Scaled, beam, shake};
 
 const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
@@ -25,7 +25,12 @@ fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec
     let mut body = simulation(
         mesh,
         ROTATED,
-        Settings { gravity: [0.0, -9.81, 0.0], damping: 0.5, newton, ..Settings::default() },
+        Settings {
+            gravity: [0.0, -9.81, 0.0],
+            damping: Damping::Mass { rate: 0.5 },
+            newton,
+            ..Settings::default()
+        },
     );
     let last = body.body().elements().len() - 1;
     let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
@@ -99,8 +104,12 @@ fn any_number_of_threads_gives_the_same_bits() {
 fn negative_curvature_is_left_aside_and_reported() {
     let mesh = beam(6);
     for linear in INEXACT {
-        let newton =
-            NewtonSettings { filter: Filter::None, linear, max_iterations: 200, ..NewtonSettings::default() };
+        let newton = NewtonSettings {
+            filtering: Filtering::Always(Filter::None),
+            linear,
+            max_iterations: 200,
+            ..NewtonSettings::default()
+        };
         let mut body = simulation(&mesh, KIRCHHOFF, Settings { newton, ..Settings::default() });
         let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
         let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();

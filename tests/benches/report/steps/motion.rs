@@ -2,7 +2,7 @@
 
 use piola::material::{Inadmissible, Moduli};
 use piola::mesh::TetMesh;
-use piola::step::{NewtonSettings, Simulation};
+use piola::step::{Damping, NewtonSettings, Simulation};
 use piola::system::{self, Pins};
 use piola_materials::StableNeoHookean;
 use piola_scenes::geometry::Geometry;
@@ -142,7 +142,7 @@ fn pressed(mesh: &TetMesh, pinned: &[usize]) -> Vec<[f64; 3]> {
 
 fn free(mesh: &TetMesh, scene: &Scene, newton: NewtonSettings) -> Result<Flight, Box<dyn std::error::Error>> {
     let body = system::Body::new(mesh, free_material()?, scene.density)?;
-    let mut simulation = Simulation::new(body, &Pins::none(), step_settings(0.0, newton))?;
+    let mut simulation = Simulation::new(body, &Pins::none(), step_settings(Damping::None, newton))?;
     let rest_energy = simulation.energies().elastic;
     simulation.set_velocities(&turning_and_stretching(mesh))?;
     Ok(Flight { simulation, rest_energy })

@@ -1,0 +1,109 @@
+//! What takes energy out of a motion beside implicit Euler itself.
+//!
+//! Both kinds are parts of what a step minimises, with h the time step, xₙ the positions before it and K the stiffness
+//! there, its negative eigenvalues clamped:
+//!
+//! ```text
+//! mass         α/(2h) ‖x − xₙ‖²_M          force −α M v
+//! stiffness    β/(2h) (x − xₙ)ᵀK(x − xₙ)    force −β K v
+//! ```
+//!
+//! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: no damping can drive a
+//! body, however stiff or inverted it is.
+
+use crate::point::Filter;
+use crate::system::Body;
+use crate::system::assemble::Elastic;
+use crate::system::stiffnesses::ElementStiffnesses;
+
+/// Which forces work against velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Damping {
+    /// None: what implicit Euler takes away is all.
+    #[default]
+    None,
+    /// −α m v on each node: slows every motion alike, falling too.
+    Mass {
+        /// α, 1/s.
+        rate: f64,
+    },
+    /// −β K v with the stiffness K at the start of each step: slows deformation the more the faster it oscillates. A body
+    /// that moves as a whole without stress feels none of it. Costs 720 bytes for each element, and one more evaluation of the
+    /// stiffness in each step.
+    Stiffness {
+        /// β, s: a mode of the angular frequency ω decays like exp(−β ω² t/2).
+        time: f64,
+    },
+}
+
+impl Damping {
+    /// α, 1/s.
+    pub(super) fn rate(self) -> f64 {
+        match self {
+            Self::Mass { rate } => rate,
+            Self::None | Self::Stiffness { .. } => 0.0,
+        }
+    }
+
+    /// β, s.
+    pub(super) fn time(self) -> f64 {
+        match self {
+            Self::Stiffness { time } => time,
+            Self::None | Self::Mass { .. } => 0.0,
+        }
+    }
+
+    /// Memory for β K, where it is not zero.
+    pub(super) fn viscosity(self, body: &Body) -> Option<Viscosity> {
+        (self.time() > 0.0).then(|| Viscosity { stiffnesses: ElementStiffnesses::new(body), factor: 0.0 })
+    }
+
+    /// The rule that it breaks, if it breaks one.
+    pub(super) fn broken_rule(self) -> Option<&'static str> {
+        let (Self::Mass { rate: number } | Self::Stiffness { time: number }) = self else { return None };
+        (!(number >= 0.0 && number.is_finite())).then_some("damping must be finite and not negative")
+    }
+}
+
+/// β/h K of the step under way.
+pub(crate) struct Viscosity {
+    stiffnesses: ElementStiffnesses,
+    /// β/h.
+    factor: f64,
+}
+
+impl Viscosity {
+    /// Takes the stiffnesses where the energies were evaluated last.
+    pub(super) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, factor: f64) {
+        self.factor = factor;
+        elastic.linearise(body, Filter::Clamp, &mut self.stiffnesses);
+    }
+
+    /// Adds β/h K d for a displacement of each node.
+    pub(crate) fn add_product(
+        &self,
+        body: &Body,
+        displacement: impl Fn(usize) -> [f64; 3],
+        total: &mut [[f64; 3]],
+    ) {
+        self.stiffnesses.add_product(body, self.factor, displacement, total);
+    }
+
+    /// β/h dᵀK d.
+    pub(super) fn curvature(&self, body: &Body, displacement: &[[f64; 3]]) -> f64 {
+        self.factor * self.stiffnesses.quadratic_form(body, displacement)
+    }
+
+    /// Adds β/h K to the stiffnesses of the elements.
+    pub(crate) fn add_to(&self, stiffnesses: &mut ElementStiffnesses) {
+        stiffnesses.add(self.factor, &self.stiffnesses);
+    }
+
+    /// Adds the blocks of β/h K on its diagonal.
+    pub(crate) fn add_to_blocks(&self, body: &Body, blocks: &mut [[[f64; 3]; 3]]) {
+        self.stiffnesses.add_diagonal_blocks(body, self.factor, blocks);
+    }
+}
+
+#[cfg(test)]
+mod tests;
