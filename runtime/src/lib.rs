@@ -38,6 +38,7 @@
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind;
+//! * [`random`]: numbers for samples, the same on every machine;
 //! * [`contract`]: what a material must satisfy, as functions for tests;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces;
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers;
@@ -57,7 +58,7 @@ pub mod material;
 pub mod mesh;
 pub mod point;
 pub mod quotient;
-mod random;
+pub mod random;
 pub mod step;
 pub mod system;
 pub mod univariate;

@@ -8,7 +8,7 @@
 use piola::Real;
 use piola::point::Matrix3;
 
-use crate::random::Random;
+use piola::random::Random;
 
 /// A real type of one machine number, read and written by its bits.
 pub trait Precision: Real<Mask = bool> + PartialOrd {

@@ -20,7 +20,6 @@ pub mod compiled;
 pub mod declared;
 pub mod multiprecision;
 pub mod quotients;
-pub mod random;
 pub mod soundness;
 pub mod speed;
 pub mod stability;

@@ -19,10 +19,10 @@ use std::time::Instant;
 use piola::batch::Energy;
 use piola::material::Declared;
 use piola::point::Matrix3;
+use piola::random::Random;
 use piola::{Inversion, Material};
 use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::bits::{Family, Precision};
-use piola_tests::random::Random;
 use piola_tests::soundness::{Answer, Fault, check, check_element, check_single, check_single_accuracy};
 
 const PATTERNS: usize = 100_000;

@@ -9,9 +9,9 @@ use std::f64::consts::{LN_2, SQRT_2};
 
 use piola::Real;
 use piola::lanes::{Backend, Element, Kernel, Lanes};
+use piola::random::Random;
 use piola_tests::bits::Precision;
 use piola_tests::multiprecision::Multiprecision;
-use piola_tests::random::Random;
 
 /// Arguments of each function and region.
 const SAMPLES: usize = 6144;

@@ -8,11 +8,11 @@
 use piola::material::Declared;
 use piola::point::project::Filter;
 use piola::point::{self, Matrix3};
+use piola::random::Random;
 use piola::{Inversion, Real};
 use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::compiled;
 use piola_tests::multiprecision::Multiprecision;
-use piola_tests::random::Random;
 
 /// The constant of the judgement ‖P − P*‖ ≤ C u (‖P*‖ + ‖dP/dF‖ ‖H‖).
 const C: f64 = 30.0;

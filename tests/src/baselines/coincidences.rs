@@ -243,7 +243,7 @@ mod tests {
     use super::*;
     use crate::baselines::matrix::to_world;
     use crate::baselines::testing::{IDENTITY, convert, error, exact};
-    use crate::random::Random;
+    use piola::random::Random;
 
     const THRESHOLD: f64 = 1e-6;
 

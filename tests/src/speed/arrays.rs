@@ -9,7 +9,7 @@ use piola::batch::{Batch, Layout, LengthError, Stages};
 use piola::lanes::{Backend, Element, Kernel, Lanes, Real};
 
 use super::task::Task;
-use crate::random::Random;
+use piola::random::Random;
 
 /// What a task reads and writes, for a number of points that is a multiple of 64.
 #[derive(Debug)]

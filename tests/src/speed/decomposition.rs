@@ -10,7 +10,7 @@ use piola::point::{Matrix3, Svd, svd, svd_signed_by_determinant};
 use super::IN_CACHE;
 use super::arrays::Aligned;
 use super::task::Input;
-use crate::random::Random;
+use piola::random::Random;
 
 /// [`IN_CACHE`] deformation gradients and room for their frames and stretches.
 #[derive(Debug)]

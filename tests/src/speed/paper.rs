@@ -14,7 +14,7 @@ use super::IN_CACHE;
 use super::task::Input;
 use crate::baselines::decompositions;
 use crate::baselines::svd_gradients::{self, Regularization};
-use crate::random::Random;
+use piola::random::Random;
 
 /// [`IN_CACHE`] deformation gradients with room for P and the 81 entries of dP/dF.
 ///

@@ -3,7 +3,7 @@
 use piola::batch::{FACTORS, REST};
 use piola::point::Filter;
 
-use crate::random::Random;
+use piola::random::Random;
 
 /// What a batch is asked for: one of the methods of [`Batch`](piola::batch::Batch).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
