@@ -89,6 +89,7 @@ mod isochoric_neo_hookean;
 mod isochoric_ogden;
 mod knowles;
 mod lopez_pamies;
+mod matching;
 mod mooney_rivlin;
 mod mooney_rivlin_coupled;
 mod neo_hookean;
