@@ -9,7 +9,7 @@ use piola::Inversion;
 use piola_scenes::energy::Energy;
 use piola_scenes::error::Error;
 use piola_scenes::output::Newton;
-use piola_scenes::scene;
+use piola_scenes::scene::{self, Amplitude, Scene, Start, body};
 use piola_scenes::settings::{Files, Settings};
 
 /// Elastic bodies that collapse, invert and recover.
@@ -46,11 +46,11 @@ pub(crate) struct Run {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     dt: Option<f64>,
 
-    /// Material, as listed by `piola materials`, with --param for each of its parameters [default: the scene's].
+    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the scene's.
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
 
-    /// Value of a parameter of the material; lists as NAME=V,V,V.
+    /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all or none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<(String, Vec<f64>)>,
 
@@ -71,6 +71,19 @@ pub(crate) struct Run {
     /// open where a side is left out, such as `:,:0.05,:`; may be repeated.
     #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
     pins: Vec<String>,
+
+    /// Another body that comes with the program: horse, dinosaur or bar [default: the scene's].
+    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
+    body: Option<String>,
+
+    /// Of the random numbers of a scene that scrambles: the same seed gives the same start [default: the scene's, 1].
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere in the
+    /// body's bounding box [default: the scene's, 0.3].
+    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
+    amplitude: Option<Amplitude>,
 
     /// Another body: tetrahedra in Gmsh MSH 4.1, ASCII; the scene's places become shares of its bounding box.
     #[arg(long, value_name = "FILE")]
@@ -114,8 +127,10 @@ impl Run {
         let scene = scene::find(&self.scene)?;
         let described = Settings::of(scene);
         let mut energy = match self.material {
-            Some(name) => Energy::of(&name),
-            None => described.energy,
+            Some(name) if !described.energy.is(&name) => {
+                Energy::like(&name, described.energy.build()?.moduli)
+            }
+            _ => described.energy,
         };
         for (name, values) in self.parameters {
             energy = energy.with(&name, values);
@@ -123,9 +138,12 @@ impl Run {
         if let Some(inversion) = self.inversion {
             energy = energy.inverting(inversion);
         }
+        let body = self.body.map_or(Ok(described.body), |name| body::find(&name))?;
         let surface = self.surface;
         let settings = Settings {
             scene,
+            body,
+            start: start(scene, self.seed, self.amplitude)?,
             files: self.mesh.map(|mesh| Files { mesh, surface }),
             energy,
             density: self.density.unwrap_or(described.density),
@@ -140,6 +158,23 @@ impl Run {
             threads: self.threads,
         };
         Ok((settings, self.out.unwrap_or_else(|| PathBuf::from("out").join(scene.name))))
+    }
+}
+
+/// The scene's start with another seed or amplitude where it is a random one.
+fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
+    let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
+    match (scene.start, seed, amplitude) {
+        (Start::Scrambled { seed, amplitude }, other_seed, other_amplitude) => Ok(Start::Scrambled {
+            seed: other_seed.unwrap_or(seed),
+            amplitude: other_amplitude.unwrap_or(amplitude),
+        }),
+        (start, None, None) => Ok(start),
+        (_, seed, _) => Err(Error::NotScrambled {
+            option: if seed.is_some() { "--seed" } else { "--amplitude" },
+            scene: scene.name,
+            known: scene::SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
+        }),
     }
 }
 

@@ -1,5 +1,9 @@
 //! What a body is made of, chosen by name. The only file here that knows the catalogue.
+//!
+//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+//! incompressible rubberlike solids*, 1972.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use piola::Inversion;
@@ -15,11 +19,31 @@ use crate::error::Error;
 /// μ/ε², does not swamp that of the body.
 pub const EXTENSION: f64 = 0.1;
 
+/// Small-strain moduli of most bodies here: E = 1 MPa, ν = 0.45.
+#[must_use]
+pub fn soft() -> Moduli {
+    Moduli::from_young_poisson(1e6, 0.45)
+}
+
+/// Ogden's three exponents \[Ogden72\] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
+///
+/// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk response is that
+/// of the first Lamé parameter. The third term, of which natural rubber has a fortieth, resists flattening.
+#[must_use]
+pub fn ogden(moduli: Moduli) -> Energy {
+    const EXPONENTS: [f64; 3] = [1.3, 5.0, -2.0];
+    const SHARES: [f64; 3] = [0.6, 0.2, 0.2];
+    let mu: [f64; 3] = std::array::from_fn(|p| 2.0 * SHARES[p] * moduli.mu / EXPONENTS[p]);
+    Energy::of("Ogden").with("mu", mu).with("alpha", EXPONENTS).with("kappa", [moduli.lambda])
+}
+
 /// A material of the catalogue with its parameters, not yet checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Energy {
     material: String,
     parameters: Vec<(String, Vec<f64>)>,
+    /// What the parameters follow from where none is given.
+    moduli: Option<Moduli>,
     inversion: Option<Inversion>,
 }
 
@@ -27,7 +51,25 @@ impl Energy {
     /// The material of that name, in which case, spaces, `_` and `-` do not count.
     #[must_use]
     pub fn of(material: &str) -> Self {
-        Self { material: material.into(), parameters: Vec::new(), inversion: None }
+        Self { material: material.into(), parameters: Vec::new(), moduli: None, inversion: None }
+    }
+
+    /// The material of that name with these moduli at small strain: [`ogden`], or else the typical parameters of the
+    /// catalogue, [matched](Entry::matching). A parameter that is given later on takes their place, and all others must then be
+    /// given, too.
+    #[must_use]
+    pub fn like(material: &str, moduli: Moduli) -> Self {
+        match same_name(material, "Ogden") {
+            true => ogden(moduli),
+            false => Self { moduli: Some(moduli), ..Self::of(material) },
+        }
+    }
+
+    /// Whether it is the material of that name.
+    #[must_use]
+    pub fn is(&self, material: &str) -> bool {
+        let (one, other) = (entry_of(&self.material), entry_of(material));
+        one.zip(other).is_some_and(|(one, other)| one.name == other.name)
     }
 
     /// With a value for a parameter, or several for a list; an earlier value of that name is replaced.
@@ -50,18 +92,24 @@ impl Energy {
     /// # Errors
     /// Where there is no such material, it has no such parameter, one has no value, or the material refuses one.
     pub fn build(&self) -> Result<Substance, Error> {
-        let matches = |entry: &&Entry| {
-            same_name(entry.name, &self.material) || same_name(entry.description.name, &self.material)
-        };
-        let entry = CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
+        let entry = entry_of(&self.material).ok_or_else(|| Error::UnknownMaterial {
             name: self.material.clone(),
             known: CATALOGUE.iter().map(|entry| entry.name).collect(),
         })?;
-        let values = self.values(entry.name, &entry.description)?;
-        let inversion = self.inversion(&entry.description);
         let refused = |reason| Error::Inadmissible { material: entry.name, reason };
+        let matched = match self.moduli {
+            Some(moduli) if self.parameters.is_empty() => Some(entry.matching(moduli).map_err(refused)?),
+            _ => None,
+        };
+        let values = match &matched {
+            Some(values) => values.iter().map(Vec::as_slice).collect(),
+            None => self.values(entry.name, &entry.description)?,
+        };
+        let inversion = self.inversion(&entry.description);
+        let names = entry.description.parameters.iter().map(|parameter| parameter.name);
         Ok(Substance {
             name: entry.name,
+            parameters: names.zip(&values).map(|(name, values)| (name, values.to_vec())).collect(),
             elements: entry.elements(&values, inversion).map_err(refused)?,
             moduli: entry.moduli(&values, inversion).map_err(refused)?,
         })
@@ -93,10 +141,15 @@ impl Energy {
     }
 }
 
+/// Values by the names of the parameters.
+pub type Parameters = BTreeMap<&'static str, Vec<f64>>;
+
 /// A material with its parameters, checked.
 pub struct Substance {
     /// Its name in the catalogue.
     pub name: &'static str,
+    /// Its parameters.
+    pub parameters: Parameters,
     /// What elements see of it.
     pub elements: Box<dyn batch::Energy<f64>>,
     /// Its small-strain moduli.
@@ -150,6 +203,13 @@ impl fmt::Display for Page<'_> {
     }
 }
 
+/// The entry of the catalogue, by either of its names.
+fn entry_of(material: &str) -> Option<&'static Entry> {
+    CATALOGUE
+        .iter()
+        .find(|entry| same_name(entry.name, material) || same_name(entry.description.name, material))
+}
+
 /// Names are compared without what people write in different ways.
 fn same_name(one: &str, other: &str) -> bool {
     let letters = |name: &str| -> String {
@@ -196,6 +256,25 @@ mod tests {
             message(Energy::of("gent").with("mu", [1.0])).as_deref(),
             Some("gent needs a value for `jm`; add --param jm=…")
         );
+    }
+
+    #[test]
+    fn moduli_stand_in_for_parameters() {
+        for name in ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"] {
+            let moduli = Energy::like(name, soft()).build().map(|substance| substance.moduli);
+            let error =
+                moduli.map(|moduli| (moduli.young() / 1e6 - 1.0).abs().max((moduli.poisson() - 0.45).abs()));
+            // A dozen roundings.
+            assert!(error.as_ref().is_ok_and(|&error| error < 1e-14), "{name}: {error:?}");
+        }
+        let incomplete = Energy::like("stvk", soft()).with("mu", [1.0]).build().err();
+        assert!(matches!(incomplete, Some(Error::MissingParameters { .. })), "{incomplete:?}");
+    }
+
+    #[test]
+    fn a_material_answers_to_both_its_names() {
+        let energy = Energy::of("stvk");
+        assert!(energy.is("StVK") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
     }
 
     #[test]

@@ -16,6 +16,22 @@ pub enum Error {
         /// The names that exist.
         known: Vec<&'static str>,
     },
+    /// No body of that name.
+    UnknownBody {
+        /// The name as given.
+        name: String,
+        /// The names that exist.
+        known: Vec<&'static str>,
+    },
+    /// The scene puts no node anywhere at random.
+    NotScrambled {
+        /// What was asked for, such as `--seed`.
+        option: &'static str,
+        /// The scene.
+        scene: &'static str,
+        /// The scenes that do.
+        known: Vec<&'static str>,
+    },
     /// No material of that name.
     UnknownMaterial {
         /// The name as given.
@@ -131,6 +147,16 @@ impl fmt::Display for Error {
         match self {
             Self::UnknownScene { name, known } => {
                 write!(f, "there is no scene `{name}`; choose one of {}", list(known))
+            }
+            Self::UnknownBody { name, known } => {
+                write!(f, "there is no body `{name}`; choose one of {}, or a file with --mesh", list(known))
+            }
+            Self::NotScrambled { option, scene, known } => {
+                write!(
+                    f,
+                    "the scene `{scene}` has no use for {option}: it displaces nothing at random, as {} does",
+                    list(known)
+                )
             }
             Self::UnknownMaterial { name, known } => {
                 write!(

@@ -5,9 +5,10 @@ use std::fmt::Display;
 use std::path::Path;
 
 use piola::mesh::io::{parse_msh, parse_surface_obj};
-use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj};
+use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj, tetrahedral_box};
 
 use crate::error::Error;
+use crate::scene::body::{Body, Shape};
 use crate::settings::Settings;
 
 /// How far a surface vertex may lie outside the tetrahedra, as a share of the diagonal of their bounding box.
@@ -26,18 +27,13 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The body that the settings name: their files, or the scene's own.
+    /// The body that the settings name: their files, or one that comes with the program.
     ///
     /// # Errors
     /// [`Error::File`] where a file cannot be read or is malformed, [`Error::Geometry`] where what it says is no body
     /// or the surface is not in it.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
-        let scene = settings.scene;
-        let Some(files) = &settings.files else {
-            let mesh = readable(parse_msh(scene.mesh.text, Path::new(scene.mesh.name)))?;
-            let surface = readable(parse_surface_obj(scene.surface.text, Path::new(scene.surface.name)))?;
-            return Self::new(mesh, scene.mesh.name, &surface, scene.surface.name);
-        };
+        let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = readable(read_msh(&files.mesh))?;
         let mesh_name = files.mesh.display().to_string();
         match &files.surface {
@@ -49,6 +45,21 @@ impl Geometry {
                 usable(&mesh_name, mesh.rest_shapes())?;
                 let surface = boundary(&mesh);
                 Self::new(mesh, &mesh_name, &surface, &mesh_name)
+            }
+        }
+    }
+
+    fn of(body: Body) -> Result<Self, Error> {
+        match body.shape {
+            Shape::Files { mesh: file, surface: skin } => {
+                let mesh = readable(parse_msh(file.text, Path::new(file.name)))?;
+                let surface = readable(parse_surface_obj(skin.text, Path::new(skin.name)))?;
+                Self::new(mesh, file.name, &surface, skin.name)
+            }
+            Shape::Box { cells, size } => {
+                let mesh = usable(body.name, tetrahedral_box(cells, size))?;
+                let surface = boundary(&mesh);
+                Self::new(mesh, body.name, &surface, body.name)
             }
         }
     }

@@ -7,6 +7,7 @@
 
 pub mod energy;
 pub mod error;
+pub mod gauge;
 pub mod geometry;
 pub mod measure;
 pub mod output;

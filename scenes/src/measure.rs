@@ -2,18 +2,71 @@
 //!
 //! \[Horn87\] Horn, *Closed-form solution of absolute orientation using unit quaternions*, 1987.
 
+use std::collections::HashSet;
+
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
+
+/// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at most.
+const FLAT: f64 = 1e-12;
 
 type Point = Vector3<f64>;
 
-/// The smallest det F of all tetrahedra: their volumes as shares of those at rest.
+/// The smallest det F of all tetrahedra.
 #[must_use]
 pub fn min_det_f(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
-    let volume = |nodes: &[[f64; 3]], tet: &[usize; 4]| {
-        let [a, b, c, d] = tet.map(|node| Point::from(nodes[node]));
-        (b - a).cross(&(c - a)).dot(&(d - a))
-    };
-    tets.iter().map(|tet| volume(positions, tet) / volume(rest, tet)).fold(f64::INFINITY, f64::min)
+    dets(rest, positions, tets).fold(f64::INFINITY, f64::min)
+}
+
+/// How many tetrahedra are inside out: det F < 0, by more than the rounding errors of a flat one.
+#[must_use]
+pub fn inverted(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> usize {
+    dets(rest, positions, tets).filter(|&det| det < -FLAT).count()
+}
+
+/// det F of each tetrahedron: its volume as a share of that at rest.
+fn dets(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> impl Iterator<Item = f64> {
+    tets.iter().map(|tet| volume(positions, tet) / volume(rest, tet))
+}
+
+/// The volume of a tetrahedron, m³; negative where it is inside out.
+fn volume(nodes: &[[f64; 3]], tet: &[usize; 4]) -> f64 {
+    let [a, b, c, d] = tet.map(|node| Point::from(nodes[node]));
+    (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
+}
+
+/// The volume of all tetrahedra, m³.
+#[must_use]
+pub fn total_volume(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
+    tets.iter().map(|tet| volume(nodes, tet)).sum()
+}
+
+/// The mean length, m, of the edges of tetrahedra, each counted once; 0 where there are none.
+#[must_use]
+pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
+    let mut seen = HashSet::new();
+    let mut total = 0.0;
+    for &[a, b, c, d] in tets {
+        for (one, other) in [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)] {
+            if seen.insert((one.min(other), one.max(other))) {
+                total += (Point::from(nodes[one]) - Point::from(nodes[other])).norm();
+            }
+        }
+    }
+    total / seen.len().max(1) as f64
+}
+
+/// How many times as long as at rest the part of a body is that lies between two heights, m, at rest: the slope of the
+/// straight line that fits its nodes' heights best. NaN where fewer than two heights lie there.
+#[must_use]
+pub fn upright_stretch(rest: &[[f64; 3]], positions: &[[f64; 3]], [low, high]: [f64; 2]) -> f64 {
+    let between = || rest.iter().zip(positions).filter(|(rest, _)| low <= rest[1] && rest[1] <= high);
+    let count = between().count() as f64;
+    let mean = between().fold([0.0; 2], |[x, y], (rest, now)| [x + rest[1] / count, y + now[1] / count]);
+    let moments = between().fold([0.0; 2], |[xx, xy], (rest, now)| {
+        let (x, y) = (rest[1] - mean[0], now[1] - mean[1]);
+        [xx + x * x, xy + x * y]
+    });
+    moments[1] / moments[0]
 }
 
 /// The largest distance of a point from where it is at rest, m.
@@ -84,6 +137,28 @@ mod tests {
         let reflected = POINTS.map(|[x, y, z]| [x, y, -z]);
         assert!(max_distance(&POINTS, &aligned(&POINTS, &reflected)) > 0.3);
         assert_eq!(min_det_f(&POINTS, &reflected, &[[0, 1, 2, 3]]), -1.0);
+    }
+
+    #[test]
+    fn edges_are_counted_once_and_volumes_signed() {
+        let tets = [[0, 1, 2, 4], [1, 0, 2, 3]];
+        // 0–1, 0–2, 0–4, 1–2, 1–4, 2–4 and 0–3, 1–3, 2–3.
+        let lengths: [f64; 9] = [1.0, 4.0, 3.0, 5.0, 2.0, 3.0, 9.0, 10.0, 13.0];
+        let mean = lengths.iter().map(|square| square.sqrt()).sum::<f64>() / 9.0;
+        assert!((mean_edge_length(&POINTS, &tets) - mean).abs() < TOLERANCE);
+        assert_eq!(mean_edge_length(&POINTS, &[]), 0.0);
+        assert_eq!(total_volume(&POINTS, &[[0, 1, 2, 3]]), 1.0);
+        let reflected = POINTS.map(|[x, y, z]| [-x, y, z]);
+        assert_eq!(inverted(&POINTS, &reflected, &tets), 2);
+        assert_eq!(inverted(&POINTS, &POINTS, &tets), 0);
+    }
+
+    #[test]
+    fn the_stretch_is_that_between_the_heights() {
+        let rest = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 3.0, 0.0]];
+        let now = rest.map(|[x, y, z]| [x, 5.0 - 3.0 * y, z]);
+        assert_eq!(upright_stretch(&rest, &now, [0.5, 2.5]), -3.0);
+        assert!(upright_stretch(&rest, &now, [0.5, 1.5]).is_nan());
     }
 
     #[test]

@@ -2,16 +2,20 @@
 
 use std::fmt::Display;
 
-use piola::mesh::TetMesh;
+use piola::material::Moduli;
+use piola::mesh::{Bounds, TetMesh};
 use piola::step::{self, NewtonSettings, Simulation, StepReport};
 use piola::system::{Body, Part, Pins};
 
+use crate::energy::Parameters;
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::output::Newton;
 use crate::region;
-use crate::scene::{Pull, Start};
+use crate::scene::Pull;
 use crate::settings::Settings;
+
+mod start;
 
 /// The springs of a pull are together this much stiffer than a cube of the body's material and height.
 const GRIP: f64 = 10.0;
@@ -21,6 +25,8 @@ const GRIP: f64 = 10.0;
 pub struct Play {
     simulation: Simulation,
     material: &'static str,
+    parameters: Parameters,
+    moduli: Moduli,
     pulls: Vec<Grip>,
     dt: f64,
     frame: usize,
@@ -42,9 +48,17 @@ impl Play {
         let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
         let mut simulation =
             Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
-        let start = start(settings.scene.start, geometry, &pins);
+        let start = start::positions(settings.start, geometry, &pins);
         simulation.set_positions(&start).map_err(|error| setup(&error))?;
-        Ok(Self { simulation, material: substance.name, pulls, dt: settings.dt, frame: 0 })
+        Ok(Self {
+            simulation,
+            material: substance.name,
+            parameters: substance.parameters,
+            moduli: substance.moduli,
+            pulls,
+            dt: settings.dt,
+            frame: 0,
+        })
     }
 
     /// The body and its state.
@@ -62,6 +76,18 @@ impl Play {
     #[must_use]
     pub fn material(&self) -> &'static str {
         self.material
+    }
+
+    /// Parameters of its material.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Its small-strain moduli.
+    #[must_use]
+    pub fn moduli(&self) -> Moduli {
+        self.moduli
     }
 
     /// Solves the steps that follow in another way.
@@ -104,7 +130,8 @@ fn step_settings(settings: &Settings) -> step::Settings {
 /// The nodes that the settings pin, or else the scene.
 fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
-        let region = region::within(mesh.bounds(), settings.scene.pinned);
+        let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
+        let region = region::within(mesh.bounds(), pinned);
         let pin = format!("of the scene {}", settings.scene.name);
         return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, reason: error.to_string() });
     }
@@ -123,31 +150,14 @@ fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     })
 }
 
-/// Where the nodes are in frame 0.
-fn start(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
-    let rest = &geometry.mesh.positions;
-    match start {
-        Start::Rest => rest.clone(),
-        Start::Flattened => {
-            // The cage of tetrahedra reaches below the surface, and the ground lies under the surface.
-            let heights = geometry.surface_at(rest).into_iter().map(|vertex| f64::from(vertex[1]));
-            let ground = heights.fold(f64::INFINITY, f64::min);
-            let flat = |(node, &[x, y, z]): (usize, &[f64; 3])| {
-                if pins.nodes().binary_search(&node).is_ok() { [x, y, z] } else { [x, ground, z] }
-            };
-            rest.iter().enumerate().map(flat).collect()
-        }
-    }
-}
-
 /// A pull of a scene on the nodes of a body.
 #[derive(Debug)]
 struct Grip {
     pull: Pull,
     /// The nodes with their places at rest, m.
     nodes: Vec<(usize, [f64; 3])>,
-    /// Height of the body, m.
-    height: f64,
+    /// Of the body, m.
+    bounds: Bounds,
     /// Of the spring at each node, N/m.
     stiffness: f64,
 }
@@ -156,12 +166,11 @@ impl Grip {
     /// `young`, Pa, is the small-strain Young's modulus of the body.
     fn new(pull: Pull, mesh: &TetMesh, young: f64) -> Self {
         let bounds = mesh.bounds();
-        let height = bounds.size()[1];
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = GRIP * young * height / nodes.len().max(1) as f64;
-        Self { pull, nodes, height, stiffness }
+        let stiffness = GRIP * young * bounds.size()[1] / nodes.len().max(1) as f64;
+        Self { pull, nodes, bounds, stiffness }
     }
 
     /// The springs at a time, s.
@@ -169,7 +178,7 @@ impl Grip {
         let share = self.pull.share_at(time);
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {
-                let target = std::array::from_fn(|i| rest[i] + share * self.pull.by[i] * self.height);
+                let target = self.pull.motion.place(rest, share, self.bounds);
                 step::Pull::on_node(node, target, self.stiffness)
             })
         })

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use piola::mesh::TetMesh;
 
 use crate::error::Error;
+use crate::gauge;
 use crate::geometry::Geometry;
 use crate::measure;
 use crate::output::{Folder, PICTURE_FILE, SUMMARY_FILE, Summary, frame_file, write_ply};
@@ -17,6 +18,10 @@ use crate::settings::Settings;
 const TILES: usize = 12;
 /// How many frames are kept in memory to choose the tiles from.
 const CANDIDATES: usize = 400;
+
+/// Forces on a body that are together below this share of Young's modulus times the square of its size are rounding:
+/// those of ten thousand elements of its size, each with an error of a few roundings, are smaller still.
+const NO_FORCE: f64 = 1e-11;
 
 /// Plays a scene, calling `on_step` after every time step, and leaves surfaces, a picture and the summary in `folder`.
 ///
@@ -31,6 +36,15 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
 
     let mut recording = Recording::new(&geometry, settings, Folder::prepare(folder)?);
     recording.frame(0, play.simulation().positions())?;
+    let mesh = &geometry.mesh;
+    let pinned = play.simulation().pinned().len();
+    let start = play.simulation().positions();
+    let inverted_at_start = measure::inverted(&mesh.positions, start, &mesh.tets);
+    let starts_at_rest = distance_from_rest(mesh, start, pinned) <= Summary::RECOVERED;
+    let no_force =
+        NO_FORCE * play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets).powf(2.0 / 3.0);
+    let mut stationary_start = false;
+
     let mut times = Vec::with_capacity(settings.frames);
     let mut iterations = 0;
     let mut energy = 0.0;
@@ -39,23 +53,35 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         let report = threads.install(|| play.step());
         times.push(clock.elapsed());
         let report = report?;
+        if frame == 1 {
+            stationary_start = !starts_at_rest && report.newton.first_residual <= no_force;
+        }
         iterations += report.newton.iterations;
         energy = report.energies.elastic;
         recording.frame(frame, play.simulation().positions())?;
         on_step();
     }
 
-    let (mesh, simulation) = (&geometry.mesh, play.simulation());
-    let distance = distance_from_rest(mesh, simulation.positions(), simulation.pinned().len());
+    let distance = distance_from_rest(mesh, play.simulation().positions(), pinned);
+    let reading = match settings.scene.gauge {
+        Some(marks) => {
+            let material = settings.energy.build()?.elements;
+            Some(gauge::read(mesh, play.simulation(), marks, material.as_ref()))
+        }
+        None => None,
+    };
     let summary = Summary {
         scene: settings.scene.name.into(),
         material: play.material().into(),
+        parameters: play.parameters().clone(),
         tets: mesh.tets.len(),
         nodes: mesh.positions.len(),
         surface_vertices: geometry.surface_vertices(),
         frames: settings.frames,
         dt: settings.dt,
         newton_iterations_mean: iterations as f64 / settings.frames as f64,
+        inverted_at_start,
+        stationary_start,
         min_det_f: recording.min_det_f,
         max_distance_from_rest: distance,
         energy,
@@ -63,6 +89,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         steps_per_second: settings.frames as f64 / times.iter().sum::<Duration>().as_secs_f64(),
         newton: settings.newton,
         recovered: distance <= Summary::RECOVERED,
+        reading,
     };
     recording.finish(settings, &summary)?;
     Ok(summary)
@@ -141,7 +168,7 @@ impl<'a> Recording<'a> {
             .collect();
         let chosen = evenly_spread(&progress, TILES);
         let tiles: Vec<_> = chosen.into_iter().map(|index| self.candidates[index].0.clone()).collect();
-        let picture = contact_sheet(&tiles, &self.geometry.triangles, &settings.scene.style);
+        let picture = contact_sheet(&tiles, &self.geometry.triangles, &settings.body.style);
         self.folder.write(PICTURE_FILE, |file| picture.write_png(file).map_err(Into::into))?;
         self.folder.write(SUMMARY_FILE, |file| summary.write_json(file))?;
         self.folder.publish()

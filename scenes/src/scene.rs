@@ -5,21 +5,33 @@
 //!
 //! This module knows no solver: [`crate::run`] turns a description into motion.
 
+pub mod body;
 mod dinosaur;
 mod horse;
+mod motion;
+mod scramble;
+mod start;
+mod stretch;
+mod twist;
 
+pub use body::Body;
 pub use dinosaur::{DINOSAUR, DINOSAUR_OVERSTRETCHED};
 pub use horse::HORSE;
+pub use motion::{Motion, Pull};
+pub use scramble::{INSIDE_OUT, POINT, SCRAMBLE};
+pub use start::{Amplitude, Start};
+pub use stretch::STRETCH;
+pub use twist::TWIST;
 
 use piola::mesh::Bounds;
 use piola::step::Damping;
 
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::render::Style;
 
 /// Every scene, in the order in which they are listed.
-pub const SCENES: &[&Scene] = &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED];
+pub const SCENES: &[&Scene] =
+    &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED, &TWIST, &STRETCH, &SCRAMBLE, &INSIDE_OUT, &POINT];
 
 /// A body, what it is made of and what is done to it.
 #[derive(Clone, Debug)]
@@ -28,10 +40,8 @@ pub struct Scene {
     pub name: &'static str,
     /// What happens, in a sentence.
     pub about: &'static str,
-    /// The body's tetrahedra, as a Gmsh file.
-    pub mesh: Asset,
-    /// The surface embedded in them, as an OBJ file.
-    pub surface: Asset,
+    /// To whom.
+    pub body: Body,
     /// What the body is made of.
     pub energy: fn() -> Energy,
     /// Mass per rest volume, kg/m³.
@@ -42,54 +52,15 @@ pub struct Scene {
     pub dt: f64,
     /// How many steps of it.
     pub frames: usize,
-    /// Where the body is held, in shares of its bounding box.
-    pub pinned: Bounds,
+    /// Where the body is held, in shares of its bounding box; `None` for a free body.
+    pub pinned: Option<Bounds>,
     /// What it looks like before the first step.
     pub start: Start,
     /// What pulls at it.
     pub pulls: &'static [Pull],
-    /// What it looks like in pictures.
-    pub style: Style,
-}
-
-/// A file that is part of the program.
-#[derive(Clone, Copy, Debug)]
-pub struct Asset {
-    /// Its name, for messages.
-    pub name: &'static str,
-    /// What is in it.
-    pub text: &'static str,
-}
-
-/// Where the nodes are before the first step, all at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Start {
-    /// Where the mesh has them.
-    Rest,
-    /// All that are not pinned are moved straight down, or up, into the horizontal plane under the surface's lowest
-    /// vertex.
-    Flattened,
-}
-
-/// Springs from some of the nodes to points that move away from them, until they are let go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
-    /// Which nodes, in shares of the bounding box.
-    pub region: Bounds,
-    /// How far, in body heights.
-    pub by: [f64; 3],
-    /// The distance grows steadily until this time, s, and is then held.
-    pub reached: f64,
-    /// The springs vanish at this time, s.
-    pub released: f64,
-}
-
-impl Pull {
-    /// The share of the full distance at a time, None once released.
-    #[must_use]
-    pub fn share_at(&self, time: f64) -> Option<f64> {
-        (time < self.released).then(|| (time / self.reached).clamp(0.0, 1.0))
-    }
+    /// Between which heights, in shares of the body's, its stretch is measured against the stress in it, where it is a
+    /// specimen in a testing machine.
+    pub gauge: Option<[f64; 2]>,
 }
 
 /// The scene of that name.

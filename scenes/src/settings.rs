@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::output::Newton;
-use crate::scene::Scene;
+use crate::scene::{Amplitude, Body, Scene, Start};
 
 /// More would take longer to start than any scene to run.
 const MAX_THREADS: usize = 1024;
@@ -15,8 +15,12 @@ const MAX_THREADS: usize = 1024;
 pub struct Settings {
     /// What happens.
     pub scene: &'static Scene,
-    /// Another body than the scene's.
+    /// The body, where no files take its place.
+    pub body: Body,
+    /// Files of another body.
     pub files: Option<Files>,
+    /// What it looks like before the first step.
+    pub start: Start,
     /// What the body is made of.
     pub energy: Energy,
     /// Mass per rest volume, kg/m³.
@@ -50,7 +54,9 @@ impl Settings {
     pub fn of(scene: &'static Scene) -> Self {
         Self {
             scene,
+            body: scene.body,
             files: None,
+            start: scene.start,
             energy: (scene.energy)(),
             density: scene.density,
             gravity: 0.0,
@@ -80,6 +86,12 @@ impl Settings {
         if self.frames == 0 {
             let (quantity, value) = ("the number of --frames", 0.0);
             return Err(Error::OutOfRange { quantity, value, requirement: "at least 1" });
+        }
+        if let Start::Scrambled { amplitude: Amplitude::Edges(value), .. } = self.start
+            && !(value >= 0.0 && value.is_finite())
+        {
+            let quantity = "the --amplitude";
+            return Err(Error::OutOfRange { quantity, value, requirement: "finite and not negative" });
         }
         if self.threads > MAX_THREADS {
             let (quantity, value) = ("the number of --threads", self.threads as f64);

@@ -77,6 +77,7 @@ fn surface_outside_the_cage() {
 #[test]
 fn unknown_names_are_answered_with_those_that_exist() {
     check(&[], &["run", "hrose"], &["`hrose`", "`horse`", "`dinosaur`"]);
+    check(&[], &["run", "horse", "--body", "cow"], &["`cow`", "`horse`", "`bar`", "--mesh"]);
     check(&[], &["run", "horse", "--material", "steel"], &["`steel`", "piola materials"]);
     check(&[], &["run", "horse", "--param", "mue=1"], &["`mue`", "`mu`", "`lambda`"]);
     check(&[], &["run", "horse", "--pin", "hoof"], &["`hoof`", "LOW:HIGH"]);
@@ -90,6 +91,7 @@ fn inadmissible_parameters() {
     check(&[], &["run", "horse", "--param", "mu=-1"], &["mu", "-1"]);
     check(&[], &["run", "horse", "--param", "mu=1,2"], &["mu"]);
     check(&[], &["run", "horse", "--param", "mu"], &["NAME=VALUE"]);
+    check(&[], &["run", "horse", "--material", "stvk", "--param", "mu=1"], &["`lambda`", "--param"]);
     check(&[], &["run", "dinosaur", "--inversion", "1.5"], &["1.5", "epsilon"]);
 }
 
@@ -104,6 +106,16 @@ fn numbers_out_of_range() {
     check(&[], &["run", "horse", "--frames", "0"], &["--frames", "at least 1"]);
     check(&[], &["run", "horse", "--frames", "-3"], &["-3"]);
     check(&[], &["run", "horse", "--threads", "100000"], &["--threads", "100000", "at most"]);
+}
+
+#[test]
+fn only_scenes_that_scramble_take_a_seed() {
+    check(&[], &["run", "horse", "--seed", "3"], &["`horse`", "--seed", "`scramble`"]);
+    check(&[], &["run", "point", "--amplitude", "1"], &["`point`", "--amplitude", "`scramble`"]);
+    check(&[], &["run", "scramble", "--amplitude", "far"], &["far", "`box`"]);
+    for amplitude in ["-1", "NaN", "inf"] {
+        check(&[], &["run", "scramble", "--amplitude", amplitude], &["--amplitude", "finite"]);
+    }
 }
 
 #[test]

@@ -6,15 +6,18 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 18] = [
     "scene",
     "material",
+    "parameters",
     "tets",
     "nodes",
     "surface_vertices",
     "frames",
     "dt",
     "newton_iterations_mean",
+    "inverted_at_start",
+    "stationary_start",
     "min_det_f",
     "max_distance_from_rest",
     "energy",
@@ -32,6 +35,14 @@ fn piola(folder: &Path, arguments: &[&str]) -> Output {
 /// Runs a scene and returns its summary, having seen that everything is there and every number finite.
 #[track_caller]
 fn check(arguments: &[&str], scene: &str, frames: u64) -> Value {
+    let summary = check_with(arguments, scene, frames, &[]);
+    assert!(summary.get("reading").is_none(), "{summary}");
+    summary
+}
+
+/// The same, with these keys beside those of every summary.
+#[track_caller]
+fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let output = piola(folder.path(), arguments);
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -40,10 +51,10 @@ fn check(arguments: &[&str], scene: &str, frames: u64) -> Value {
     let text = fs::read_to_string(out.join("summary.json")).expect("a summary");
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     let object = summary.as_object().expect("an object");
-    assert_eq!(object.len(), KEYS.len(), "{text}");
-    for key in KEYS {
+    assert_eq!(object.len(), KEYS.len() + more.len(), "{text}");
+    for key in KEYS.iter().chain(more) {
         // What is not finite would be null.
-        assert!(object.get(key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
+        assert!(object.get(*key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
     }
     assert_eq!(object["scene"], scene);
     assert_eq!(object["frames"], frames);
@@ -133,6 +144,59 @@ fn dinosaur_comes_back_after_it_is_let_go() {
     // Released at 2 s, which is frame 60.
     let summary = check(&["run", "dinosaur"], "dinosaur", 360);
     assert_eq!(summary["recovered"], true, "{summary}");
+}
+
+#[test]
+fn a_twisted_bar_unwinds() {
+    let summary = check(&["run", "twist"], "twist", 300);
+    assert_eq!(summary["recovered"], true, "{summary}");
+    // Wound up for two seconds, which the summary of an earlier frame shows.
+    let wound = check(&["run", "twist", "--frames", "60"], "twist", 60);
+    assert!(wound["max_distance_from_rest"].as_f64().is_some_and(|distance| distance > 0.1), "{wound}");
+}
+
+#[test]
+fn rubber_is_stretched_as_its_energy_says() {
+    let summary = check_with(&["run", "stretch"], "stretch", 240, &["reading"]);
+    let read = |name: &str| summary["reading"][name].as_f64().expect("a number");
+    assert!((6.5..8.0).contains(&read("stretch")), "{summary}");
+    // The bar is not quite uniform between its marks: half a per cent at rest. It is still a little in motion, too.
+    let error = read("nominal_stress") / read("uniaxial_stress") - 1.0;
+    assert!(error.abs() < 0.01, "{error}: {summary}");
+}
+
+#[test]
+fn a_scrambled_body_finds_its_shape() {
+    let arguments = ["run", "scramble", "--body", "dinosaur", "--seed", "3", "--amplitude", "0.5"];
+    let summary = check(&arguments, "scramble", 300);
+    assert_eq!(summary["tets"], 1031);
+    assert!(summary["inverted_at_start"].as_u64().is_some_and(|count| count > 10), "{summary}");
+    assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&true.into(), &false.into()));
+}
+
+#[test]
+fn an_energy_blind_to_reflection_stays_inside_out() {
+    let arguments = ["run", "inside_out", "--material", "stvk", "--frames", "3"];
+    let summary = check(&arguments, "inside_out", 3);
+    assert_eq!(summary["inverted_at_start"], summary["tets"]);
+    assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&false.into(), &true.into()));
+    assert!(summary["energy"].as_f64().is_some_and(|energy| energy.abs() < 1e-12), "{summary}");
+}
+
+#[test]
+fn a_point_unfolds() {
+    let summary = check(&["run", "point"], "point", 300);
+    assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&true.into(), &false.into()));
+    assert_eq!(summary["min_det_f"], 0.0, "nothing turns inside out on the way");
+}
+
+#[test]
+fn another_material_is_as_stiff_as_that_of_the_scene() {
+    let summary = check(&["run", "horse", "--material", "stvk", "--frames", "1"], "horse", 1);
+    let value = |name: &str| summary["parameters"][name][0].as_f64().expect("a number");
+    // E = 1 MPa and ν = 0.45; a dozen roundings.
+    assert!((value("mu") * 2.9 / 1e6 - 1.0).abs() < 1e-14, "{summary}");
+    assert!((value("lambda") * 1.45 * 0.1 / 0.45e6 - 1.0).abs() < 1e-14, "{summary}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! A run in numbers.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -16,6 +17,17 @@ pub enum Newton {
     Full,
 }
 
+/// Stretch and stress of an upright specimen in a testing machine.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Reading {
+    /// How many times as long as at rest it is between its marks.
+    pub stretch: f64,
+    /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
+    pub nominal_stress: f64,
+    /// What the material of a bar with free sides says to that stretch, Pa; NaN where it says nothing.
+    pub uniaxial_stress: f64,
+}
+
 /// What came of a run. In JSON the keys are the names of the fields.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -23,6 +35,8 @@ pub struct Summary {
     pub scene: String,
     /// Name of the material.
     pub material: String,
+    /// Its parameters by name, in SI units.
+    pub parameters: BTreeMap<&'static str, Vec<f64>>,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.
@@ -35,6 +49,10 @@ pub struct Summary {
     pub dt: f64,
     /// Newton iterations per step, on average.
     pub newton_iterations_mean: f64,
+    /// How many tetrahedra are inside out before the first step: det F < 0.
+    pub inverted_at_start: usize,
+    /// Whether no force acts on the body at the start although it is not at rest: it stays as it is.
+    pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
     /// The largest distance of a node from its rest position in the final frame, in body heights. After the best rigid
@@ -50,6 +68,9 @@ pub struct Summary {
     pub newton: Newton,
     /// Whether the body is back: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
     pub recovered: bool,
+    /// What a testing machine reads at the end, of a scene that is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reading: Option<Reading>,
 }
 
 impl Summary {
@@ -66,11 +87,27 @@ impl Summary {
     }
 }
 
+/// A number in five digits.
+fn short(value: f64) -> String {
+    let digits = format!("{value:.4e}");
+    digits.parse::<f64>().map_or(digits, |rounded| rounded.to_string())
+}
+
 impl fmt::Display for Summary {
     /// Some lines for a reader.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let &Self { ref scene, ref material, tets, nodes, frames, dt, .. } = self;
-        writeln!(f, "{scene}: {tets} tetrahedra, {nodes} nodes, {material}")?;
+        write!(f, "{scene}: {tets} tetrahedra, {nodes} nodes, {material}")?;
+        for (name, values) in &self.parameters {
+            write!(f, " {name}={}", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(","))?;
+        }
+        writeln!(f)?;
+        if self.inverted_at_start > 0 {
+            writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
+        }
+        if self.stationary_start {
+            writeln!(f, "  stationary start: no force acts on the body where it starts, and it stays there")?;
+        }
         writeln!(
             f,
             "  {frames} steps of {dt:.4} s, {:.1} a second ({:.2} ms each, {:.2} Newton iterations)",
@@ -78,6 +115,13 @@ impl fmt::Display for Summary {
         )?;
         writeln!(f, "  smallest det F  {:.4}", self.min_det_f)?;
         writeln!(f, "  elastic energy  {:.3e} J at the end", self.energy)?;
+        if let Some(Reading { stretch, nominal_stress, uniaxial_stress }) = self.reading {
+            writeln!(
+                f,
+                "  stretch {stretch:.3} at a nominal stress of {nominal_stress:.4e} Pa; \
+                 uniaxial tension of the material gives {uniaxial_stress:.4e} Pa"
+            )?;
+        }
         write!(
             f,
             "  {}: at the end the farthest node is {:.2e} body heights from rest",

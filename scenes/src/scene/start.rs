@@ -1,0 +1,56 @@
+//! What a body looks like before the first step.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Where the nodes are before the first step, all without velocity. Nodes that are pinned are where the mesh has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// Where the mesh has them.
+    Rest,
+    /// Straight down, or up, in the horizontal plane under the surface's lowest vertex.
+    Flattened,
+    /// Anywhere near.
+    Scrambled {
+        /// Of the random numbers: the same seed gives the same start on every machine.
+        seed: u64,
+        /// How near.
+        amplitude: Amplitude,
+    },
+    /// Reflected through the middle of the bounding box.
+    Mirrored,
+    /// In the middle of the bounding box.
+    Collapsed,
+}
+
+/// How far from its place a node may be put.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amplitude {
+    /// Each coordinate by up to so many mean edge lengths of the tetrahedra, either way.
+    Edges(f64),
+    /// Anywhere in the bounding box of the body.
+    Box,
+}
+
+impl FromStr for Amplitude {
+    type Err = &'static str;
+
+    /// Reads `box` or a number of mean edge lengths.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "box" => Ok(Self::Box),
+            number => {
+                number.parse().map(Self::Edges).map_err(|_| "write a number of mean edge lengths, or `box`")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Amplitude {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Edges(number) => write!(f, "{number}"),
+            Self::Box => f.write_str("box"),
+        }
+    }
+}
