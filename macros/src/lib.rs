@@ -6,10 +6,11 @@ use proc_macro::TokenStream;
 ///
 /// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`, with a
 /// checked constructor `new(parameters…)`. Its first argument names the three stretches, the others are the
-/// parameters: numbers `f64` or lists `[f64; N]`. The body is ordinary Rust:
+/// parameters: numbers `f64`, lists `[f64; N]` or functions such as `piola::Spline`. The body is ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
 /// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`;
+/// * `f(l1)` of a parameter that is a function;
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`;
 /// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1, `I2b` = J^(−4/3) I2.
 ///
@@ -18,7 +19,10 @@ use proc_macro::TokenStream;
 /// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent;
 /// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: what `new` checks, beside finite numbers and a stable rest state;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these conditions;
+/// * `refuse("why")`: it cannot;
 /// * `prestressed`: stress at rest is intended.
+///
+/// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is used.
 #[proc_macro_attribute]
 pub fn material(arguments: TokenStream, item: TokenStream) -> TokenStream {
     piola_codegen::expand(arguments.into(), item.into()).into()

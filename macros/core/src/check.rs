@@ -3,15 +3,19 @@
 //! Decided by evaluation at random points with random parameters, relative to what rounding could hide. A normal form
 //! would call (x + y)² and x² + 2xy + y² different.
 
-use syn::spanned::Spanned;
+use syn::Expr;
 
+use crate::culprit::culprit;
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
-use crate::expr::{Graph, Id, Node};
+use crate::expr::{Graph, Id};
 use crate::formula::formula;
 use crate::interpret::{Point, Value, evaluate};
+use crate::model::bounds;
 use crate::parse::Declaration;
 use crate::rational::Rational;
+use crate::resolve::Nodes;
+use crate::simplify::simplify;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
@@ -23,36 +27,55 @@ const CANDIDATES: usize = 20_000;
 /// Fewer samples than this say nothing.
 const FEWEST: usize = 2;
 
+/// Entries of a list beyond these are like those before.
+const LONGEST: usize = 8;
+
 /// Rounding errors of a few hundred operations, relative to the magnitudes that enter, stay below this.
 const NOISE: f64 = 1e-12;
 
+/// What the checks need of a declaration whose names are understood.
+pub struct Written<'a> {
+    /// The tokens.
+    pub declaration: &'a Declaration,
+    /// What each expression of the body stands for.
+    pub nodes: Nodes,
+    /// The energy as written.
+    pub energy: Id,
+    /// Expressions that are positive inside the domain, J apart, in the order of [`bounds`].
+    pub bounds: &'a [Id],
+    /// Expressions of parameters that are positive.
+    pub admissible: &'a [Id],
+    /// Whether the domain is J > 0.
+    pub positive: bool,
+}
+
+impl Written<'_> {
+    /// The term that alone breaks a rule, or all of them.
+    fn culprit(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&Expr> {
+        culprit(&self.declaration.body, |part| self.nodes.of(part).is_some_and(&mut breaks))
+    }
+}
+
 /// Points of the domain at which the energy and its derivatives are finite.
-pub fn samples(
-    graph: &mut Graph,
-    declaration: &Declaration,
-    energy: Id,
-    bounds: &[Id],
-    admissible: &[Id],
-    positive: bool,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Point> {
+pub fn samples(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) -> Vec<Point> {
+    let &Written { declaration, energy, positive, .. } = written;
     let gradient = Differentiator::default().derivative(graph, energy, 0);
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut found = Vec::new();
-    let mut excluded_rest = 0;
+    let mut excludes_rest = None;
     for attempt in 0..CANDIDATES {
         let point = candidate(declaration, &mut random, attempt, positive);
-        let holds = |ids: &[Id], point: &Point| ids.iter().all(|&id| evaluate(graph, id, point).value > 0.0);
-        if !holds(admissible, &point) {
+        let holds = |id: Id, point: &Point| evaluate(graph, id, point).value > 0.0;
+        if !written.admissible.iter().all(|&id| holds(id, &point)) {
             continue;
         }
-        let rest = Point { stretches: [1.0; 3], ..point.clone() };
-        if !holds(bounds, &rest) {
-            excluded_rest += 1;
+        let rest = at_rest(&point);
+        if let Some(k) = written.bounds.iter().position(|&id| !holds(id, &rest)) {
+            excludes_rest = Some(k);
             continue;
         }
         let is_finite = |id| evaluate(graph, id, &point).value.is_finite();
-        if holds(bounds, &point) && is_finite(energy) && is_finite(gradient) {
+        if written.bounds.iter().all(|&id| holds(id, &point)) && is_finite(energy) && is_finite(gradient) {
             found.push(point);
         }
         if found.len() == SAMPLES {
@@ -62,15 +85,15 @@ pub fn samples(
     if found.len() >= FEWEST {
         return found;
     }
-    if excluded_rest > 0 {
-        let span = declaration.options.domain.first().map_or(declaration.name.span(), Spanned::span);
-        diagnostics
-            .error(span, "the domain excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts");
-    } else {
-        diagnostics.error(
-            declaration.name.span(),
+    match excludes_rest.and_then(|k| bounds(declaration).nth(k)) {
+        Some(condition) => diagnostics.error(
+            condition,
+            "this excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts: widen the domain",
+        ),
+        None => diagnostics.error(
+            &declaration.name,
             "no parameters were found for which this energy is finite near rest: check its domain and `admissible(…)`",
-        );
+        ),
     }
     Vec::new()
 }
@@ -80,8 +103,8 @@ fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, pos
         .lengths
         .iter()
         .map(|length| match length {
-            syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. }) => {
-                literal.base10_parse().unwrap_or(3)
+            Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. }) => {
+                literal.base10_parse().unwrap_or(3).min(LONGEST)
             }
             _ => 3,
         })
@@ -107,73 +130,106 @@ fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, pos
 }
 
 /// ψ must not change when two stretches are exchanged.
-pub fn isotropy(
-    graph: &mut Graph,
-    declaration: &Declaration,
-    energy: Id,
-    samples: &[Point],
-    diagnostics: &mut Diagnostics,
-) {
+pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
     for (i, j) in [(0, 1), (1, 2)] {
-        let asymmetric = |id: Id| {
+        let is_asymmetric = |id: Id| {
             samples.iter().any(|point| {
                 let mut swapped = point.clone();
                 swapped.stretches.swap(i, j);
                 differ(evaluate(graph, id, point), evaluate(graph, id, &swapped))
             })
         };
-        if !asymmetric(energy) {
-            continue;
-        }
-        // Terms that cancel each other's asymmetry are innocent; a single guilty one can be named.
-        let terms = match graph.node(energy).clone() {
-            Node::Linear { terms, .. } => terms.into_iter().map(|(term, _)| term).collect(),
-            _ => vec![energy],
-        };
-        let guilty: Vec<_> = terms.into_iter().filter(|&term| asymmetric(term)).collect();
-        let names = &declaration.stretches;
-        let hint = match guilty[..] {
-            [term] => format!("the term `{}` does", formula(graph, declaration, term)),
-            _ => "its terms do".to_owned(),
-        };
-        diagnostics.error(
-            declaration.body.span(),
-            format!(
-                "an isotropic energy does not change when `{}` and `{}` are exchanged, but {hint}",
+        if is_asymmetric(written.energy) {
+            let names = &written.declaration.stretches;
+            let message = format!(
+                "an isotropic energy does not change when `{}` and `{}` are exchanged, but this does: write the same for all \
+                 three stretches",
                 names[i], names[j]
-            ),
-        );
-        return;
+            );
+            return diagnostics.error(written.culprit(is_asymmetric), message);
+        }
     }
 }
 
 /// ψ1 must vanish at λ = 1.
 pub fn rest(
     graph: &mut Graph,
-    declaration: &Declaration,
+    written: &Written<'_>,
     gradient: Id,
     samples: &[Point],
     diagnostics: &mut Diagnostics,
 ) {
+    let first = |graph: &mut Graph, part| Differentiator::default().derivative(graph, part, 0);
+    let is_finite = |graph: &Graph, derivative| {
+        samples.iter().all(|point| evaluate(graph, derivative, &at_rest(point)).value.is_finite())
+    };
+    if !is_finite(graph, gradient) {
+        let culprit = written.culprit(|part| {
+            let derivative = first(graph, part);
+            !is_finite(graph, derivative)
+        });
+        return diagnostics
+            .error(culprit, "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: take what vanishes there to a power of one or more");
+    }
     let one = graph.constant(Rational::ONE);
-    let stress = graph.substitute(gradient, [one; 3]);
-    let is_stressed = samples.iter().any(|point| {
-        let rest = Point { stretches: [1.0; 3], ..point.clone() };
-        let Value { magnitude, .. } = evaluate(graph, gradient, &rest);
-        let Value { value, .. } = evaluate(graph, stress, &rest);
-        let within = value.abs() <= NOISE * magnitude;
-        !within // NaN is a mistake too
+    let is_stressed = |graph: &mut Graph, gradient| {
+        let stress = graph.substitute(gradient, [one; 3]);
+        samples.iter().any(|point| {
+            let rest = at_rest(point);
+            let within = evaluate(graph, stress, &rest).value.abs()
+                <= NOISE * evaluate(graph, gradient, &rest).magnitude;
+            !within // NaN is a mistake too
+        })
+    };
+    // Only the constructor knows the slopes of functions.
+    if !written.declaration.has_functions() && is_stressed(graph, gradient) {
+        let culprit = written.culprit(|part| {
+            let derivative = first(graph, part);
+            is_stressed(graph, derivative)
+        });
+        let stress = graph.substitute(gradient, [one; 3]);
+        let stress = simplify(graph, stress);
+        let balance = if written.positive { "J.ln()" } else { "(J - 1.0)" };
+        let message = format!(
+            "this leaves the stress {} at rest: subtract that times `{balance}`, or say `prestressed` in the attribute",
+            formula(graph, written.declaration, stress)
+        );
+        diagnostics.error(culprit, message);
+    }
+}
+
+/// Some shear modulus must be positive, or the constructor would refuse all parameters.
+pub fn stiffness(
+    graph: &Graph,
+    written: &Written<'_>,
+    [shear, _]: [Id; 2],
+    samples: &[Point],
+    diagnostics: &mut Diagnostics,
+) {
+    let vanishes = samples.iter().all(|point| {
+        let Value { value, magnitude } = evaluate(graph, shear, point);
+        value.abs() <= NOISE * magnitude
     });
-    if is_stressed {
+    if vanishes && !written.declaration.has_functions() && diagnostics.is_clean() {
         diagnostics.error(
-            declaration.body.span(),
-            format!(
-                "the rest state carries the stress ψ1(1, 1, 1) = {}: add a term that cancels it, such as a multiple of \
-                 `J.ln()`, or say `prestressed` in the attribute",
-                formula(graph, declaration, stress)
-            ),
+            written.culprit(|_| false),
+            "the shear modulus of this energy is zero at rest: add a term that resists shear, such as `mu / 2.0 * (I1b - 3.0)`",
         );
     }
+}
+
+/// The derivatives must be exact; what a mistake found before has left of them need not.
+pub fn fractions(graph: &Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) {
+    if diagnostics.is_clean() && graph.overflowed() {
+        diagnostics.error(
+            written.culprit(|_| false),
+            "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers",
+        );
+    }
+}
+
+fn at_rest(point: &Point) -> Point {
+    Point { stretches: [1.0; 3], ..point.clone() }
 }
 
 fn differ(a: Value, b: Value) -> bool {

@@ -3,15 +3,16 @@
 use std::fmt::Display;
 
 use proc_macro2::Span;
+use quote::ToTokens;
 
 /// Mistakes found so far.
 #[derive(Debug, Default)]
 pub struct Diagnostics(Option<syn::Error>);
 
 impl Diagnostics {
-    /// Adds a mistake at a token.
-    pub fn error(&mut self, span: Span, message: impl Display) {
-        self.push(syn::Error::new(span, message));
+    /// Adds a mistake at its tokens, all of which are underlined.
+    pub fn error(&mut self, tokens: impl ToTokens, message: impl Display) {
+        self.push(syn::Error::new_spanned(tokens, message));
     }
 
     /// Adds the mistake of a failed step and goes on.

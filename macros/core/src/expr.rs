@@ -119,6 +119,11 @@ impl Graph {
         self.overflowed
     }
 
+    /// The same, and from here on only of what follows.
+    pub fn take_overflow(&mut self) -> bool {
+        std::mem::take(&mut self.overflowed)
+    }
+
     /// The id of a node that is in normal form by its nature: anything but sums and products.
     pub fn leaf(&mut self, node: Node) -> Id {
         if let Some(&id) = self.ids.get(&node) {

@@ -3,88 +3,122 @@
 //! So that one mistake gives one message, and not another one for each place that uses the material.
 
 use proc_macro2::TokenStream;
-use quote::quote;
-use syn::{FnArg, GenericParam, ItemFn, Pat, Type};
+use quote::{ToTokens, quote};
+use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
 
-use crate::parse::Declaration;
+use crate::parse::{Function, identifiers, is_f64, is_reserved, may_be_function};
 
-/// For an item whose form is wrong: as much of a type as its tokens allow.
+/// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
 #[must_use]
-pub fn without_form(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
+pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
     let errors = mistakes.to_compile_error();
-    let Ok(function) = syn::parse2::<ItemFn>(item) else { return errors };
-    let names: Vec<_> = function
-        .sig
-        .generics
-        .params
-        .iter()
-        .filter_map(|generic| match generic {
-            GenericParam::Const(constant) => Some(constant.ident.clone()),
-            _ => None,
-        })
-        .collect();
-    let arguments = function.sig.inputs.iter().skip(1).filter_map(|input| match input {
-        FnArg::Typed(argument) => match &*argument.pat {
-            Pat::Ident(name) => Some((name.ident.clone(), (*argument.ty).clone())),
-            _ => None,
-        },
-        FnArg::Receiver(_) => None,
-    });
-    let inert = inert_type(&function.vis, &function.sig.ident, &names, arguments.collect());
+    let inert = match Function::read(item.clone()) {
+        Ok(function) => inert_type(&function),
+        Err(_) => syn::parse2::<Item>(item).map(Item::into_token_stream).unwrap_or_default(),
+    };
     quote!(#errors #inert)
 }
 
-/// For a declaration whose meaning is wrong.
-#[must_use]
-pub fn inert(mistakes: &syn::Error, declaration: &Declaration) -> TokenStream {
-    let errors = mistakes.to_compile_error();
-    let arguments = declaration
-        .parameters
-        .iter()
-        .map(|parameter| (parameter.name.clone(), declaration.parameter_type(parameter)))
-        .collect();
-    let inert = inert_type(&declaration.visibility, &declaration.name, &declaration.generics, arguments);
-    quote!(#errors #inert)
+/// The lengths of lists, each once.
+fn lengths(signature: &Signature) -> Vec<Ident> {
+    let mut names: Vec<Ident> = Vec::new();
+    for generic in &signature.generics.params {
+        if let GenericParam::Const(constant) = generic
+            && !names.contains(&constant.ident)
+        {
+            names.push(constant.ident.clone());
+        }
+    }
+    names
 }
 
-fn inert_type(
-    visibility: &syn::Visibility,
-    name: &syn::Ident,
-    generics: &[syn::Ident],
-    arguments: Vec<(syn::Ident, Type)>,
-) -> TokenStream {
-    let (names, types): (Vec<_>, Vec<_>) = arguments.into_iter().unzip();
+/// What the constructor takes, and the parameters with their methods' results.
+fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Ident, Type)>) {
+    let (mut types, mut methods): (_, Vec<(Ident, Type)>) = (Vec::new(), Vec::new());
+    for input in signature.inputs.iter().skip(1) {
+        let FnArg::Typed(argument) = input else { continue };
+        let is_sound = is_sound(&argument.ty, signature, lengths);
+        let ty =
+            if is_sound { (*argument.ty).clone() } else { syn::parse_quote!(impl ::core::marker::Sized) };
+        types.push(ty);
+        if let Pat::Ident(name) = &*argument.pat
+            && !is_reserved(&name.ident)
+            && methods.iter().all(|(other, _)| *other != name.ident)
+        {
+            let result = match &*argument.ty {
+                ty if is_sound => ty.clone(),
+                Type::Array(_) | Type::Slice(_) | Type::Reference(_) => syn::parse_quote!(&[f64]),
+                _ => syn::parse_quote!(f64),
+            };
+            methods.push((name.ident.clone(), result));
+        }
+    }
+    (types, methods)
+}
+
+/// Whether the compiler knows a type, and a correct declaration could have it.
+fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
+    match ty {
+        Type::Array(array) => {
+            let is_length = match &array.len {
+                Expr::Lit(literal) => matches!(literal.lit, Lit::Int(_)),
+                Expr::Path(path) => lengths.iter().any(|length| path.path.is_ident(length)),
+                _ => false,
+            };
+            is_length && is_f64(&array.elem)
+        }
+        ty if may_be_function(ty) => {
+            let names = identifiers(ty.to_token_stream());
+            !signature.generics.params.iter().any(|generic| match generic {
+                GenericParam::Type(generic) => names.contains(&generic.ident),
+                GenericParam::Lifetime(generic) => names.contains(&generic.lifetime.ident),
+                GenericParam::Const(_) => false,
+            })
+        }
+        ty => is_f64(ty),
+    }
+}
+
+fn inert_type(function: &Function) -> TokenStream {
+    let Function { visibility, signature, .. } = function;
+    let name = &signature.ident;
+    let generics = lengths(signature);
+    let (types, methods) = parameters(signature, &generics);
+    let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
     let unreachable = quote!(::core::unreachable!("this material does not compile"));
     quote! {
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs)]
-        #visibility struct #name<#(const #generics: usize),*>;
+        #[allow(missing_docs, non_camel_case_types)]
+        #visibility struct #name<#(const #generics: usize),*> {}
 
-        #[allow(missing_docs, unused_variables, clippy::too_many_arguments)]
+        #[allow(missing_docs, dead_code, unused_variables, clippy::too_many_arguments)]
         impl<#(const #generics: usize),*> #name<#(#generics),*> {
-            pub fn new(#(#names: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
                 #unreachable
             }
-            pub fn with_inversion(
+            #visibility fn with_inversion(
                 self,
                 inversion: ::piola::Inversion,
             ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
                 #unreachable
             }
+            #(#visibility fn #methods(&self) -> #results {
+                #unreachable
+            })*
         }
 
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::Material for #name<#(#generics),*> {
-            fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
+            fn energy<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal {
                 #unreachable
             }
-            fn gradient<R: ::piola::Real>(&self, stretches: [R; 3]) -> [R; 3] {
+            fn gradient<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> [AnyReal; 3] {
                 #unreachable
             }
-            fn blocks<R: ::piola::Real>(&self, stretches: [R; 3]) -> ::piola::material::Blocks<R> {
+            fn blocks<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> ::piola::material::Blocks<AnyReal> {
                 #unreachable
             }
-            fn admits<R: ::piola::Real>(&self, stretches: [R; 3]) -> R::Mask {
+            fn admits<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal::Mask {
                 #unreachable
             }
             fn has_pole(&self) -> bool {
@@ -97,34 +131,34 @@ fn inert_type(
 
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Varying for #name<#(#generics),*> {
-            fn energy_of<R: ::piola::Real>(
+            fn energy_of<AnyReal: ::piola::Real>(
                 materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [R; 3],
-            ) -> R {
+                stretches: [AnyReal; 3],
+            ) -> AnyReal {
                 #unreachable
             }
-            fn gradient_of<R: ::piola::Real>(
+            fn gradient_of<AnyReal: ::piola::Real>(
                 materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [R; 3],
-            ) -> [R; 3] {
+                stretches: [AnyReal; 3],
+            ) -> [AnyReal; 3] {
                 #unreachable
             }
-            fn gradient_at_strains_of<R: ::piola::Real>(
+            fn gradient_at_strains_of<AnyReal: ::piola::Real>(
                 materials: &impl ::piola::material::Parameters<Self>,
-                strains: [R; 3],
-            ) -> [R; 3] {
+                strains: [AnyReal; 3],
+            ) -> [AnyReal; 3] {
                 #unreachable
             }
-            fn blocks_of<R: ::piola::Real>(
+            fn blocks_of<AnyReal: ::piola::Real>(
                 materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [R; 3],
-            ) -> ::piola::material::Blocks<R> {
+                stretches: [AnyReal; 3],
+            ) -> ::piola::material::Blocks<AnyReal> {
                 #unreachable
             }
-            fn admits_of<R: ::piola::Real>(
+            fn admits_of<AnyReal: ::piola::Real>(
                 materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [R; 3],
-            ) -> R::Mask {
+                stretches: [AnyReal; 3],
+            ) -> AnyReal::Mask {
                 #unreachable
             }
             fn inversion(&self) -> ::piola::Inversion {

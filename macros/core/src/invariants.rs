@@ -12,7 +12,7 @@
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
-use crate::model::volume_condition;
+use crate::model::bounds;
 use crate::parse::Declaration;
 use crate::resolve::Resolver;
 use crate::simplify::simplify;
@@ -33,8 +33,7 @@ pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<ByI
     let mut mistakes = Diagnostics::default();
     let mut resolver = Resolver::of_invariants(declaration, graph, &mut mistakes);
     let energy = resolver.energy();
-    let others = declaration.options.domain.iter().filter(|condition| volume_condition(condition).is_none());
-    let bounds = others.filter_map(|condition| resolver.condition(condition)).collect();
+    let bounds = bounds(declaration).filter_map(|condition| resolver.bound(condition)).collect();
     if !mistakes.is_clean() {
         return None;
     }

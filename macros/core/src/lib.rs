@@ -8,6 +8,7 @@
 //! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
 
 pub mod check;
+mod culprit;
 pub mod diagnostics;
 pub mod diff;
 pub mod divided;
@@ -26,23 +27,37 @@ pub mod rational;
 pub mod resolve;
 pub mod schedule;
 pub mod simplify;
+mod spelling;
 #[cfg(test)]
 mod testing;
 pub mod volume;
 
 use proc_macro2::TokenStream;
 
+use diagnostics::Diagnostics;
+use model::Model;
+use parse::Declaration;
+
 /// The expansion of `#[material(arguments)] item`.
 #[must_use]
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    let declaration = match parse::parse(arguments, item.clone()) {
-        Ok(declaration) => declaration,
-        Err(mistakes) => return fallback::without_form(&mistakes, item),
-    };
-    match model::model(&declaration) {
-        Ok(model) => emit::emit(&declaration, model),
-        Err(mistakes) => fallback::inert(&mistakes, &declaration),
+    match understand(arguments, item.clone()) {
+        Ok((declaration, model)) => emit::emit(&declaration, model),
+        Err(mistakes) => fallback::inert(&mistakes, item),
     }
+}
+
+/// What `#[material(arguments)] item` means.
+///
+/// # Errors
+/// All mistakes of form and meaning, each at its tokens.
+pub fn understand(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
+    let mut diagnostics = Diagnostics::default();
+    let understood = parse::read(arguments, item, &mut diagnostics).and_then(|declaration| {
+        let model = model::read(&declaration, &mut diagnostics)?;
+        Some((declaration, model))
+    });
+    diagnostics.finish(understood)
 }
 
 /// The declarations of a Rust source file, each as the arguments of its attribute and its item.

@@ -1,9 +1,8 @@
 //! From a declaration to everything that is emitted: the table of contents of the compiler.
 
-use syn::spanned::Spanned;
 use syn::{BinOp, Expr};
 
-use crate::check;
+use crate::check::{self, Written};
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
@@ -78,88 +77,79 @@ pub struct Variant {
 /// Understands, checks, differentiates.
 ///
 /// # Errors
-/// All mistakes of meaning, each at its token.
+/// All mistakes of meaning, each at its tokens.
 pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     let mut diagnostics = Diagnostics::default();
+    let model = read(declaration, &mut diagnostics);
+    diagnostics.finish(model)
+}
+
+/// The same after mistakes of form: names are looked up in spite of these, and nothing further is checked.
+pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
+    let options = &declaration.options;
     let mut graph = Graph::default();
-    let (energy, bounds, admissible, volume) = {
-        let mut resolver = Resolver::new(declaration, &mut graph, &mut diagnostics);
-        let energy = resolver.energy();
-        let options = &declaration.options;
-        let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
-        let others = options.domain.iter().filter(|condition| volume_condition(condition).is_none());
-        let bounds: Vec<_> = others.filter_map(|condition| resolver.condition(condition)).collect();
-        let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
-        let admissible: Vec<_> = conditions.filter_map(|c| resolver.condition(&without_index(c))).collect();
-        (energy, bounds, admissible, volume)
-    };
-    if !diagnostics.is_clean() {
-        return diagnostics.finish(None);
-    }
-    if declaration.options.extend.is_some() && volume == Volume::Any {
+    let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
+    let energy = resolver.energy();
+    let bounds: Vec<_> = bounds(declaration).filter_map(|condition| resolver.bound(condition)).collect();
+    let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
+    let admissible: Vec<_> =
+        conditions.filter_map(|condition| resolver.condition(condition, index(condition))).collect();
+    let nodes = resolver.into_nodes();
+    let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
+    if options.extend.is_some() && volume == Volume::Any {
         diagnostics.error(
-            declaration.name.span(),
+            options.words.iter().find(|word| *word == "extend"),
             "`extend` continues an energy beyond `domain(J > 0.0)` or `domain(J != 0.0)`: declare one of these or remove \
              `extend`",
         );
     }
-    if graph.overflowed() {
-        diagnostics.error(
-            declaration.body.span(),
-            "the numbers of this energy leave 128-bit fractions: use smaller ones",
-        );
+    if !diagnostics.is_clean() {
+        return None;
     }
     let positive = volume == Volume::Positive;
-    let samples =
-        check::samples(&mut graph, declaration, energy, &bounds, &admissible, positive, &mut diagnostics);
+    let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, positive };
+    let samples = check::samples(&mut graph, &written, diagnostics);
     if !samples.is_empty() {
-        check::isotropy(&mut graph, declaration, energy, &samples, &mut diagnostics);
+        check::isotropy(&graph, &written, &samples, diagnostics);
     }
     if !diagnostics.is_clean() {
-        return diagnostics.finish(None);
+        return None;
     }
 
     let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
-    let bounds = bounds.into_iter().map(&mut in_range).collect();
+    let bounds = bounds.iter().copied().map(&mut in_range).collect();
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
-    if !declaration.options.prestressed && !declaration.has_functions() {
-        check::rest(&mut graph, declaration, plain.gradient[0], &samples, &mut diagnostics);
+    check::fractions(&graph, &written, diagnostics);
+    if !options.prestressed && diagnostics.is_clean() {
+        check::rest(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     }
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
-        if declaration.options.prestressed {
+        if options.prestressed {
             let stress = at_rest(&mut graph, derivative);
             graph.add(stress, increment)
         } else {
             increment
         }
     });
-    let extended = declaration.options.extend.is_some().then(|| {
+    let extended = options.extend.is_some().then(|| {
         let extended = extension::extend(&mut graph, energy);
         derive(&mut graph, extended, &samples, false)
     });
     let moduli = moduli(&mut graph, &plain);
-    let invariants = by_invariants(declaration, &mut graph);
-    if graph.overflowed() {
-        diagnostics.error(
-            declaration.body.span(),
-            "the numbers of this energy leave 128-bit fractions: use smaller ones",
-        );
+    if !options.prestressed {
+        check::stiffness(&graph, &written, moduli, &samples, diagnostics);
     }
-    diagnostics.finish(Some(Model {
-        graph,
-        energy,
-        plain,
-        at_strains,
-        extended,
-        invariants,
-        bounds,
-        volume,
-        moduli,
-        samples,
-    }))
+    let invariants = by_invariants(declaration, &mut graph);
+    check::fractions(&graph, &written, diagnostics);
+    Some(Model { graph, energy, plain, at_strains, extended, invariants, bounds, volume, moduli, samples })
+}
+
+/// The conditions of the domain but those on the sign of the last stretch.
+pub(crate) fn bounds(declaration: &Declaration) -> impl Iterator<Item = &Expr> {
+    declaration.options.domain.iter().filter(|condition| volume_condition(condition).is_none())
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
@@ -236,13 +226,7 @@ pub fn indexed_lists(condition: &Expr) -> Vec<(syn::Ident, syn::Ident)> {
     lists.0
 }
 
-/// A condition on entries as a sum over them: enough to steer samples, which use equal signs for all entries.
-fn without_index(condition: &Expr) -> Expr {
-    let Some((_, index)) = indexed_lists(condition).into_iter().next() else { return condition.clone() };
-    let Expr::Binary(binary) = condition else { return condition.clone() };
-    let wrap = |side: &Expr| -> Expr {
-        if indexed_lists(side).is_empty() { side.clone() } else { syn::parse_quote!(sum(|#index| #side)) }
-    };
-    let (left, op, right) = (wrap(&binary.left), binary.op, wrap(&binary.right));
-    syn::parse_quote!(#left #op #right)
+/// What stands for all entries in a condition on them.
+fn index(condition: &Expr) -> Option<syn::Ident> {
+    indexed_lists(condition).into_iter().next().map(|(_, index)| index)
 }

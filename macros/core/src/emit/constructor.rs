@@ -3,11 +3,11 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use syn::{Expr, Ident};
+use syn::Expr;
 
 use super::{condition_text, generics};
 use crate::model::indexed_lists;
-use crate::parse::{Declaration, Parameter};
+use crate::parse::{Declaration, Parameter, identifiers};
 
 /// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration) -> TokenStream {
@@ -137,8 +137,9 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
     let text = condition_text(condition);
     let lists = indexed_lists(condition);
     let index = lists.first().map(|(_, index)| index.clone());
-    let given = declaration.parameters.iter().filter(|parameter| mentions(condition, &parameter.name)).map(
-        |parameter| {
+    let names = identifiers(condition.to_token_stream());
+    let given =
+        declaration.parameters.iter().filter(|parameter| names.contains(&parameter.name)).map(|parameter| {
             let name = &parameter.name;
             match &index {
                 Some(index) if parameter.length().is_some() => {
@@ -150,8 +151,7 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
                     quote!(::std::format!(#format, #name))
                 }
             }
-        },
-    );
+        });
     let test = quote! {
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
         if !(#condition) {
@@ -165,15 +165,4 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
         Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
         None => test,
     }
-}
-
-fn mentions(expression: &Expr, name: &Ident) -> bool {
-    fn search(tokens: TokenStream, name: &Ident) -> bool {
-        tokens.into_iter().any(|token| match token {
-            proc_macro2::TokenTree::Ident(ident) => ident == *name,
-            proc_macro2::TokenTree::Group(group) => search(group.stream(), name),
-            _ => false,
-        })
-    }
-    search(expression.to_token_stream(), name)
 }

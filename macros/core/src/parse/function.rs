@@ -1,0 +1,40 @@
+//! The outer form of a declaration: a function whose body is only tokens yet.
+
+use proc_macro2::{TokenStream, TokenTree};
+use syn::parse::{Parse, ParseStream};
+use syn::{Attribute, Signature, Visibility};
+
+/// A function of which everything but the body is understood: while somebody writes it, the body may be half an expression.
+pub(crate) struct Function {
+    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) visibility: Visibility,
+    pub(crate) signature: Signature,
+    pub(crate) body: TokenStream,
+}
+
+impl Function {
+    /// The function that an attribute stands on.
+    pub(crate) fn read(item: TokenStream) -> syn::Result<Self> {
+        let is_function =
+            item.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));
+        syn::parse2(item).map_err(|error| {
+            let message = if is_function {
+                format!("{error}; a declaration is `fn Name([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {{ … }}`")
+            } else {
+                "`#[material]` stands on a function from the stretches to the energy density".to_owned()
+            };
+            syn::Error::new(error.span(), message)
+        })
+    }
+}
+
+impl Parse for Function {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        Ok(Self {
+            attributes: input.call(Attribute::parse_outer)?,
+            visibility: input.parse()?,
+            signature: input.parse()?,
+            body: input.parse()?,
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! Sums over lists, and the entries of these.
+
+use syn::{Expr, ExprCall, ExprIndex, Ident, Pat};
+
+use super::{Resolver, Scope};
+use crate::expr::{Id, Length, Node};
+
+/// The index of a sum.
+pub(super) struct Index {
+    pub(super) name: Ident,
+    /// Of the lists that it has indexed so far.
+    pub(super) length: Option<Length>,
+    /// It has indexed what was meant to be a list, or is a list with a mistake.
+    pub(super) is_excused: bool,
+}
+
+impl Resolver<'_> {
+    pub(super) fn sum(&mut self, call: &ExprCall) -> Id {
+        if self.scope == Scope::Parameters {
+            return self
+                .mistake(call, "a condition has no sums: written as `mu[p] > 0.0`, it holds for each entry");
+        }
+        let closure = match call.args.first() {
+            Some(Expr::Closure(closure)) if call.args.len() == 1 && closure.inputs.len() == 1 => {
+                Some(closure)
+            }
+            _ => None,
+        };
+        let index = closure.and_then(|closure| match &closure.inputs[0] {
+            Pat::Ident(name) => Some((closure, &name.ident)),
+            _ => None,
+        });
+        let Some((closure, name)) = index else {
+            return self.mistake(call, "a sum is written `sum(|p| mu[p] * …)`");
+        };
+        if self.index.is_some() {
+            self.excuse();
+            return self.mistake(call, "sums cannot stand inside sums: write two sums and multiply them");
+        }
+        self.index = Some(Index { name: name.clone(), length: None, is_excused: false });
+        let body = self.expression(&closure.body);
+        match self.index.take() {
+            Some(Index { length: Some(length), .. }) => self.graph.sum(length, body),
+            Some(Index { is_excused: true, .. }) => body,
+            _ => self.mistake(name, &format!("this sum runs over no list: write `mu[{name}]` in it")),
+        }
+    }
+
+    pub(super) fn entry(&mut self, expression: &ExprIndex) -> Id {
+        let Some(list) = plain_name(&expression.expr) else {
+            self.excuse();
+            return self.mistake(expression, "an entry is written `mu[p]`, inside `sum(|p| …)`");
+        };
+        let name = list.to_string();
+        let position = self.declaration.parameters.iter().position(|parameter| parameter.name == *list);
+        let length = position.and_then(|k| self.declaration.parameters[k].length());
+        let (Some(k), Some(length)) = (position, length) else {
+            self.excuse();
+            let is_other = position.is_some() || self.is_taken(list);
+            if is_other && !self.mistaken.contains(&name) {
+                self.used.insert(name.clone());
+                let message =
+                    format!("`{name}` is not a list: write `{name}`, or declare `{name}: [f64; N]`");
+                return self.mistake(list, &message);
+            }
+            return self.name(list);
+        };
+        self.used.insert(name.clone());
+        let Some(index) = plain_name(&expression.index) else {
+            self.excuse();
+            return self
+                .mistake(expression, &format!("an entry is written `{name}[p]`, inside `sum(|p| …)`"));
+        };
+        match &mut self.index {
+            Some(around) if around.name == *index => match around.length {
+                Some(other) if other != length && around.is_excused => self.graph.leaf(Node::Entry(k)),
+                Some(other) if other != length => {
+                    around.is_excused = true;
+                    let message = format!(
+                        "`{name}` has another length than the lists before it in this sum: declare them with the same"
+                    );
+                    self.mistake(list, &message)
+                }
+                _ => {
+                    around.length = Some(length);
+                    self.graph.leaf(Node::Entry(k))
+                }
+            },
+            Some(around) => {
+                around.is_excused = true;
+                let message = format!("the index here is `{}`", around.name);
+                self.mistake(index, &message)
+            }
+            None => {
+                self.mistake(expression, &format!("entries are only read inside a sum: `sum(|p| {name}[p])`"))
+            }
+        }
+    }
+
+    /// What should have been an entry has a mistake of its own, so that its sum is not to blame.
+    fn excuse(&mut self) {
+        if let Some(index) = &mut self.index {
+            index.is_excused = true;
+        }
+    }
+}
+
+fn plain_name(expression: &Expr) -> Option<&Ident> {
+    match expression {
+        Expr::Path(path) => path.path.get_ident(),
+        _ => None,
+    }
+}
