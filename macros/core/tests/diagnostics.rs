@@ -1,5 +1,8 @@
 //! Mistakes: each gives one message, on its tokens, that says what to write.
 
+use std::fs;
+use std::path::Path;
+
 use proc_macro2::TokenStream;
 
 /// The messages of a declaration, each with the tokens that it stands on.
@@ -325,4 +328,33 @@ fn lists_of_a_sum_are_equally_long() {
 fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * }", &[("}", "expected an expression")]);
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);
+}
+
+/// How the compiler underlines tokens changes; what it says of the cases of `piola-macros` does not.
+#[test]
+fn the_compiler_shows_these_messages() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
+    let mut compared = 0;
+    for file in fs::read_dir(&folder).expect("the cases") {
+        let path = file.expect("a case").path();
+        if path.extension().is_none_or(|extension| extension != "rs") {
+            continue;
+        }
+        let source = fs::read_to_string(&path).expect("a case");
+        let declarations = piola_codegen::declarations(&source).expect("a Rust source");
+        let said: Vec<String> = declarations
+            .into_iter()
+            .flat_map(|(arguments, item)| piola_codegen::understand(arguments, item).err())
+            .flatten()
+            .map(|error| error.to_string())
+            .collect();
+        if said.is_empty() {
+            continue; // On another item than a function, or inside a module.
+        }
+        let shown = fs::read_to_string(path.with_extension("stderr")).expect("what the compiler shows");
+        let shown: Vec<_> = shown.lines().filter_map(|line| line.strip_prefix("error: ")).collect();
+        assert_eq!(shown, said, "{}", path.display());
+        compared += 1;
+    }
+    assert!(compared > 35, "{compared} cases");
 }
