@@ -11,6 +11,9 @@ use piola_scenes::error::Error;
 use piola_scenes::output::Newton;
 use piola_scenes::scene::{self, Amplitude, Scene, Start, body};
 use piola_scenes::settings::{Files, Settings};
+use piola_scenes::view::recording::Recording;
+use piola_scenes::view::state::State;
+use piola_scenes::view::{Begin, Options};
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -27,6 +30,11 @@ pub(crate) enum Command {
     /// Run a scene and write its surfaces, a picture and a summary.
     #[command(after_help = scenes())]
     Run(Box<Run>),
+    /// Show a scene in a browser, to be pulled with the mouse.
+    ///
+    /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it.
+    #[command(after_help = scenes())]
+    View(Box<View>),
     /// List the materials with formula, parameters and typical values of them, domain and small-strain moduli.
     Materials,
 }
@@ -34,13 +42,51 @@ pub(crate) enum Command {
 /// All quantities are in SI units; y points upwards.
 #[derive(Debug, Parser)]
 pub(crate) struct Run {
-    /// The scene.
-    #[arg(default_value = "horse")]
-    scene: String,
+    #[command(flatten)]
+    choice: Choice,
 
     /// Number of time steps [default: the scene's].
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
+
+    /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub(crate) struct View {
+    #[command(flatten)]
+    choice: Choice,
+
+    /// Port of the page on 127.0.0.1; 0 for any that is free.
+    #[arg(long, default_value_t = 8017)]
+    port: u16,
+
+    /// File that the page's button saves the state to [default: it is kept in memory].
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+
+    /// Go on from a saved state, to the last bit; it names its scene and options itself.
+    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    load: Option<PathBuf>,
+
+    /// Record all that is done to the body in a file.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+
+    /// Play a recording back, which names its scene and options itself; at its end the page takes over.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+}
+
+/// A scene, and what is to be different from it.
+#[derive(Debug, PartialEq, Parser)]
+struct Choice {
+    /// The scene.
+    #[arg(default_value = "horse")]
+    scene: String,
 
     /// Time step in s [default: the scene's, 1/30].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
@@ -100,13 +146,9 @@ pub(crate) struct Run {
     /// Threads for the solver; 0 for one per core.
     #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
-
-    /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum Iterations {
     Single,
     Full,
@@ -124,6 +166,29 @@ impl fmt::Display for Iterations {
 impl Run {
     /// What is asked for, and the folder for it.
     pub(crate) fn settings(self) -> Result<(Settings, PathBuf), Error> {
+        let mut settings = self.choice.settings()?;
+        settings.frames = self.frames.unwrap_or(settings.frames);
+        let name = settings.scene.name;
+        Ok((settings, self.out.unwrap_or_else(|| PathBuf::from("out").join(name))))
+    }
+}
+
+impl View {
+    /// What is asked for.
+    pub(crate) fn options(self) -> Result<Options, Error> {
+        let begin = match (&self.load, &self.replay) {
+            (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
+            _ if self.choice != Choice::parse_from(["piola"]) => return Err(Error::ScenesOwn),
+            (Some(path), _) => Begin::State(Box::new(State::read(path)?)),
+            (None, Some(path)) => Begin::Replay(Box::new(Recording::read(path)?)),
+        };
+        Ok(Options { begin, port: self.port, save: self.save, record: self.record })
+    }
+}
+
+impl Choice {
+    /// The scene with what is to be different.
+    fn settings(self) -> Result<Settings, Error> {
         let scene = scene::find(&self.scene)?;
         let described = Settings::of(scene);
         let mut energy = match self.material {
@@ -140,7 +205,7 @@ impl Run {
         }
         let body = self.body.map_or(Ok(described.body), |name| body::find(&name))?;
         let surface = self.surface;
-        let settings = Settings {
+        Ok(Settings {
             scene,
             body,
             start: start(scene, self.seed, self.amplitude)?,
@@ -149,15 +214,14 @@ impl Run {
             density: self.density.unwrap_or(described.density),
             gravity: self.gravity.unwrap_or(described.gravity),
             dt: self.dt.unwrap_or(described.dt),
-            frames: self.frames.unwrap_or(described.frames),
+            frames: described.frames,
             pins: self.pins,
             newton: match self.newton {
                 Iterations::Single => Newton::Single,
                 Iterations::Full => Newton::Full,
             },
             threads: self.threads,
-        };
-        Ok((settings, self.out.unwrap_or_else(|| PathBuf::from("out").join(scene.name))))
+        })
     }
 }
 

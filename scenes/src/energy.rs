@@ -10,6 +10,7 @@ use piola::Inversion;
 use piola::batch;
 use piola::material::{Description, Moduli};
 use piola_materials::{CATALOGUE, Entry};
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
@@ -38,12 +39,15 @@ pub fn ogden(moduli: Moduli) -> Energy {
 }
 
 /// A material of the catalogue with its parameters, not yet checked.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Energy {
     material: String,
     parameters: Vec<(String, Vec<f64>)>,
     /// What the parameters follow from where none is given.
+    #[serde(with = "moduli")]
     moduli: Option<Moduli>,
+    #[serde(with = "inversion")]
     inversion: Option<Inversion>,
 }
 
@@ -65,13 +69,6 @@ impl Energy {
         }
     }
 
-    /// Whether it is the material of that name.
-    #[must_use]
-    pub fn is(&self, material: &str) -> bool {
-        let (one, other) = (entry_of(&self.material), entry_of(material));
-        one.zip(other).is_some_and(|(one, other)| one.name == other.name)
-    }
-
     /// With a value for a parameter, or several for a list; an earlier value of that name is replaced.
     #[must_use]
     pub fn with(mut self, parameter: &str, values: impl Into<Vec<f64>>) -> Self {
@@ -87,15 +84,54 @@ impl Energy {
         self
     }
 
+    /// The material of that name with the typical parameters that the catalogue has for it.
+    ///
+    /// # Errors
+    /// Where there is no such material.
+    pub fn typical(material: &str) -> Result<Self, Error> {
+        let entry = find(material)?;
+        let parameters = entry.description.parameters.iter().zip(entry.typical);
+        Ok(parameters
+            .fold(Self::of(entry.name), |energy, (parameter, values)| energy.with(parameter.name, *values)))
+    }
+
+    /// The same with every parameter given.
+    ///
+    /// # Errors
+    /// As [`Energy::build`].
+    pub fn explicit(&self) -> Result<Self, Error> {
+        let parameters = self.build()?.parameters.into_iter();
+        let parameters = parameters.map(|(name, values)| (name.to_owned(), values)).collect();
+        Ok(Self { parameters, moduli: None, ..self.clone() })
+    }
+
+    /// Whether it is the material of that name, in the spelling that is forgiven.
+    #[must_use]
+    pub fn is(&self, material: &str) -> bool {
+        find(&self.material).is_ok_and(|entry| find(material).is_ok_and(|other| std::ptr::eq(entry, other)))
+    }
+
+    /// What the material says of itself.
+    ///
+    /// # Errors
+    /// Where there is no such material.
+    pub fn description(&self) -> Result<&'static Description, Error> {
+        find(&self.material).map(|entry| &entry.description)
+    }
+
+    /// The values given for a parameter, several for a list, none where none is given.
+    #[must_use]
+    pub fn values_of(&self, parameter: &str) -> &[f64] {
+        let given = self.parameters.iter().find(|(name, _)| name == parameter);
+        given.map_or(&[], |(_, values)| values)
+    }
+
     /// Looks the material up and checks its parameters.
     ///
     /// # Errors
     /// Where there is no such material, it has no such parameter, one has no value, or the material refuses one.
     pub fn build(&self) -> Result<Substance, Error> {
-        let entry = entry_of(&self.material).ok_or_else(|| Error::UnknownMaterial {
-            name: self.material.clone(),
-            known: CATALOGUE.iter().map(|entry| entry.name).collect(),
-        })?;
+        let entry = find(&self.material)?;
         let refused = |reason| Error::Inadmissible { material: entry.name, reason };
         let matched = match self.moduli {
             Some(moduli) if self.parameters.is_empty() => Some(entry.matching(moduli).map_err(refused)?),
@@ -156,6 +192,21 @@ pub struct Substance {
     pub moduli: Moduli,
 }
 
+/// Name and description of each material of the catalogue.
+pub fn catalogue() -> impl Iterator<Item = (&'static str, &'static Description)> {
+    CATALOGUE.iter().map(|entry| (entry.name, &entry.description))
+}
+
+/// The entry of that name, in the catalogue's spelling or that of the declaration.
+fn find(material: &str) -> Result<&'static Entry, Error> {
+    let matches =
+        |entry: &&Entry| same_name(entry.name, material) || same_name(entry.description.name, material);
+    CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
+        name: material.into(),
+        known: CATALOGUE.iter().map(|entry| entry.name).collect(),
+    })
+}
+
 /// A page for each material of the catalogue.
 pub fn pages() -> impl Iterator<Item = Page<'static>> {
     CATALOGUE.iter().map(|entry| Page {
@@ -203,11 +254,58 @@ impl fmt::Display for Page<'_> {
     }
 }
 
-/// The entry of the catalogue, by either of its names.
-fn entry_of(material: &str) -> Option<&'static Entry> {
-    CATALOGUE
-        .iter()
-        .find(|entry| same_name(entry.name, material) || same_name(entry.description.name, material))
+/// Moduli in files: the Lamé parameters `[mu, lambda]`, or null.
+mod moduli {
+    use piola::material::Moduli;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        moduli: &Option<Moduli>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        moduli.map(|Moduli { mu, lambda }| [mu, lambda]).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Moduli>, D::Error> {
+        let written = Option::<[f64; 2]>::deserialize(deserializer)?;
+        Ok(written.map(|[mu, lambda]| Moduli { mu, lambda }))
+    }
+}
+
+/// An inversion in files: `"refuse"`, `{"extend": STRETCH}`, or null where it is left to the material.
+mod inversion {
+    use piola::Inversion;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Written {
+        Refuse,
+        Extend(f64),
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        inversion: &Option<Inversion>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let written = inversion.map(|inversion| match inversion {
+            Inversion::Refuse => Written::Refuse,
+            Inversion::Extend { epsilon } => Written::Extend(epsilon),
+        });
+        written.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Inversion>, D::Error> {
+        let written = Option::<Written>::deserialize(deserializer)?;
+        Ok(written.map(|written| match written {
+            Written::Refuse => Inversion::Refuse,
+            Written::Extend(epsilon) => Inversion::Extend { epsilon },
+        }))
+    }
 }
 
 /// Names are compared without what people write in different ways.
@@ -246,6 +344,16 @@ mod tests {
     }
 
     #[test]
+    fn energies_survive_being_written() -> Result<(), Box<dyn std::error::Error>> {
+        for inversion in [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }] {
+            let energy = Energy::of("gent").with("mu", [0.1, 1e300]).inverting(inversion);
+            let text = serde_json::to_string(&energy)?;
+            assert_eq!(serde_json::from_str::<Energy>(&text)?, energy, "{text}");
+        }
+        Ok(())
+    }
+
+    #[test]
     fn unknown_and_missing_parameters_are_named() {
         let message = |energy: Energy| energy.values("gent", &GENT).err().map(|error| error.to_string());
         assert_eq!(
@@ -267,6 +375,11 @@ mod tests {
             // A dozen roundings.
             assert!(error.as_ref().is_ok_and(|&error| error < 1e-14), "{name}: {error:?}");
         }
+        let matched = Energy::like("gent", soft());
+        let explicit = matched.explicit();
+        assert!(explicit.as_ref().is_ok_and(|energy| energy.values_of("jm") == [108.0]), "{explicit:?}");
+        let moduli = |energy: &Energy| energy.build().map(|substance| substance.moduli);
+        assert_eq!(explicit.and_then(|energy| moduli(&energy)), moduli(&matched));
         let incomplete = Energy::like("stvk", soft()).with("mu", [1.0]).build().err();
         assert!(matches!(incomplete, Some(Error::MissingParameters { .. })), "{incomplete:?}");
     }

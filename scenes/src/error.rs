@@ -109,6 +109,15 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
+    /// A file that names its scene is given beside a scene or its options.
+    ScenesOwn,
+    /// The page cannot be served there.
+    Port {
+        /// The port as given.
+        port: u16,
+        /// What the system says.
+        reason: String,
+    },
     /// Threads cannot be started.
     Threads {
         /// What the system says.
@@ -207,6 +216,12 @@ impl fmt::Display for Error {
                     "cannot write to the folder {}: {reason}; name another one with --out",
                     path.display()
                 )
+            }
+            Self::ScenesOwn => f.write_str(
+                "the file names its scene and options itself; leave out all but --load or --replay, --port, --save and --record",
+            ),
+            Self::Port { port, reason } => {
+                write!(f, "cannot serve the page at port {port}: {reason}; name another one with --port, or 0 for any")
             }
             Self::Threads { reason } => write!(f, "cannot start threads: {reason}"),
             Self::Write { path, reason } => write!(f, "cannot write {}: {reason}", path.display()),

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Display;
 use std::path::Path;
 
+use piola::mesh::embed::Anchor;
 use piola::mesh::io::{parse_msh, parse_surface_obj};
 use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj, tetrahedral_box};
 
@@ -77,6 +78,12 @@ impl Geometry {
     #[must_use]
     pub fn surface_vertices(&self) -> usize {
         self.embedding.anchors().len()
+    }
+
+    /// The point of the tetrahedra that a vertex of the surface is; None where there is no such vertex.
+    #[must_use]
+    pub fn anchor(&self, vertex: usize) -> Option<Anchor> {
+        self.embedding.anchors().get(vertex).copied()
     }
 
     /// Where the surface's vertices are when the nodes are at `positions`; in the precision of files and pictures.

@@ -3,8 +3,11 @@
 //! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) say what a run does
 //! differently; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces, a picture and a summary in a folder.
 //!
-//! The crate holds no mechanics, models no contact with the floor that its pictures show, and shows nothing on a screen.
+//! [`view`] plays it for a page in a browser, where it can be pulled with the mouse.
+//!
+//! The crate holds no mechanics, models no contact with the floor that its pictures show, and opens no window.
 
+pub mod clock;
 pub mod energy;
 pub mod error;
 pub mod gauge;
@@ -17,3 +20,4 @@ pub mod render;
 pub mod run;
 pub mod scene;
 pub mod settings;
+pub mod view;

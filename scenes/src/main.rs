@@ -1,4 +1,4 @@
-//! The command `piola`: runs scenes, lists materials.
+//! The command `piola`: runs scenes, shows them in a browser, lists materials.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -10,16 +10,18 @@ use indicatif::{ProgressBar, ProgressStyle};
 use piola_scenes::energy;
 use piola_scenes::error::Error;
 use piola_scenes::run::run;
+use piola_scenes::view::Viewer;
 
 mod command;
 
-use command::{Cli, Command, Run};
+use command::{Cli, Command, Run, View};
 
 fn main() -> ExitCode {
     // A command line that makes no sense ends here, with status 2.
     let result = match Cli::parse().command {
         None => play(Run::parse_from(["piola"])),
         Some(Command::Run(arguments)) => play(*arguments),
+        Some(Command::View(arguments)) => view(*arguments),
         Some(Command::Materials) => {
             energy::pages().for_each(say);
             Ok(())
@@ -45,6 +47,13 @@ fn play(arguments: Run) -> Result<(), Error> {
     bar.finish_and_clear();
     say(result?);
     say(format_args!("  surfaces, frames.png and summary.json are in {}", folder.display()));
+    Ok(())
+}
+
+fn view(arguments: View) -> Result<(), Error> {
+    let viewer = Viewer::start(arguments.options()?)?;
+    say(format_args!("http://{}/ shows the scene; Ctrl-C ends it", viewer.address()));
+    viewer.wait();
     Ok(())
 }
 

@@ -3,10 +3,12 @@
 use std::fmt::Display;
 
 use piola::material::Moduli;
+use piola::mesh::embed::Anchor;
 use piola::mesh::{Bounds, TetMesh};
 use piola::step::{self, NewtonSettings, Simulation, StepReport};
 use piola::system::{Body, Part, Pins};
 
+use crate::clock::Clock;
 use crate::energy::Parameters;
 use crate::error::Error;
 use crate::geometry::Geometry;
@@ -26,10 +28,12 @@ pub struct Play {
     simulation: Simulation,
     material: &'static str,
     parameters: Parameters,
-    moduli: Moduli,
     pulls: Vec<Grip>,
-    dt: f64,
-    frame: usize,
+    hands: Vec<step::Pull>,
+    moduli: Moduli,
+    /// Of a pull, N/m.
+    stiffness: f64,
+    clock: Clock,
 }
 
 impl Play {
@@ -54,10 +58,11 @@ impl Play {
             simulation,
             material: substance.name,
             parameters: substance.parameters,
-            moduli: substance.moduli,
             pulls,
-            dt: settings.dt,
-            frame: 0,
+            hands: Vec::new(),
+            moduli: substance.moduli,
+            stiffness: stiffness(young, mesh),
+            clock: Clock::new(settings.dt),
         })
     }
 
@@ -84,10 +89,48 @@ impl Play {
         &self.parameters
     }
 
-    /// Its small-strain moduli.
+    /// The small-strain moduli of its material.
     #[must_use]
     pub fn moduli(&self) -> Moduli {
         self.moduli
+    }
+
+    /// Which step it is at, and what time that is.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Takes steps of another length from now on, s.
+    pub fn set_dt(&mut self, dt: f64) {
+        self.clock = self.clock.with_dt(dt);
+    }
+
+    /// Goes on from a state of the same body: positions, m, and velocities, m/s, one for each node.
+    ///
+    /// # Errors
+    /// Where there is not one finite position and velocity for each node.
+    pub fn resume(
+        &mut self,
+        clock: Clock,
+        positions: &[[f64; 3]],
+        velocities: &[[f64; 3]],
+    ) -> Result<(), Error> {
+        self.simulation.set_positions(positions).map_err(|error| setup(&error))?;
+        self.simulation.set_velocities(velocities).map_err(|error| setup(&error))?;
+        self.clock = clock;
+        Ok(())
+    }
+
+    /// A pull at one point of the body, as strong as one of a scene.
+    #[must_use]
+    pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Pull {
+        step::Pull { anchor, target, stiffness: self.stiffness }
+    }
+
+    /// Replaces the pulls that come beside those of the scene, from the next step on.
+    pub fn hold(&mut self, pulls: Vec<step::Pull>) {
+        self.hands = pulls;
     }
 
     /// Solves the steps that follow in another way.
@@ -103,15 +146,20 @@ impl Play {
     /// # Errors
     /// [`Error::Step`]; the state before the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
-        let frame = self.frame + 1;
-        let failed = |error: &dyn Display| Error::Step { frame, reason: error.to_string() };
-        let time = frame as f64 * self.dt;
-        let springs: Vec<step::Pull> = self.pulls.iter().flat_map(|grip| grip.at(time)).collect();
+        let clock = self.clock.next();
+        let failed = |error: &dyn Display| Error::Step { frame: clock.frame(), reason: error.to_string() };
+        let scene = self.pulls.iter().flat_map(|grip| grip.at(clock.time()));
+        let springs: Vec<step::Pull> = scene.chain(self.hands.iter().copied()).collect();
         self.simulation.set_pulls(&springs).map_err(|error| failed(&error))?;
-        let report = self.simulation.step(self.dt).map_err(|error| failed(&error))?;
-        self.frame = frame;
+        let report = self.simulation.step(clock.dt()).map_err(|error| failed(&error))?;
+        self.clock = clock;
         Ok(report)
     }
+}
+
+/// Of all springs of a pull together, N/m. `young`, Pa, is the small-strain Young's modulus of the body.
+fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
+    GRIP * young * mesh.bounds().size()[1]
 }
 
 fn setup(reason: &dyn Display) -> Error {
@@ -169,7 +217,7 @@ impl Grip {
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = GRIP * young * bounds.size()[1] / nodes.len().max(1) as f64;
+        let stiffness = stiffness(young, mesh) / nodes.len().max(1) as f64;
         Self { pull, nodes, bounds, stiffness }
     }
 

@@ -74,3 +74,21 @@ pub fn find(name: &str) -> Result<&'static Scene, Error> {
         known: SCENES.iter().map(|scene| scene.name).collect(),
     })
 }
+
+/// A scene in files: its name.
+pub(crate) mod by_name {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use super::{Scene, find};
+
+    pub(crate) fn serialize<S: Serializer>(scene: &&'static Scene, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(scene.name)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<&'static Scene, D::Error> {
+        find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}

@@ -2,18 +2,22 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Serialize};
+
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::output::Newton;
-use crate::scene::{Amplitude, Body, Scene, Start};
+use crate::scene::{self, Amplitude, Body, Scene, Start};
 
 /// More would take longer to start than any scene to run.
 const MAX_THREADS: usize = 1024;
 
 /// What a run is asked for: a scene, and what is to be different from it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// What happens.
+    #[serde(with = "scene::by_name")]
     pub scene: &'static Scene,
     /// The body, where no files take its place.
     pub body: Body,
@@ -40,7 +44,8 @@ pub struct Settings {
 }
 
 /// Files of a body.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Files {
     /// Tetrahedra, Gmsh MSH 4.1 in ASCII.
     pub mesh: PathBuf,

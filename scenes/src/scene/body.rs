@@ -1,9 +1,12 @@
 //! The bodies that come with the program.
 
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use crate::error::Error;
 use crate::render::Style;
 
-/// A body and what it looks like in pictures.
+/// A body and what it looks like in pictures. In files it is its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
     /// What it is called on the command line.
@@ -12,6 +15,18 @@ pub struct Body {
     pub shape: Shape,
     /// Its colour and the side that it is seen from.
     pub style: Style,
+}
+
+impl Serialize for Body {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for Body {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
 }
 
 /// Where the tetrahedra of a body and its surface come from.

@@ -3,8 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 /// Where the nodes are before the first step, all without velocity. Nodes that are pinned are where the mesh has them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Start {
     /// Where the mesh has them.
     Rest,
@@ -24,7 +27,8 @@ pub enum Start {
 }
 
 /// How far from its place a node may be put.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Amplitude {
     /// Each coordinate by up to so many mean edge lengths of the tetrahedra, either way.
     Edges(f64),

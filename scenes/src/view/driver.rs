@@ -1,0 +1,295 @@
+//! The thread that owns the body: takes orders between steps, steps by the clock on the wall, and answers whoever looks.
+//!
+//! It waits for nobody. A page gets a frame for each time it asks, made of the state at that moment; for one that does not
+//! ask nothing is made and nothing is kept.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError};
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPool;
+use tungstenite::Utf8Bytes;
+
+use super::protocol::{Act, Run};
+use super::recording::{Recorder, Recording};
+use super::session::Session;
+use super::show::{self, Frame, Tally};
+use crate::error::Error;
+
+/// At most so many orders are taken between two steps.
+const ORDERS: usize = 256;
+/// The speed is the mean over so many steps.
+const TIMED: usize = 32;
+/// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real time is
+/// played slowly, and does not race when it could.
+const LAG: Duration = Duration::from_millis(100);
+/// How long to wait for an order where no step is due in any time that a clock can name.
+const FOREVER: Duration = Duration::from_secs(3600);
+
+/// What the connections want.
+#[derive(Debug)]
+pub(super) enum Order {
+    Act {
+        act: Act,
+        answer: Sender<Answer>,
+    },
+    Run(Run),
+    /// A frame is wanted, of a later state than the one with this number.
+    Look {
+        seen: u64,
+        answer: Sender<Answer>,
+    },
+    /// A connection has ended; its pulls, which are those with these hands, end too.
+    Leave {
+        hands: std::ops::Range<u64>,
+    },
+}
+
+/// What a connection gets for it.
+#[derive(Clone, Debug)]
+pub(super) enum Answer {
+    Frame(Frame),
+    /// An act was refused; a message for the page.
+    Refused(Utf8Bytes),
+}
+
+/// A session with all that drives it.
+#[derive(Debug)]
+pub(super) struct Driver {
+    pub(super) session: Session,
+    pub(super) threads: ThreadPool,
+    /// Where states are saved to.
+    pub(super) save: Option<PathBuf>,
+    pub(super) recorder: Option<Recorder>,
+    /// What happens, in place of what pages ask for.
+    pub(super) replay: Option<Recording>,
+}
+
+impl Driver {
+    /// Plays until all who could give orders are gone.
+    pub(super) fn run(self, orders: &Receiver<Order>) {
+        let mut drive = Drive::new(self);
+        loop {
+            match drive.wait(orders) {
+                Ok(order) => drive.obey(order),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+            for order in orders.try_iter().take(ORDERS) {
+                drive.obey(order);
+            }
+            if drive.is_due() {
+                drive.step();
+            }
+            drive.answer();
+        }
+    }
+}
+
+/// The driver at work.
+struct Drive {
+    driver: Driver,
+    tally: Tally,
+    /// When the step before was due.
+    before: Instant,
+    /// What the last steps took.
+    times: VecDeque<Duration>,
+    /// Those who wait for a frame, and the state that each has seen.
+    lookers: Vec<(u64, Sender<Answer>)>,
+    /// Counts the states that could be seen.
+    state: u64,
+    revision: u64,
+    setup: Utf8Bytes,
+}
+
+impl Drive {
+    fn new(driver: Driver) -> Self {
+        let tally = Tally { real_time: true, ..Tally::default() };
+        let mut drive = Self {
+            driver,
+            tally,
+            before: Instant::now(),
+            times: VecDeque::with_capacity(TIMED),
+            lookers: Vec::new(),
+            state: 1,
+            revision: 0,
+            setup: Utf8Bytes::default(),
+        };
+        drive.set_up();
+        drive.play_back();
+        drive
+    }
+
+    /// The next order, or a time-out when a step is due.
+    fn wait(&self, orders: &Receiver<Order>) -> Result<Order, RecvTimeoutError> {
+        if self.tally.paused {
+            return orders.recv().map_err(|_| RecvTimeoutError::Disconnected);
+        }
+        let Some(due) = self.due() else { return orders.recv_timeout(FOREVER) };
+        match due.saturating_duration_since(Instant::now()) {
+            Duration::ZERO => orders.try_recv().map_err(|error| match error {
+                TryRecvError::Empty => RecvTimeoutError::Timeout,
+                TryRecvError::Disconnected => RecvTimeoutError::Disconnected,
+            }),
+            until_due => orders.recv_timeout(until_due),
+        }
+    }
+
+    /// When the next step is due, by the clock on the wall; None where nobody will live to see it.
+    fn due(&self) -> Option<Instant> {
+        if !self.tally.real_time {
+            return Some(self.before);
+        }
+        let dt = Duration::try_from_secs_f64(self.driver.session.settings().dt).ok()?;
+        self.before.checked_add(dt)
+    }
+
+    fn is_due(&self) -> bool {
+        !self.tally.paused && self.due().is_some_and(|due| due <= Instant::now())
+    }
+
+    fn obey(&mut self, order: Order) {
+        match order {
+            Order::Act { act, answer } => {
+                let result = match self.driver.replay {
+                    Some(_) => Err("a recording is played back; wait for its end".into()),
+                    None => self.act(&act).map_err(|error| error.to_string()),
+                };
+                if let Err(reason) = result {
+                    // Who has gone needs no answer.
+                    let _ = answer.send(Answer::Refused(show::refused(&act, &reason)));
+                }
+            }
+            Order::Run(Run::Pause { paused }) => {
+                self.tally.paused = paused;
+                self.tally.trouble = None;
+                self.before = Instant::now();
+            }
+            Order::Run(Run::Step {}) => {
+                self.tally.paused = true;
+                self.tally.trouble = None;
+                self.step();
+            }
+            Order::Run(Run::Pace { real_time }) => self.tally.real_time = real_time,
+            Order::Look { seen, answer } => {
+                self.lookers.push((seen, answer));
+                return;
+            }
+            Order::Leave { hands } => {
+                let left = self.driver.session.pulls().map(|(hand, _)| hand);
+                let left: Vec<_> = left.filter(|hand| hands.contains(hand)).collect();
+                if self.driver.replay.is_none() {
+                    for hand in left {
+                        // A release cannot fail.
+                        let _ = self.act(&Act::Release { hand });
+                    }
+                }
+            }
+        }
+        self.state += 1;
+    }
+
+    /// Does an act, and keeps it in recording and file.
+    fn act(&mut self, act: &Act) -> Result<(), Error> {
+        self.driver.session.apply(act)?;
+        let steps = self.driver.session.steps();
+        self.record(|recorder| recorder.act(steps, act));
+        if matches!(act, Act::Reset {} | Act::Restore {} | Act::Material { .. } | Act::Parameter { .. }) {
+            self.tally.trouble = None;
+        }
+        if let Act::Save {} = act
+            && let (Some(path), Some(state)) = (&self.driver.save, self.driver.session.saved())
+        {
+            state.write(path)?;
+        }
+        if !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {}) {
+            self.set_up();
+        }
+        Ok(())
+    }
+
+    fn step(&mut self) {
+        let Driver { session, threads, .. } = &mut self.driver;
+        let clock = Instant::now();
+        let result = threads.install(|| session.step());
+        let took = clock.elapsed();
+        match result {
+            Ok(report) => {
+                if self.times.len() == TIMED {
+                    self.times.pop_front();
+                }
+                self.times.push_back(took);
+                let total: Duration = self.times.iter().sum();
+                self.tally.steps_per_second = Some(self.times.len() as f64 / total.as_secs_f64());
+                self.tally.newton_iterations = report.newton.iterations;
+                self.tally.energies = report.energies;
+            }
+            Err(error) => {
+                self.tally.paused = true;
+                self.tally.trouble = Some(match error {
+                    Error::Step { frame, reason } => format!("the step to frame {frame} failed: {reason}"),
+                    error => error.to_string(),
+                });
+            }
+        }
+        let steps = session.steps();
+        self.record(|recorder| recorder.stepped(steps));
+        self.play_back();
+        self.state += 1;
+
+        let now = Instant::now();
+        let due = self.due().unwrap_or(now);
+        self.before = if self.tally.real_time && due + LAG > now { due } else { now };
+    }
+
+    /// Does what the recording says for the step to come, and pauses at its end.
+    fn play_back(&mut self) {
+        let Some(mut recording) = self.driver.replay.take() else { return };
+        let steps = self.driver.session.steps();
+        while let Some(act) = recording.next_before(steps) {
+            if let Err(error) = self.act(&act) {
+                self.tally.trouble = Some(format!("the recording asks for what is refused: {error}"));
+            }
+        }
+        if recording.is_over(steps) {
+            self.tally.paused = true;
+        } else {
+            self.driver.replay = Some(recording);
+        }
+    }
+
+    fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), Error>) {
+        if let Some(recorder) = &mut self.driver.recorder
+            && let Err(error) = write(recorder)
+        {
+            self.driver.recorder = None;
+            self.tally.trouble = Some(format!("the recording ends here: {error}"));
+        }
+    }
+
+    fn set_up(&mut self) {
+        let file = self.driver.save.as_ref().map(|path| path.display().to_string());
+        self.setup = show::setup(&self.driver.session, file.as_deref());
+        self.revision += 1;
+    }
+
+    /// Shows the present state to those who have not seen it.
+    fn answer(&mut self) {
+        if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
+            return;
+        }
+        self.tally.replays = self.driver.replay.is_some();
+        let frame = Frame {
+            state: self.state,
+            revision: self.revision,
+            setup: self.setup.clone(),
+            figures: show::figures(&self.driver.session, &self.tally),
+            positions: show::positions(&self.driver.session),
+        };
+        for (_, looker) in self.lookers.extract_if(.., |&mut (seen, _)| seen != self.state) {
+            // Who has gone needs no frame.
+            let _ = looker.send(Answer::Frame(frame.clone()));
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! A scene that is played with: every act has its effect before some step, and the same acts before the same steps give
+//! the same bits.
+//!
+//! This module knows no threads, no clock on the wall and no sockets.
+
+use std::collections::BTreeMap;
+
+use piola::step::{Pull, StepReport};
+
+use super::protocol::Act;
+use super::state::State;
+use crate::energy::Energy;
+use crate::error::Error;
+use crate::geometry::Geometry;
+use crate::play::Play;
+use crate::settings::Settings;
+
+/// More would be no pulls by people.
+const MAX_PULLS: usize = 64;
+/// Numbers of hands in files are below it, so that there are others for hands to come.
+const MAX_HAND: u64 = 1 << 62;
+/// How far a pull may lead from where the vertex is at rest, in body heights.
+const REACH: f64 = 100.0;
+
+/// A body, what it is made of at present, and who pulls at it.
+#[derive(Debug)]
+pub struct Session {
+    geometry: Geometry,
+    /// As they are now.
+    settings: Settings,
+    energy_at_start: Energy,
+    play: Play,
+    pulls: BTreeMap<u64, Held>,
+    saved: Option<State>,
+    steps: u64,
+}
+
+/// What a hand holds, and where it draws it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// A vertex of the surface.
+    pub vertex: usize,
+    /// The point that it is drawn to, m.
+    pub target: [f64; 3],
+}
+
+impl Session {
+    /// The scene before its first step.
+    ///
+    /// # Errors
+    /// Where the settings make no sense or do not fit the body.
+    pub fn new(settings: Settings) -> Result<Self, Error> {
+        let settings = Settings { energy: settings.energy.explicit()?, ..settings };
+        let geometry = Geometry::load(&settings)?;
+        let play = Play::new(&settings, &geometry)?;
+        let (pulls, energy_at_start) = (BTreeMap::new(), settings.energy.clone());
+        Ok(Self { geometry, settings, energy_at_start, play, pulls, saved: None, steps: 0 })
+    }
+
+    /// Goes on from where a state was kept, to the last bit.
+    ///
+    /// # Errors
+    /// As [`Session::new`], and where the state does not fit the body.
+    pub fn resume(state: State) -> Result<Self, Error> {
+        let mut session = Self::new(state.settings.clone())?;
+        session.go_to(&state)?;
+        session.saved = Some(state);
+        Ok(session)
+    }
+
+    /// The state, to go on from.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let simulation = self.play.simulation();
+        let pull = |(&hand, &Held { vertex, target }): (&u64, &Held)| Act::Pull { hand, vertex, target };
+        State::new(
+            self.settings.clone(),
+            self.energy_at_start.clone(),
+            self.play.clock(),
+            [simulation.positions(), simulation.velocities()],
+            self.pulls.iter().map(pull).collect(),
+        )
+    }
+
+    /// The body's shape at rest, and its surface.
+    #[must_use]
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// What is played, with material and time step as they are now.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The body in motion.
+    #[must_use]
+    pub fn play(&self) -> &Play {
+        &self.play
+    }
+
+    /// Who pulls at what, beside the scene.
+    pub fn pulls(&self) -> impl Iterator<Item = (u64, Held)> {
+        self.pulls.iter().map(|(&hand, &held)| (hand, held))
+    }
+
+    /// The state that was kept last.
+    #[must_use]
+    pub fn saved(&self) -> Option<&State> {
+        self.saved.as_ref()
+    }
+
+    /// How many steps have been made in this session, whatever was reset between them.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes the next step, in the rayon pool where it is called.
+    ///
+    /// # Errors
+    /// [`Error::Step`]; the state before the step is then untouched.
+    pub fn step(&mut self) -> Result<StepReport, Error> {
+        let report = self.play.step()?;
+        self.steps += 1;
+        Ok(report)
+    }
+
+    /// Does what a page asks for, before the next step.
+    ///
+    /// # Errors
+    /// Where it cannot be done. The state is then as before.
+    pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
+        match act {
+            &Act::Pull { hand, vertex, target } => self.pull(hand, Held { vertex, target }),
+            Act::Release { hand } => {
+                self.pulls.remove(hand);
+                self.hold();
+                Ok(())
+            }
+            Act::ReleaseAll {} => {
+                self.release_all();
+                Ok(())
+            }
+            Act::Material { name, as_stiff } => {
+                let energy = self.material(name, *as_stiff)?;
+                self.change(Settings { energy, ..self.settings.clone() })
+            }
+            Act::Parameter { name, values } => {
+                let energy = self.settings.energy.clone().with(name, values.clone());
+                self.change(Settings { energy, ..self.settings.clone() })
+            }
+            &Act::TimeStep { seconds } => {
+                let settings = Settings { dt: seconds, ..self.settings.clone() };
+                settings.check()?;
+                self.settings = settings;
+                self.play.set_dt(seconds);
+                Ok(())
+            }
+            Act::Reset {} => {
+                self.play = Play::new(&self.settings, &self.geometry)?;
+                self.release_all();
+                Ok(())
+            }
+            Act::Save {} => {
+                self.saved = Some(self.state());
+                Ok(())
+            }
+            Act::Restore {} => {
+                let nothing = || Error::Setup { reason: "no state has been saved yet".into() };
+                let state = self.saved.take().ok_or_else(nothing)?;
+                let result = self.go_to(&state);
+                self.saved = Some(state);
+                result
+            }
+        }
+    }
+
+    fn pull(&mut self, hand: u64, held: Held) -> Result<(), Error> {
+        self.spring(held)?;
+        if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&hand) {
+            let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
+            return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
+        }
+        self.pulls.insert(hand, held);
+        self.hold();
+        Ok(())
+    }
+
+    /// The spring of a pull, if there is that vertex and the target is not out of the world.
+    fn spring(&self, Held { vertex, target }: Held) -> Result<Pull, Error> {
+        let anchor = self.geometry.anchor(vertex).ok_or(Error::OutOfRange {
+            quantity: "the vertex of a pull",
+            value: vertex as f64,
+            requirement: "one of the surface",
+        })?;
+        let rest = &self.geometry.mesh;
+        let reach = REACH * rest.bounds().size()[1];
+        let place = anchor.position(&rest.positions);
+        match (0..3).map(|c| target[c]).zip(place).find(|(x, place)| !((x - place).abs() <= reach)) {
+            None => Ok(self.play.pull_at(anchor, target)),
+            Some((value, _)) => Err(Error::OutOfRange {
+                quantity: "a coordinate of a pull's target",
+                value,
+                requirement: "at most a hundred body heights from where the vertex is at rest",
+            }),
+        }
+    }
+
+    /// Lets the body feel the pulls.
+    fn hold(&mut self) {
+        let springs = self.pulls.values().filter_map(|&held| self.spring(held).ok()).collect();
+        self.play.hold(springs);
+    }
+
+    fn release_all(&mut self) {
+        self.pulls.clear();
+        self.hold();
+    }
+
+    /// The material of that name, with the parameters that it had at the start, or else typical ones.
+    fn material(&self, name: &str, as_stiff: bool) -> Result<Energy, Error> {
+        if self.energy_at_start.is(name) {
+            return Ok(self.energy_at_start.clone());
+        }
+        if as_stiff { Energy::like(name, self.play.moduli()).explicit() } else { Energy::typical(name) }
+    }
+
+    /// Makes the body another one where it is, with the speed that it has.
+    fn change(&mut self, settings: Settings) -> Result<(), Error> {
+        let mut play = Play::new(&settings, &self.geometry)?;
+        let simulation = self.play.simulation();
+        play.resume(self.play.clock(), simulation.positions(), simulation.velocities())?;
+        (self.play, self.settings) = (play, settings);
+        self.hold();
+        Ok(())
+    }
+
+    /// Makes the state what it was. All or nothing.
+    fn go_to(&mut self, state: &State) -> Result<(), Error> {
+        let unsound =
+            |reason: &str| Error::File { reason: format!("the state cannot be gone on from: {reason}") };
+        if !state.clock.is_sound() || state.clock.dt() != state.settings.dt {
+            return Err(unsound("its clock is wrong"));
+        }
+        let mut play = Play::new(&state.settings, &self.geometry)?;
+        play.resume(state.clock, &state.positions, &state.velocities)?;
+        let mut pulls = BTreeMap::new();
+        for act in &state.pulls {
+            let &Act::Pull { hand, vertex, target } = act else {
+                return Err(unsound("what should be a pull is none"));
+            };
+            if hand >= MAX_HAND || pulls.len() == MAX_PULLS {
+                return Err(unsound("there are too many pulls"));
+            }
+            let held = Held { vertex, target };
+            self.spring(held)?;
+            pulls.insert(hand, held);
+        }
+        self.play = play;
+        self.settings = state.settings.clone();
+        self.energy_at_start = state.energy_at_start.clone();
+        self.pulls = pulls;
+        self.hold();
+        Ok(())
+    }
+}
