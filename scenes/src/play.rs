@@ -31,7 +31,7 @@ pub struct Play {
     pulls: Vec<Grip>,
     hands: Vec<step::Pull>,
     moduli: Moduli,
-    /// Of a pull, N/m.
+    /// Of a cube of its material and height, N/m.
     stiffness: f64,
     clock: Clock,
 }
@@ -122,7 +122,7 @@ impl Play {
         Ok(())
     }
 
-    /// A pull at one point of the body, as strong as one of a scene.
+    /// A pull at one point of the body, as stiff as a cube of its material and height.
     #[must_use]
     pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Pull {
         step::Pull { anchor, target, stiffness: self.stiffness }
@@ -157,9 +157,9 @@ impl Play {
     }
 }
 
-/// Of all springs of a pull together, N/m. `young`, Pa, is the small-strain Young's modulus of the body.
+/// Of a cube of the body's height, N/m. `young`, Pa, is the small-strain Young's modulus of the body.
 fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
-    GRIP * young * mesh.bounds().size()[1]
+    young * mesh.bounds().size()[1]
 }
 
 fn setup(reason: &dyn Display) -> Error {
@@ -217,7 +217,7 @@ impl Grip {
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = stiffness(young, mesh) / nodes.len().max(1) as f64;
+        let stiffness = GRIP * stiffness(young, mesh) / nodes.len().max(1) as f64;
         Self { pull, nodes, bounds, stiffness }
     }
 

@@ -87,8 +87,11 @@ fn what_is_no_state_is_refused() {
     check(&|state| state["settings"]["density"] = json!(-1.0), "density");
     check(&|state| state["clock"]["since_frame"] = json!(7), "clock");
     check(&|state| state["positions"] = json!([[0.0, 0.0, 0.0]]), "found 1");
-    check(&|state| state["pulls"] = json!([{ "reset": {} }]), "pull");
-    check(&|state| state["pulls"] = json!([pull(1 << 40, [0.0; 3])]), "vertex");
+    let held =
+        |vertex: u64, place: f64| json!({ "vertex": vertex, "target": [0, 0, 0], "place": [place, 0, 0] });
+    check(&|state| state["pulls"] = json!({ "1": held(1 << 40, 0.0) }), "vertex");
+    check(&|state| state["pulls"] = json!({ "1": held(1, 1e9) }), "target");
+    check(&|state| state["pulls"] = json!({ u64::MAX.to_string(): held(1, 0.0) }), "too many pulls");
     std::fs::write(&file, "{").expect("a scratch file");
     assert!(matches!(State::read(&file), Err(Error::File { .. })));
 }

@@ -49,11 +49,10 @@ export class Slider {
     this.range.style.setProperty("--share", `${100 * share}%`);
   }
 
-  /** Shows the value that is in use, unless the user is at it. */
+  /** Shows the value that is in use, unless the user is at it or has to mend it. */
   follow(value) {
-    if (this.range.matches(":active") || document.activeElement === this.field) return;
-    this.refuse(null);
-    if (value !== this.value) this.set(value);
+    if (value === this.value) this.refuse(null);
+    else if (!this.range.matches(":active") && document.activeElement !== this.field && this.refusal.hidden) this.set(value);
   }
 
   /** Shows why the value is not taken, or with null that it is. */

@@ -31,7 +31,7 @@ export class Stage {
     this.key.shadow.mapSize.set(512, 512);
     this.key.shadow.radius = 4;
     this.key.shadow.blurSamples = 10;
-    this.key.shadow.bias = -0.0004;
+    this.key.shadow.bias = -0.004;
     this.scene.add(this.sky, this.key, this.key.target);
 
     this.floor = new THREE.Mesh(

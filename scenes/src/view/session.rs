@@ -5,7 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use piola::step::{Pull, StepReport};
+use piola::mesh::embed::Anchor;
+use piola::step::StepReport;
+use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
 use super::state::State;
@@ -21,6 +23,11 @@ const MAX_PULLS: usize = 64;
 const MAX_HAND: u64 = 1 << 62;
 /// How far a pull may lead from where the vertex is at rest, in body heights.
 const REACH: f64 = 100.0;
+/// How fast a hand moves at most, in body heights per second.
+///
+/// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a second, may fold
+/// into itself and find another equilibrium from which no elastic energy brings it back.
+const SPEED: f64 = 4.0;
 
 /// A body, what it is made of at present, and who pulls at it.
 #[derive(Debug)]
@@ -36,12 +43,15 @@ pub struct Session {
 }
 
 /// What a hand holds, and where it draws it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Held {
     /// A vertex of the surface.
     pub vertex: usize,
-    /// The point that it is drawn to, m.
+    /// The point that the hand is on its way to, m.
     pub target: [f64; 3],
+    /// Where the hand is, m; a spring joins it to the vertex.
+    pub place: [f64; 3],
 }
 
 impl Session {
@@ -72,13 +82,12 @@ impl Session {
     #[must_use]
     pub fn state(&self) -> State {
         let simulation = self.play.simulation();
-        let pull = |(&hand, &Held { vertex, target }): (&u64, &Held)| Act::Pull { hand, vertex, target };
         State::new(
             self.settings.clone(),
             self.energy_at_start.clone(),
             self.play.clock(),
             [simulation.positions(), simulation.velocities()],
-            self.pulls.iter().map(pull).collect(),
+            self.pulls.clone(),
         )
     }
 
@@ -122,9 +131,18 @@ impl Session {
     /// # Errors
     /// [`Error::Step`]; the state before the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
-        let report = self.play.step()?;
-        self.steps += 1;
-        Ok(report)
+        let before = self.pulls.clone();
+        let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
+        for held in self.pulls.values_mut() {
+            held.place = towards(held.place, held.target, way);
+        }
+        self.hold();
+        let result = self.play.step();
+        match result {
+            Ok(_) => self.steps += 1,
+            Err(_) => self.pulls = before,
+        }
+        result
     }
 
     /// Does what a page asks for, before the next step.
@@ -133,7 +151,7 @@ impl Session {
     /// Where it cannot be done. The state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
-            &Act::Pull { hand, vertex, target } => self.pull(hand, Held { vertex, target }),
+            &Act::Pull { hand, vertex, target } => self.pull(hand, vertex, target),
             Act::Release { hand } => {
                 self.pulls.remove(hand);
                 self.hold();
@@ -177,19 +195,22 @@ impl Session {
         }
     }
 
-    fn pull(&mut self, hand: u64, held: Held) -> Result<(), Error> {
-        self.spring(held)?;
+    fn pull(&mut self, hand: u64, vertex: usize, target: [f64; 3]) -> Result<(), Error> {
+        let anchor = self.check(vertex, target)?;
+        // One that holds already moves on; a new one begins where the vertex is.
+        let holds = self.pulls.get(&hand).filter(|held| held.vertex == vertex).map(|held| held.place);
+        let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
         if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&hand) {
             let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
             return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
         }
-        self.pulls.insert(hand, held);
+        self.pulls.insert(hand, Held { vertex, target, place });
         self.hold();
         Ok(())
     }
 
-    /// The spring of a pull, if there is that vertex and the target is not out of the world.
-    fn spring(&self, Held { vertex, target }: Held) -> Result<Pull, Error> {
+    /// The point of the body that a pull holds, if there is that vertex and the target is not out of the world.
+    fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
         let anchor = self.geometry.anchor(vertex).ok_or(Error::OutOfRange {
             quantity: "the vertex of a pull",
             value: vertex as f64,
@@ -199,7 +220,7 @@ impl Session {
         let reach = REACH * rest.bounds().size()[1];
         let place = anchor.position(&rest.positions);
         match (0..3).map(|c| target[c]).zip(place).find(|(x, place)| !((x - place).abs() <= reach)) {
-            None => Ok(self.play.pull_at(anchor, target)),
+            None => Ok(anchor),
             Some((value, _)) => Err(Error::OutOfRange {
                 quantity: "a coordinate of a pull's target",
                 value,
@@ -210,7 +231,11 @@ impl Session {
 
     /// Lets the body feel the pulls.
     fn hold(&mut self) {
-        let springs = self.pulls.values().filter_map(|&held| self.spring(held).ok()).collect();
+        let springs = self.pulls.values().filter_map(|held| {
+            let anchor = self.geometry.anchor(held.vertex)?;
+            Some(self.play.pull_at(anchor, held.place))
+        });
+        let springs = springs.collect();
         self.play.hold(springs);
     }
 
@@ -246,23 +271,25 @@ impl Session {
         }
         let mut play = Play::new(&state.settings, &self.geometry)?;
         play.resume(state.clock, &state.positions, &state.velocities)?;
-        let mut pulls = BTreeMap::new();
-        for act in &state.pulls {
-            let &Act::Pull { hand, vertex, target } = act else {
-                return Err(unsound("what should be a pull is none"));
-            };
-            if hand >= MAX_HAND || pulls.len() == MAX_PULLS {
-                return Err(unsound("there are too many pulls"));
-            }
-            let held = Held { vertex, target };
-            self.spring(held)?;
-            pulls.insert(hand, held);
+        if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&hand| hand >= MAX_HAND) {
+            return Err(unsound("it has too many pulls"));
+        }
+        for held in state.pulls.values() {
+            self.check(held.vertex, held.target)?;
+            self.check(held.vertex, held.place)?;
         }
         self.play = play;
         self.settings = state.settings.clone();
         self.energy_at_start = state.energy_at_start.clone();
-        self.pulls = pulls;
+        self.pulls = state.pulls.clone();
         self.hold();
         Ok(())
     }
+}
+
+/// From one point to another, but at most so far.
+fn towards(from: [f64; 3], to: [f64; 3], way: f64) -> [f64; 3] {
+    let by: [f64; 3] = std::array::from_fn(|c| to[c] - from[c]);
+    let distance = by.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if distance <= way { to } else { std::array::from_fn(|c| from[c] + way / distance * by[c]) }
 }

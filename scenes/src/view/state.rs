@@ -1,11 +1,12 @@
 //! A body in the middle of a motion, as a file.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::protocol::Act;
+use super::session::Held;
 use crate::clock::Clock;
 use crate::energy::Energy;
 use crate::error::Error;
@@ -29,8 +30,8 @@ pub struct State {
     pub positions: Vec<[f64; 3]>,
     /// Velocity of each node, m/s.
     pub velocities: Vec<[f64; 3]>,
-    /// The pulls that last, beside those of the scene: acts of the kind [`Act::Pull`].
-    pub pulls: Vec<Act>,
+    /// The pulls that last, beside those of the scene, by their hands.
+    pub pulls: BTreeMap<u64, Held>,
 }
 
 /// Stands in a file for [`FORMAT`].
@@ -61,7 +62,7 @@ impl State {
         energy_at_start: Energy,
         clock: Clock,
         [positions, velocities]: [&[[f64; 3]]; 2],
-        pulls: Vec<Act>,
+        pulls: BTreeMap<u64, Held>,
     ) -> Self {
         let (positions, velocities) = (positions.to_vec(), velocities.to_vec());
         Self { format: Format, settings, energy_at_start, clock, positions, velocities, pulls }
