@@ -168,7 +168,7 @@ function subscript(number) {
 function joules(energy) {
   const units = [[1e6, "MJ"], [1e3, "kJ"], [1, "J"], [1e-3, "mJ"]];
   const [unit, name] = units.find(([unit]) => Math.abs(energy) >= unit) ?? [1e-3, "mJ"];
-  return `${(energy / unit).toFixed(1)} ${name}`;
+  return `${Math.abs(energy / unit).toFixed(1) === "0.0" ? "0.0" : (energy / unit).toFixed(1)} ${name}`;
 }
 
 /** A linear colour in CSS. */

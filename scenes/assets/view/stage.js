@@ -61,7 +61,10 @@ export class Stage {
     this.springs.renderOrder = this.handles.renderOrder = 1;
     this.pulls = [];
     // Positions move with each frame: nothing is culled by where it was.
-    for (const moving of [this.body, this.cage, this.springs, this.handles]) moving.frustumCulled = false;
+    for (const moving of [this.body, this.cage, this.springs, this.handles]) {
+      moving.frustumCulled = false;
+      moving.material.fog = false;
+    }
     this.scene.add(this.floor, this.body, this.cage, this.springs, this.handles);
   }
 
@@ -88,7 +91,7 @@ export class Stage {
 
     this.floor.position.set(this.centre.x, min.y - 0.002 * size, this.centre.z);
     this.floor.scale.setScalar(40 * size);
-    this.scene.fog = new THREE.Fog(linear(HAZE), 2.2 * size, 14 * size);
+    this.scene.fog = new THREE.Fog(linear(HAZE));
     Object.assign(this.camera, { near: 0.02 * size, far: 60 * size });
     this.resize();
   }
@@ -160,6 +163,9 @@ export class Stage {
     if (!this.isStale || !this.body.geometry.hasAttribute("position")) return false;
     this.isStale = false;
     this.drawPulls();
+    // The floor fades into the haze behind the body, from however far away both are seen.
+    this.scene.fog.near = 1.2 * this.camera.position.distanceTo(this.centre) + 0.4 * this.size;
+    this.scene.fog.far = this.scene.fog.near + 12 * this.size;
     this.renderer.render(this.scene, this.camera);
     return true;
   }
