@@ -124,3 +124,18 @@ fn folder_that_cannot_be_written_to() {
     check(std::slice::from_ref(&occupied), &["run", "horse", "--frames", "1"], &["out", "--out"]);
     check(&[occupied], &["run", "horse", "--frames", "1", "--out", "out/deeper"], &["out/deeper"]);
 }
+
+#[test]
+fn files_of_the_viewer_that_are_none() {
+    check(&[], &["view", "hrose"], &["`hrose`", "`horse`"]);
+    check(&[], &["view", "--load", "state.json"], &["state.json", "cannot be read"]);
+    check(&[], &["view", "dinosaur", "--load", "state.json"], &["leave out", "--load"]);
+    check(&[], &["view", "--load", "one", "--replay", "other"], &["--load", "--replay"]);
+    let state = ("state.json", String::from("{\"format\": \"piola state 0\"}"));
+    check(&[state], &["view", "--load", "state.json"], &["state.json", "piola state 0"]);
+    let recording = ("pulls.jsonl", String::from("{\"until\": {\"steps\": 1}}\n{\"until\": {}}\n"));
+    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl:2", "steps"]);
+    let recording = ("pulls.jsonl", String::new());
+    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
+    check(&[], &["view", "--port", "65536"], &["65536"]);
+}

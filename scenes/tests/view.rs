@@ -9,6 +9,8 @@ use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
 use piola_scenes::error::Error;
+use piola_scenes::measure;
+use piola_scenes::output::Summary;
 use piola_scenes::scene;
 use piola_scenes::settings::Settings;
 use piola_scenes::view::protocol::Act;
@@ -17,9 +19,10 @@ use piola_scenes::view::session::Session;
 use piola_scenes::view::state::State;
 use piola_scenes::view::{Begin, Options, Viewer};
 
-/// On the tip of the dinosaur's tail, and on its back.
+/// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
 const TAIL: usize = 5;
 const BACK: usize = 5000;
+const LEG: usize = 2925;
 
 fn settings() -> Settings {
     Settings::of(scene::find("dinosaur").expect("a scene"))
@@ -185,6 +188,36 @@ fn pulls_are_numbered_and_limited() {
     assert!(error.to_string().contains("64"), "{error}");
     session.apply(&Act::ReleaseAll {}).expect("a release");
     assert_eq!(session.pulls().count(), 0);
+}
+
+/// The tail drawn across the body, five heights far, and a leg torn until elements stay inside out.
+#[test]
+fn pulled_several_heights_far_and_inside_out_it_comes_back() {
+    let rest = session().geometry().mesh.clone();
+    let judge = |session: &Session| {
+        let positions = session.play().simulation().positions();
+        let far = measure::max_distance(&rest.positions, positions) / rest.bounds().size()[1];
+        (far, measure::inverted(&rest.positions, positions, &rest.tets))
+    };
+    for (vertex, target, distance, inside_out) in
+        [(TAIL, [9.0, 2.0, 0.0], 5.0, false), (LEG, [-5.0, -0.2, -2.5], 1.5, true)]
+    {
+        let mut session = session();
+        // The scene's own pull ends after two seconds, and the body is at rest after six.
+        steps(&mut session, 180);
+        session.apply(&pull(vertex, target)).expect("a pull");
+        steps(&mut session, 90);
+        let (far, inverted) = judge(&session);
+        assert!(
+            far > distance && (inverted > 0) == inside_out,
+            "{vertex}: {far} heights, {inverted} inverted"
+        );
+        session.apply(&Act::Release { hand: 1 }).expect("a release");
+        steps(&mut session, 300);
+        let (far, inverted) = judge(&session);
+        // As `piola run` judges it.
+        assert!(far <= Summary::RECOVERED && inverted == 0, "{vertex}: {far} heights, {inverted} inverted");
+    }
 }
 
 /// A viewer of the dinosaur at a port of its own.
