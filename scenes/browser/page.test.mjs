@@ -1,0 +1,154 @@
+// The page in a real browser: it shows the body, lets itself be used, asks for nothing elsewhere and complains of nothing.
+//
+// `npm test` uses target/debug/piola and Debian's chromium; PIOLA and CHROMIUM name others. Screenshots go to target/page/.
+
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+import { open, view } from "./viewer.mjs";
+
+const TIP_OF_TAIL = 5; // a vertex of the dinosaur's surface
+const shots = fileURLToPath(new URL("../../target/page/", import.meta.url));
+const patience = { timeout: 60_000 };
+let viewer, browser, page, faults;
+
+before(async () => {
+  mkdirSync(shots, { recursive: true });
+  viewer = await view("dinosaur");
+  ({ browser, page, faults } = await open(viewer));
+});
+
+after(async () => {
+  await browser?.close();
+  viewer?.stop();
+});
+
+const figures = () => page.evaluate(() => globalThis.piola.figures());
+const until = (condition, value) => page.waitForFunction(condition, value, patience);
+const shoot = (name) => page.screenshot({ path: `${shots}${name}.png` });
+const isAtRest = () => globalThis.piola.figures().from_rest < 1e-3 && globalThis.piola.figures().time > 2.5;
+
+/** Grabs the tip of the tail, which is on the screen somewhere. */
+async function grabTail() {
+  const place = await page.evaluate((vertex) => globalThis.piola.where(vertex), TIP_OF_TAIL);
+  const [x, y] = place.map(Math.round);
+  // The tip itself is a pixel; what is seen of the tail lies on its side towards the body.
+  for (const [dx, dy] of [[0, 0], [3, 2], [5, 4], [8, 6], [12, 8], [16, 10]]) {
+    const vertex = await page.evaluate(([x, y]) => globalThis.piola.vertexAt(x, y), [x + dx, y + dy]);
+    if (vertex !== null) {
+      await page.mouse.move(x + dx, y + dy);
+      await page.mouse.down();
+      return { vertex, at: [x + dx, y + dy] };
+    }
+  }
+  throw new Error(`there is nothing of the tail near ${x}, ${y}`);
+}
+
+test("the body comes to rest after the pull of its scene", async () => {
+  await page.click("#real-time"); // as fast as possible
+  await until(isAtRest);
+  await page.click("#real-time");
+  assert.equal(await page.textContent("#scene"), "dinosaur");
+  assert.equal(await page.locator("#material option").count(), 32);
+  assert.notEqual(await page.textContent("#speed"), "–");
+  await shoot("rest");
+});
+
+test("a vertex follows the mouse and comes back when it is let go", async () => {
+  const place = (vertex) => page.evaluate((vertex) => globalThis.piola.where(vertex), vertex);
+  const { vertex, at: [x, y] } = await grabTail();
+  const before = await place(vertex);
+  for (let k = 1; k <= 10; k++) await page.mouse.move(x - 4 * k, y + 16 * k);
+  await until(([vertex, y]) => globalThis.piola.where(vertex)[1] > y + 100, [vertex, before[1]]);
+  assert.equal((await figures()).pulls.length, 1);
+  await shoot("pulled");
+  await page.mouse.up();
+  await until(() => globalThis.piola.figures().pulls.length === 0);
+  await until(isAtRest);
+  const after = await place(vertex);
+  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 2, "it is back within two pixels");
+});
+
+test("pulled by its tail, several body heights far, it comes back", async () => {
+  // From farther away, so that several body lengths fit into the window.
+  const { x, y, width, height } = await page.locator("#stage").boundingBox();
+  await page.mouse.move(x + 20, y + 20);
+  for (let k = 0; k < 12; k++) await page.mouse.wheel(0, 120);
+  await page.waitForTimeout(500);
+  const { at: [tailX, tailY] } = await grabTail();
+  for (let k = 1; k <= 40; k++) {
+    await page.mouse.move(tailX + (x + width - 30 - tailX) * k / 40, tailY + (y + 60 - tailY) * k / 40);
+  }
+  await until(() => globalThis.piola.figures().from_rest > 3);
+  await shoot("far");
+  await page.mouse.up();
+  await until(isAtRest);
+  assert.equal((await figures()).inverted, 0);
+  for (let k = 0; k < 12; k++) await page.mouse.wheel(0, -120);
+});
+
+test("beside the body the mouse turns the view, and pulls nothing", async () => {
+  const before = await page.evaluate(() => globalThis.piola.where(0));
+  await page.mouse.move(100, 150);
+  await page.mouse.down();
+  await page.mouse.move(180, 160, { steps: 4 });
+  await page.mouse.up();
+  const after = await page.evaluate(() => globalThis.piola.where(0));
+  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) > 5, "the view has turned");
+  assert.equal((await figures()).pulls.length, 0);
+});
+
+test("a slider changes a parameter, and nonsense is refused beside it", async () => {
+  const kappa = page.locator(".slider", { has: page.locator("label", { hasText: /^kappa$/ }) });
+  const field = kappa.locator("input[type=number]");
+  const before = Number(await field.inputValue());
+  await kappa.locator("input[type=range]").focus();
+  for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowRight");
+  assert.ok(Number(await field.inputValue()) > before);
+  await field.fill("-1");
+  await field.press("Enter");
+  await kappa.locator(".refusal:visible").waitFor();
+  assert.match(await kappa.locator(".refusal").textContent(), /kappa/);
+  await shoot("refused");
+  await field.fill(String(before));
+  await field.press("Enter");
+  await kappa.locator(".refusal").waitFor({ state: "hidden" });
+});
+
+test("the material changes while the body moves", async () => {
+  await page.selectOption("#material", "stable_neo_hookean");
+  await until(() => document.querySelectorAll("#parameters .slider").length === 2);
+  assert.match(await page.textContent("#formula"), /ψ = /);
+  const { frame } = await figures();
+  await until((frame) => globalThis.piola.figures().frame > frame + 3, frame);
+});
+
+test("pause, step, reset, wireframe, by keys and buttons", async () => {
+  await page.locator("#stage").focus();
+  await page.keyboard.press("w");
+  assert.ok(await page.locator("#wireframe").isChecked());
+  await page.keyboard.press("Space");
+  await until(() => globalThis.piola.figures().paused);
+  const { frame } = await figures();
+  await page.keyboard.press(".");
+  await until((frame) => globalThis.piola.figures().frame === frame + 1, frame);
+  await page.click("#reset");
+  await until(() => globalThis.piola.figures().frame === 0);
+  await page.click("#step");
+  await until(() => globalThis.piola.figures().frame === 1);
+  await shoot("wireframe");
+  await page.click("#save");
+  await page.locator("#restore:enabled").waitFor();
+  await page.click("#step");
+  await until(() => globalThis.piola.figures().frame === 2);
+  await page.keyboard.press("b");
+  await until(() => globalThis.piola.figures().frame === 1);
+  await page.click("#pause");
+  await until(() => !globalThis.piola.figures().paused);
+});
+
+test("nothing went wrong on the way", () => {
+  assert.deepEqual(faults, []);
+  assert.ok(viewer.isRunning());
+});
