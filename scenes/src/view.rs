@@ -61,7 +61,7 @@ pub enum Begin {
     Replay(Box<Recording>),
 }
 
-/// A page that is being served. It ends when dropped.
+/// A page that is being served. Once dropped it lets nobody in, and the body plays on until the last page is closed.
 #[derive(Debug)]
 pub struct Viewer {
     address: SocketAddr,

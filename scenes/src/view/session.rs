@@ -131,18 +131,20 @@ impl Session {
     /// # Errors
     /// [`Error::Step`]; the state before the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
-        let before = self.pulls.clone();
         let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
-        for held in self.pulls.values_mut() {
+        let mut pulls = self.pulls.clone();
+        for held in pulls.values_mut() {
             held.place = towards(held.place, held.target, way);
         }
-        self.hold();
-        let result = self.play.step();
-        match result {
-            Ok(_) => self.steps += 1,
-            Err(_) => self.pulls = before,
-        }
-        result
+        let springs = pulls.values().filter_map(|held| {
+            let anchor = self.geometry.anchor(held.vertex)?;
+            Some(self.play.pull_at(anchor, held.place))
+        });
+        self.play.hold(springs.collect());
+        let report = self.play.step()?;
+        self.pulls = pulls;
+        self.steps += 1;
+        Ok(report)
     }
 
     /// Does what a page asks for, before the next step.
@@ -154,11 +156,10 @@ impl Session {
             &Act::Pull { hand, vertex, target } => self.pull(hand, vertex, target),
             Act::Release { hand } => {
                 self.pulls.remove(hand);
-                self.hold();
                 Ok(())
             }
             Act::ReleaseAll {} => {
-                self.release_all();
+                self.pulls.clear();
                 Ok(())
             }
             Act::Material { name, as_stiff } => {
@@ -178,7 +179,7 @@ impl Session {
             }
             Act::Reset {} => {
                 self.play = Play::new(&self.settings, &self.geometry)?;
-                self.release_all();
+                self.pulls.clear();
                 Ok(())
             }
             Act::Save {} => {
@@ -205,7 +206,6 @@ impl Session {
             return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
         }
         self.pulls.insert(hand, Held { vertex, target, place });
-        self.hold();
         Ok(())
     }
 
@@ -219,7 +219,9 @@ impl Session {
         let rest = &self.geometry.mesh;
         let reach = REACH * rest.bounds().size()[1];
         let place = anchor.position(&rest.positions);
-        match (0..3).map(|c| target[c]).zip(place).find(|(x, place)| !((x - place).abs() <= reach)) {
+        // What is no number is nowhere near.
+        let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
+        match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
             None => Ok(anchor),
             Some((value, _)) => Err(Error::OutOfRange {
                 quantity: "a coordinate of a pull's target",
@@ -227,21 +229,6 @@ impl Session {
                 requirement: "at most a hundred body heights from where the vertex is at rest",
             }),
         }
-    }
-
-    /// Lets the body feel the pulls.
-    fn hold(&mut self) {
-        let springs = self.pulls.values().filter_map(|held| {
-            let anchor = self.geometry.anchor(held.vertex)?;
-            Some(self.play.pull_at(anchor, held.place))
-        });
-        let springs = springs.collect();
-        self.play.hold(springs);
-    }
-
-    fn release_all(&mut self) {
-        self.pulls.clear();
-        self.hold();
     }
 
     /// The material of that name, with the parameters that it had at the start, or else typical ones.
@@ -258,7 +245,6 @@ impl Session {
         let simulation = self.play.simulation();
         play.resume(self.play.clock(), simulation.positions(), simulation.velocities())?;
         (self.play, self.settings) = (play, settings);
-        self.hold();
         Ok(())
     }
 
@@ -282,7 +268,6 @@ impl Session {
         self.settings = state.settings.clone();
         self.energy_at_start = state.energy_at_start.clone();
         self.pulls = state.pulls.clone();
-        self.hold();
         Ok(())
     }
 }
