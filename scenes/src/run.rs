@@ -97,7 +97,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
 
 /// The largest distance of a node from rest in body heights, after the best rigid motion where too few nodes are
 /// pinned to rule one out.
-fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize) -> f64 {
+pub(crate) fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize) -> f64 {
     let distance = if pinned < 3 {
         measure::max_distance(&mesh.positions, &measure::aligned(&mesh.positions, positions))
     } else {

@@ -19,6 +19,7 @@ use super::session::Session;
 use crate::energy;
 use crate::geometry::Geometry;
 use crate::measure;
+use crate::run::distance_from_rest;
 
 /// One look at the body.
 #[derive(Clone, Debug)]
@@ -124,7 +125,7 @@ pub(super) fn figures(session: &Session, tally: &Tally) -> Utf8Bytes {
         newton_iterations: tally.newton_iterations,
         min_det_f: measure::min_det_f(&mesh.positions, positions, &mesh.tets),
         inverted: measure::inverted(&mesh.positions, positions, &mesh.tets),
-        from_rest: measure::max_distance(&mesh.positions, positions) / mesh.bounds().size()[1],
+        from_rest: distance_from_rest(mesh, positions, play.simulation().pinned().len()),
         elastic_energy: tally.energies.elastic,
         kinetic_energy: tally.energies.kinetic,
         pulls: session.pulls().map(|(_, held)| (held.vertex, held.target)).collect(),
@@ -201,7 +202,7 @@ struct Figures<'a> {
     newton_iterations: usize,
     min_det_f: f64,
     inverted: usize,
-    /// The largest distance of a node from rest, in body heights.
+    /// The largest distance of a node from rest in body heights, as a summary has it.
     from_rest: f64,
     elastic_energy: f64,
     kinetic_energy: f64,
