@@ -397,7 +397,7 @@ impl NewtonReport {
 }
 
 /// The element that has no meaningful energy, if there is one.
-fn inadmissible(survey: &Survey) -> Option<usize> {
+pub(super) fn inadmissible(survey: &Survey) -> Option<usize> {
     (!survey.is_admissible()).then_some(survey.first_offender.unwrap_or_default())
 }
 

@@ -146,6 +146,16 @@ impl Elastic {
         2.0 * f64::EPSILON * noise
     }
 
+    /// The principal stretches of each element where the energies were evaluated last.
+    pub(crate) fn stretches(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.groups.iter().flat_map(|state| (0..state.elements.len()).map(|lane| state.group.stretches(lane)))
+    }
+
+    /// The gradients of each element in the positions of its nodes, N, where they were evaluated last.
+    pub(crate) fn gradients(&self) -> impl Iterator<Item = &[[f64; 3]; 4]> {
+        self.groups.iter().flat_map(|state| &state.group.gradients[..state.elements.len()])
+    }
+
     /// Adds the gradient of the energy to `total`, one entry per node.
     pub(crate) fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) {
         for State { group, elements, .. } in &self.groups {

@@ -5,7 +5,8 @@
 //! in an order that keeps L sparse.
 //!
 //! Beside it lie what the steps of a simulation can choose instead: conjugate gradients, a preconditioner for them where there
-//! is no matrix, and a factor in f32 that they refine.
+//! is no matrix, and a factor in f32 that they refine. The smallest eigenvalue of
+//! a matrix comes from its factor by Lanczos' method.
 
 use std::fmt;
 
@@ -21,6 +22,7 @@ use faer::{Conj, MatMut, Par, Side};
 
 pub(crate) mod block_jacobi;
 pub(crate) mod conjugate_gradients;
+pub(crate) mod lanczos;
 pub(crate) mod refined;
 
 /// A factorisation in f64 or f32, and the memory for the next one.
@@ -87,6 +89,22 @@ impl<E: RealField> Cholesky<E> {
         let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
         let factor = LltRef::new(&self.symbolic, &self.factor);
         factor.solve_in_place_with_conj(Conj::No, b, Par::Seq, MemStack::new(&mut self.memory));
+    }
+}
+
+/// A x for a symmetric matrix given by its lower triangle.
+pub(crate) fn symmetric_product(matrix: SparseColMatRef<'_, usize, f64>, x: &[f64], product: &mut [f64]) {
+    product.fill(0.0);
+    for column in 0..x.len() {
+        let entries = matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column));
+        let mut sum = 0.0;
+        for (&row, value) in entries {
+            sum += value * x[row];
+            if row != column {
+                product[row] += value * x[column];
+            }
+        }
+        product[column] += sum;
     }
 }
 

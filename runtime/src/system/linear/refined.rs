@@ -17,7 +17,7 @@
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::conjugate_gradients::{ConjugateGradients, Iteration, System};
-use super::{Cholesky, LinearError};
+use super::{Cholesky, LinearError, symmetric_product};
 
 /// After how many iterations to stop. A few are the rule.
 const MAX_ITERATIONS: usize = 100;
@@ -110,18 +110,7 @@ struct Factored<'a> {
 
 impl System for Factored<'_> {
     fn apply(&mut self, x: &[f64], product: &mut [f64]) {
-        product.fill(0.0);
-        for column in 0..x.len() {
-            let entries = self.matrix.row_idx_of_col_raw(column).iter().zip(self.matrix.val_of_col(column));
-            let mut sum = 0.0;
-            for (&row, value) in entries {
-                sum += value * x[row];
-                if row != column {
-                    product[row] += value * x[column];
-                }
-            }
-            product[column] += sum;
-        }
+        symmetric_product(self.matrix, x, product);
     }
 
     fn precondition(&mut self, r: &[f64], z: &mut [f64]) {

@@ -1,0 +1,247 @@
+//! What is known of a body that has come to rest, wherever that is.
+//!
+//! A body may stay in another place than its rest shape: in a minimum of its energy elsewhere, at a saddle that nothing
+//! pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 + λ3 = 0 and no force
+//! vanishes. What tells these apart are the forces, and the smallest eigenvalue of the stiffness K, unfiltered and with pulls,
+//!
+//! ```text
+//! K v = ω² M v,   M the lumped masses,
+//! ```
+//!
+//! among the motions of free nodes that are not rigid ones. It comes from a factor of K + σM, σ the first of growing
+//! shifts for which that is positive definite, by [Lanczos' method](crate::system::linear): the smallest eigenvalue of K is the
+//! largest of (K + σM)⁻¹M, the better separated from the others the smaller σ is.
+
+use faer::sparse::SparseColMatRef;
+
+use crate::point::Filter;
+use crate::system::assemble::Elastic;
+use crate::system::linear::lanczos::{add, dot, largest, norm};
+use crate::system::linear::{Cholesky, LinearError, symmetric_product};
+use crate::system::pattern::Pattern;
+use crate::system::stiffnesses::ElementStiffnesses;
+use crate::system::{Body, Element, Pins};
+
+use super::implicit_euler::Simulation;
+use super::newton::{NewtonError, inadmissible};
+use super::objective::{Objective, Quadratic};
+
+mod rigid;
+
+/// Forces are in balance where what is left of them is this share of the largest.
+const BALANCE: f64 = 1e-6;
+
+/// There is no stress where the largest force is this share of [`Equilibrium::unit_force`].
+const NO_STRESS: f64 = 1e-9;
+
+/// The first shift σ, as a share of the largest entry of M⁻¹K on the diagonal, and what the next ones are multiplied by.
+const FIRST_SHIFT: f64 = 1e-6;
+const NEXT_SHIFT: f64 = 10.0;
+
+/// By this share of it a diagonal surely outweighs its row: 3·4 entries for each of some dozens of neighbours.
+const LAST_SHIFT: f64 = 1e3;
+
+/// What is known of a body where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Norm of the forces on the free nodes, N: of elements, pulls and gravity together.
+    pub residual: f64,
+    /// The largest force of an element on one of its nodes, N.
+    pub largest_force: f64,
+    /// About what the stiffest element would exert on a face of its size at a strain of one, N.
+    pub unit_force: f64,
+    /// The smallest eigenvalue of the stiffness beyond the rigid motions; `None` where nothing else can move.
+    pub smallest_eigenvalue: Option<Eigenvalue>,
+    /// How many rigid motions the pins leave: six for a free body.
+    pub rigid_motions: usize,
+    /// How many elements are inside out.
+    pub inverted: usize,
+    /// The smallest λ2 + λ3 of an element: 0 where it is flattened to a line or reflected, and where energies of λ have kinks.
+    pub smallest_sum: f64,
+}
+
+/// An eigenvalue ω², 1/s².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eigenvalue {
+    /// As found.
+    pub value: f64,
+    /// An exact one is no farther from it than this: the norm of the residual of its vector, rounding included.
+    pub error: f64,
+}
+
+/// What an [`Equilibrium`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Forces are not in balance: the body will move.
+    Unbalanced,
+    /// Every small motion that is not rigid costs energy.
+    Stable,
+    /// Some small motion gains energy, though no force begins it.
+    Saddle,
+    /// The smallest eigenvalue is zero within its error.
+    Undecided,
+}
+
+impl Equilibrium {
+    /// Looks at a body where it is, as if it did not move.
+    ///
+    /// Takes memory for the stiffness and a factor of it, 720 bytes for each element, and at most a hundred vectors; takes
+    /// about as long as ten to a hundred Newton iterations.
+    ///
+    /// # Errors
+    /// Where an element is outside the domain of its material, a number is not finite, or memory does not suffice.
+    pub fn of(simulation: &Simulation) -> Result<Self, NewtonError> {
+        let (body, positions) = (simulation.body(), simulation.positions());
+        let mut elastic = Elastic::new(body);
+        let mut stiffnesses = ElementStiffnesses::new(body);
+        let survey = elastic.evaluate(body, positions);
+        inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+        let tangents = elastic.linearise(body, Filter::None, &mut stiffnesses);
+        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+
+        let quadratic = Quadratic {
+            masses: body.masses(),
+            start: positions,
+            velocities: simulation.velocities(),
+            dt: f64::INFINITY,
+            damping: 0.0,
+            regularisation: 0.0,
+            guard: 0.0,
+            gravity: simulation.settings().gravity,
+            pulls: simulation.pulls(),
+        };
+        let objective = Objective { body, elastic: &mut elastic, quadratic, viscosity: None };
+        let mut gradient = vec![[0.0; 3]; positions.len()];
+        objective.gradient(positions, &mut gradient);
+
+        let pins = Pins::at(simulation.pinned().iter().copied());
+        let pattern = Pattern::new(positions.len(), body.elements(), &pins).map_err(NewtonError::Linear)?;
+        let rigid = rigid::motions(simulation, pattern.node_of_free());
+        let spectrum = Spectrum::new(&quadratic, &stiffnesses, pattern, &rigid);
+        let smallest_eigenvalue = spectrum.and_then(|spectrum| spectrum.smallest())?;
+
+        let square = |x: &[f64; 3]| x.iter().map(|c| c * c).sum::<f64>();
+        let is_free = |node: &usize| simulation.pinned().binary_search(node).is_err();
+        let free = (0..positions.len()).filter(is_free);
+        let forces = elastic.gradients().flatten().map(square);
+        Ok(Self {
+            residual: free.map(|node| square(&gradient[node])).sum::<f64>().sqrt(),
+            largest_force: forces.fold(0.0, f64::max).sqrt(),
+            unit_force: unit_force(body),
+            smallest_eigenvalue,
+            rigid_motions: rigid.len(),
+            inverted: elastic.stretches().filter(|stretches| stretches[2] < 0.0).count(),
+            smallest_sum: elastic.stretches().map(|[_, l2, l3]| l2 + l3).fold(f64::INFINITY, f64::min),
+        })
+    }
+
+    /// Whether no element bears stress beyond rounding.
+    #[must_use]
+    pub fn is_stress_free(&self) -> bool {
+        self.largest_force <= NO_STRESS * self.unit_force
+    }
+
+    /// What it is, by the residual and the smallest eigenvalue.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        if self.residual > BALANCE * self.largest_force && !self.is_stress_free() {
+            return Verdict::Unbalanced;
+        }
+        match self.smallest_eigenvalue {
+            Some(Eigenvalue { value, error }) if value < -error => Verdict::Saddle,
+            Some(Eigenvalue { value, error }) if value <= error => Verdict::Undecided,
+            _ => Verdict::Stable,
+        }
+    }
+}
+
+fn unit_force(body: &Body) -> f64 {
+    let largest = |volume: f64, element: &Element| volume.max(element.shape.volume);
+    let forces = body.materials().map(|(material, elements)| {
+        let volume = body.elements()[elements].iter().fold(0.0, largest);
+        material.rest_stiffness().abs() * volume.powf(2.0 / 3.0)
+    });
+    forces.fold(0.0, f64::max)
+}
+
+/// The stiffness over the unknowns, and what is left out of it.
+struct Spectrum<'a> {
+    pattern: Pattern,
+    /// Entries of K.
+    stiffness: Vec<f64>,
+    /// Of each unknown.
+    masses: Vec<f64>,
+    rigid: &'a [Vec<f64>],
+}
+
+impl<'a> Spectrum<'a> {
+    fn new(
+        quadratic: &Quadratic<'_>,
+        stiffnesses: &ElementStiffnesses,
+        pattern: Pattern,
+        rigid: &'a [Vec<f64>],
+    ) -> Result<Self, NewtonError> {
+        let mut stiffness = vec![0.0; pattern.entries().row_idx().len()];
+        stiffnesses.fill(&pattern, |_| 0.0, &mut stiffness);
+        quadratic.add_pulls(&pattern, &mut stiffness);
+        if !stiffness.iter().all(|entry| entry.is_finite()) {
+            return Err(NewtonError::NotFinite);
+        }
+        let masses = pattern.node_of_free().iter().flat_map(|&node| [quadratic.masses[node]; 3]).collect();
+        Ok(Self { pattern, stiffness, masses, rigid })
+    }
+
+    fn smallest(&self) -> Result<Option<Eigenvalue>, NewtonError> {
+        let mut cholesky = Cholesky::new(self.pattern.entries()).map_err(NewtonError::Linear)?;
+        self.factor(&mut cholesky)?;
+        let vector = largest(&self.masses, self.rigid, |x, product| {
+            product.iter_mut().zip(x.iter().zip(&self.masses)).for_each(|(product, (x, m))| *product = m * x);
+            cholesky.solve(product);
+        });
+        Ok(vector.map(|vector| self.quotient(&vector)))
+    }
+
+    /// Factors K + σM for the first σ for which it is positive definite.
+    fn factor(&self, cholesky: &mut Cholesky) -> Result<(), NewtonError> {
+        let entries = self.pattern.entries();
+        let diagonal = |column: usize| entries.col_range(column).start;
+        let unknowns = 0..self.masses.len();
+        let ratio = |i: usize| self.stiffness[diagonal(i)].abs() / self.masses[i];
+        let scale = unknowns.clone().map(ratio).fold(0.0, f64::max);
+        // Whatever the shift is of a body without stiffness, it is positive.
+        let scale = if scale > 0.0 { scale } else { 1.0 };
+        let mut shift = FIRST_SHIFT;
+        loop {
+            let mut shifted = self.stiffness.clone();
+            for i in unknowns.clone() {
+                shifted[diagonal(i)] += shift * scale * self.masses[i];
+            }
+            match cholesky.factor(SparseColMatRef::new(entries, &shifted)) {
+                Ok(()) => return Ok(()),
+                Err(LinearError::NotPositive { .. }) if shift < LAST_SHIFT => shift *= NEXT_SHIFT,
+                Err(LinearError::NotPositive { column }) => {
+                    return Err(NewtonError::NotPositive {
+                        node: self.pattern.node_of_free()[column / 3],
+                        shift,
+                    });
+                }
+                Err(error) => return Err(NewtonError::Linear(error)),
+            }
+        }
+    }
+
+    /// ω² = vᵀKv/vᵀMv, from which some eigenvalue differs by no more than the norm of M⁻¹Kv − ω²v, for v of norm 1.
+    fn quotient(&self, vector: &[f64]) -> Eigenvalue {
+        let mut product = vec![0.0; vector.len()];
+        let matrix = SparseColMatRef::new(self.pattern.entries(), &self.stiffness);
+        symmetric_product(matrix, vector, &mut product);
+        product.iter_mut().zip(&self.masses).for_each(|(product, m)| *product /= m);
+        let length = dot(&self.masses, vector, vector);
+        let value = dot(&self.masses, vector, &product) / length;
+        add(-value, vector, &mut product);
+        Eigenvalue { value, error: norm(&self.masses, &product) / length.sqrt() }
+    }
+}
+
+#[cfg(test)]
+mod tests;
