@@ -130,6 +130,11 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
+    /// A body that is not back cannot be looked at.
+    Standing {
+        /// What the solver says.
+        reason: String,
+    },
     /// A time step failed.
     Step {
         /// The frame it would have led to.
@@ -145,7 +150,7 @@ impl Error {
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Threads { .. } | Self::Write { .. } | Self::Step { .. } => 1,
+            Self::Threads { .. } | Self::Write { .. } | Self::Standing { .. } | Self::Step { .. } => 1,
             _ => 2,
         }
     }
@@ -225,6 +230,7 @@ impl fmt::Display for Error {
             }
             Self::Threads { reason } => write!(f, "cannot start threads: {reason}"),
             Self::Write { path, reason } => write!(f, "cannot write {}: {reason}", path.display()),
+            Self::Standing { reason } => write!(f, "where the body rests cannot be said: {reason}"),
             Self::Step { frame, reason } => {
                 write!(f, "the step to frame {frame} failed: {reason}; nothing was written")
             }

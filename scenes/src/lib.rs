@@ -20,4 +20,5 @@ pub mod render;
 pub mod run;
 pub mod scene;
 pub mod settings;
+pub mod settle;
 pub mod view;

@@ -5,6 +5,7 @@
 use std::collections::HashSet;
 
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
+use piola::mesh::TetMesh;
 
 /// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at most.
 const FLAT: f64 = 1e-12;
@@ -76,6 +77,18 @@ pub fn max_distance(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> f64 {
         .zip(positions)
         .map(|(&rest, &position)| (Point::from(position) - Point::from(rest)).norm())
         .fold(0.0, f64::max)
+}
+
+/// The largest distance of a node from rest in body heights, after the best rigid motion where too few nodes are
+/// pinned to rule one out.
+#[must_use]
+pub fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize) -> f64 {
+    let distance = if pinned < 3 {
+        max_distance(&mesh.positions, &aligned(&mesh.positions, positions))
+    } else {
+        max_distance(&mesh.positions, positions)
+    };
+    distance / mesh.bounds().size()[1]
 }
 
 /// The mean distance between points of the same index, m; 0 where one side has none.

@@ -8,7 +8,7 @@ mod summary;
 
 pub use folder::Folder;
 pub use ply::write_ply;
-pub use summary::{Newton, Reading, Summary};
+pub use summary::{Newton, Place, Reading, Standing, Summary};
 
 /// The file of a frame's surface.
 #[must_use]

@@ -3,8 +3,6 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use piola::mesh::TetMesh;
-
 use crate::error::Error;
 use crate::gauge;
 use crate::geometry::Geometry;
@@ -13,6 +11,7 @@ use crate::output::{Folder, PICTURE_FILE, SUMMARY_FILE, Summary, frame_file, wri
 use crate::play::Play;
 use crate::render::{self, contact_sheet};
 use crate::settings::Settings;
+use crate::settle::settle;
 
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
@@ -40,7 +39,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
     let pinned = play.simulation().pinned().len();
     let start = play.simulation().positions();
     let inverted_at_start = measure::inverted(&mesh.positions, start, &mesh.tets);
-    let starts_at_rest = distance_from_rest(mesh, start, pinned) <= Summary::RECOVERED;
+    let starts_at_rest = measure::distance_from_rest(mesh, start, pinned) <= Summary::RECOVERED;
     let no_force =
         NO_FORCE * play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets).powf(2.0 / 3.0);
     let mut stationary_start = false;
@@ -62,7 +61,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         on_step();
     }
 
-    let distance = distance_from_rest(mesh, play.simulation().positions(), pinned);
+    let distance = measure::distance_from_rest(mesh, play.simulation().positions(), pinned);
     let reading = match settings.scene.gauge {
         Some(marks) => {
             let material = settings.energy.build()?.elements;
@@ -70,7 +69,8 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         }
         None => None,
     };
-    let summary = Summary {
+    let recovered = distance <= Summary::RECOVERED;
+    let mut summary = Summary {
         scene: settings.scene.name.into(),
         material: play.material().into(),
         parameters: play.parameters().clone(),
@@ -88,22 +88,15 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         ms_per_step_median: 1e3 * median(&times).as_secs_f64(),
         steps_per_second: settings.frames as f64 / times.iter().sum::<Duration>().as_secs_f64(),
         newton: settings.newton,
-        recovered: distance <= Summary::RECOVERED,
+        recovered,
         reading,
+        standing: None,
     };
+    if !recovered {
+        summary.standing = Some(threads.install(|| settle(&mut play, mesh))?);
+    }
     recording.finish(settings, &summary)?;
     Ok(summary)
-}
-
-/// The largest distance of a node from rest in body heights, after the best rigid motion where too few nodes are
-/// pinned to rule one out.
-pub(crate) fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize) -> f64 {
-    let distance = if pinned < 3 {
-        measure::max_distance(&mesh.positions, &measure::aligned(&mesh.positions, positions))
-    } else {
-        measure::max_distance(&mesh.positions, positions)
-    };
-    distance / mesh.bounds().size()[1]
 }
 
 /// Keeps what the files at the end are made from, and writes those that can be written on the way.

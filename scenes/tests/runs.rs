@@ -51,7 +51,10 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
     let text = fs::read_to_string(out.join("summary.json")).expect("a summary");
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     let object = summary.as_object().expect("an object");
-    assert_eq!(object.len(), KEYS.len() + more.len(), "{text}");
+    // A body that is not back is looked at.
+    let standing = object["recovered"] == false;
+    assert_eq!(object.contains_key("standing"), standing, "{text}");
+    assert_eq!(object.len(), KEYS.len() + more.len() + usize::from(standing), "{text}");
     for key in KEYS.iter().chain(more) {
         // What is not finite would be null.
         assert!(object.get(*key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
@@ -181,6 +184,32 @@ fn an_energy_blind_to_reflection_stays_inside_out() {
     assert_eq!(summary["inverted_at_start"], summary["tets"]);
     assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&false.into(), &true.into()));
     assert!(summary["energy"].as_f64().is_some_and(|energy| energy.abs() < 1e-12), "{summary}");
+    let standing = &summary["standing"];
+    assert_eq!((&standing["place"], &standing["stress_free"]), (&"stable_elsewhere".into(), &true.into()));
+    assert_eq!(standing["inverted"], summary["tets"]);
+}
+
+#[test]
+fn a_point_without_forces_is_called_a_saddle() {
+    // Not by `check`: pictures of a point are smaller than it expects.
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let arguments = ["run", "point", "--material", "stvk", "--body", "dinosaur", "--frames", "1"];
+    let output = piola(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = fs::read_to_string(folder.path().join("out/point/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(summary["stationary_start"], true);
+    assert_eq!(summary["standing"]["place"], "saddle", "{summary}");
+    let eigenvalue = summary["standing"]["smallest_eigenvalue"].as_f64();
+    assert!(eigenvalue.is_some_and(|value| value < 0.0), "{summary}");
+}
+
+#[test]
+fn a_body_stuck_inside_out_is_certified() {
+    let arguments = ["run", "inside_out", "--material", "ogden", "--body", "dinosaur"];
+    let summary = check(&arguments, "inside_out", 300);
+    assert_eq!(summary["recovered"], false, "{summary}");
+    assert_eq!(summary["standing"]["place"], "stable_elsewhere", "{summary}");
 }
 
 #[test]

@@ -28,6 +28,78 @@ pub struct Reading {
     pub uniaxial_stress: f64,
 }
 
+/// Where a body that is not back comes to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Place {
+    /// In its rest shape: it was not given the time.
+    Rest,
+    /// In a minimum of its energy elsewhere.
+    StableElsewhere,
+    /// At a saddle: some small motion would gain energy, though no force begins it.
+    Saddle,
+    /// In an equilibrium elsewhere, with a smallest eigenvalue of zero within its error.
+    UndecidedElsewhere,
+    /// Nowhere yet: forces are not in balance.
+    NotAtRest,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rest => "not at rest yet; statics takes it back",
+            Self::StableElsewhere => "stable equilibrium elsewhere",
+            Self::Saddle => "saddle",
+            Self::UndecidedElsewhere => "equilibrium elsewhere, stable or not within rounding",
+            Self::NotAtRest => "not at rest yet, nor brought there by statics",
+        })
+    }
+}
+
+/// What is known of a body that is not back, after statics has taken it from the final frame to where it rests.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Standing {
+    /// Where it rests.
+    pub place: Place,
+    /// As [`Summary::max_distance_from_rest`], there.
+    pub max_distance_from_rest: f64,
+    /// Norm of the forces on free nodes, N.
+    pub residual: f64,
+    /// The same as a share of the largest force of an element on a node.
+    pub relative_residual: f64,
+    /// Whether no element bears stress beyond rounding.
+    pub stress_free: bool,
+    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None` where nothing
+    /// is free.
+    pub smallest_eigenvalue: Option<f64>,
+    /// No eigenvalue near it is farther from it than this, 1/s².
+    pub eigenvalue_error: Option<f64>,
+    /// How many elements are inside out.
+    pub inverted: usize,
+    /// The smallest λ2 + λ3 of an element.
+    pub smallest_sum: f64,
+    /// Newton iterations of statics.
+    pub newton_iterations: usize,
+}
+
+impl fmt::Display for Standing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "  {}, {:.2e} body heights from rest", self.place, self.max_distance_from_rest)?;
+        match self.stress_free {
+            true => write!(f, "    no stress, residual {:.1e} N; ", self.residual)?,
+            false => write!(
+                f,
+                "    residual {:.1e} N, {:.1e} of the largest force; ",
+                self.residual, self.relative_residual
+            )?,
+        }
+        if let (Some(value), Some(error)) = (self.smallest_eigenvalue, self.eigenvalue_error) {
+            write!(f, "smallest ω² beyond rigid motions {value:.4e} ± {error:.0e} 1/s²; ")?;
+        }
+        write!(f, "{} elements inside out, smallest λ2 + λ3 {:.2e}", self.inverted, self.smallest_sum)
+    }
+}
+
 /// What came of a run. In JSON the keys are the names of the fields.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -71,6 +143,9 @@ pub struct Summary {
     /// What a testing machine reads at the end, of a scene that is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reading: Option<Reading>,
+    /// What is known of a body that is not back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub standing: Option<Standing>,
 }
 
 impl Summary {
@@ -127,6 +202,7 @@ impl fmt::Display for Summary {
             "  {}: at the end the farthest node is {:.2e} body heights from rest",
             if self.recovered { "recovered" } else { "not recovered" },
             self.max_distance_from_rest
-        )
+        )?;
+        self.standing.map_or(Ok(()), |standing| write!(f, "\n{standing}"))
     }
 }

@@ -19,7 +19,7 @@ use super::session::Session;
 use crate::energy;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::run::distance_from_rest;
+use crate::measure::distance_from_rest;
 
 /// One look at the body.
 #[derive(Clone, Debug)]
