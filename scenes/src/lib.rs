@@ -21,4 +21,5 @@ pub mod run;
 pub mod scene;
 pub mod settings;
 pub mod settle;
+pub mod trial;
 pub mod view;
