@@ -32,8 +32,15 @@ pub struct Outcome {
 /// # Errors
 /// As [`run`](crate::run::run), without those of files.
 pub fn attempt(settings: &Settings, geometry: &Geometry) -> Result<Outcome, Error> {
+    watch(Play::new(settings, geometry)?, settings.frames, geometry)
+}
+
+/// The same from wherever a scene is, up to a number of frames.
+///
+/// # Errors
+/// As [`attempt`].
+pub fn watch(mut play: Play, frames: usize, geometry: &Geometry) -> Result<Outcome, Error> {
     let mesh = &geometry.mesh;
-    let mut play = Play::new(settings, geometry)?;
     let pinned = play.simulation().pinned().len();
     let start = play.simulation().positions();
     let mut outcome = Outcome {
@@ -44,7 +51,7 @@ pub fn attempt(settings: &Settings, geometry: &Geometry) -> Result<Outcome, Erro
         standing: None,
     };
     let unit = play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets);
-    for frame in 1..=settings.frames {
+    for frame in 1..=frames {
         let before = play.simulation_mut().energies();
         let report = play.step()?;
         let energies = before.elastic.abs() + before.kinetic + before.pulls + before.gravity.abs();

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! A body is back from the frame on from which every node stays within a thousandth of the body's height. All energies
-//! have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests.
+//! have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests. A last table has what other
+//! ways back gain where many bodies are lost.
 
 use std::error::Error;
 use std::fmt;
@@ -14,12 +15,15 @@ use std::io::{self, Write};
 use clap::{Parser, ValueEnum};
 use rayon::prelude::*;
 
+use piola::point::Filter;
+use piola::step::{self, Filtering, NewtonSettings};
 use piola_scenes::energy::{Energy, soft};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::output::{Newton, Place};
+use piola_scenes::play::Play;
 use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start, body};
 use piola_scenes::settings::Settings;
-use piola_scenes::trial::{Outcome, attempt};
+use piola_scenes::trial::{Outcome, watch};
 
 const MATERIALS: [&str; 5] =
     ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "Saint Venant–Kirchhoff"];
@@ -41,6 +45,10 @@ struct Options {
     #[arg(long, value_enum, num_args = 1.., default_values = ["single", "full"])]
     newton: Vec<Mode>,
 
+    /// How far they are scrambled for the comparison of ways back.
+    #[arg(long, num_args = 0.., default_values = ["1", "2", "box"])]
+    ways: Vec<Amplitude>,
+
     /// What `cargo bench` adds.
     #[arg(long, hide = true)]
     bench: bool,
@@ -52,7 +60,7 @@ enum Mode {
     Full,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let options = Options::parse();
     let mut page = io::stdout().lock();
     for mode in options.newton {
@@ -70,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             for body in [body::HORSE, body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
-                    let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
+                    let outcomes = play(&SCRAMBLE, body, material, Way::Plain(newton), seeds.collect())?;
                     let row = Row(&outcomes);
                     writeln!(page, "| {amplitude} | {} | {material} | {row} |", body.name)?;
                     page.flush()?;
@@ -90,7 +98,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ] {
             for &body in bodies {
                 for material in MATERIALS {
-                    let outcomes = play(scene, body, material, newton, vec![scene.start])?;
+                    let outcomes = play(scene, body, material, Way::Plain(newton), vec![scene.start])?;
                     let row = Row(&outcomes);
                     writeln!(page, "| {} | {} | {material} | {row} |", scene.name, body.name)?;
                     page.flush()?;
@@ -99,7 +107,81 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         writeln!(page)?;
     }
+    if !options.ways.is_empty() {
+        write!(page, "## Ways back, of {} each\n\n| A | body | energy |", options.seeds)?;
+        WAYS.iter().try_for_each(|(name, _)| write!(page, " {name} |"))?;
+        writeln!(page, "\n|---|---|---|{}", "---:|".repeat(WAYS.len()))?;
+        for &amplitude in &options.ways {
+            for body in [body::HORSE, body::DINOSAUR] {
+                for material in &MATERIALS[..4] {
+                    write!(page, "| {amplitude} | {} | {material} |", body.name)?;
+                    for (_, way) in WAYS {
+                        let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
+                        let outcomes = play(&SCRAMBLE, body, material, *way, seeds.collect())?;
+                        let recovered = outcomes.iter().filter(|outcome| outcome.recovered.is_some()).count();
+                        write!(page, " {recovered} |")?;
+                        page.flush()?;
+                    }
+                    writeln!(page)?;
+                }
+            }
+        }
+    }
     Ok(())
+}
+
+/// How a body is brought back.
+#[derive(Clone, Copy)]
+enum Way {
+    /// By its scene.
+    Plain(Newton),
+    /// With one Newton iteration per step and this filter.
+    Filtered(Filtering),
+    /// From a start shrunk towards its middle to this share.
+    Shrunk(f64),
+    /// As a solid of another energy first, for two seconds, with full Newton.
+    First(&'static str),
+}
+
+const WAYS: &[(&str, Way)] = &[
+    ("one iteration, clamped", Way::Plain(Newton::Single)),
+    ("absolute", Way::Filtered(Filtering::Always(Filter::Absolute))),
+    ("full Newton", Way::Plain(Newton::Full)),
+    ("shrunk to a tenth", Way::Shrunk(0.1)),
+    ("shrunk to a point", Way::Shrunk(0.0)),
+    ("rotated linear first", Way::First("rotated linear")),
+];
+
+impl Way {
+    /// A scene at its start, on this way.
+    fn begin(self, described: &Settings, geometry: &Geometry) -> Result<Play, Box<dyn Error + Send + Sync>> {
+        let newton = if let Self::Plain(newton) = self { newton } else { described.newton };
+        let mut play = Play::new(&Settings { newton, ..described.clone() }, geometry)?;
+        match self {
+            Self::Plain(_) => {}
+            Self::Filtered(filtering) => {
+                let newton = NewtonSettings { filtering, ..NewtonSettings::single() };
+                play.set_step_settings(step::Settings { newton, ..*play.simulation().settings() })?;
+            }
+            Self::Shrunk(share) => {
+                let bounds = geometry.mesh.bounds();
+                let middle: [f64; 3] = std::array::from_fn(|c| 0.5 * (bounds.min[c] + bounds.max[c]));
+                let shrink = |x: &[f64; 3]| std::array::from_fn(|c| middle[c] + share * (x[c] - middle[c]));
+                let positions: Vec<_> = play.simulation().positions().iter().map(shrink).collect();
+                play.simulation_mut().set_positions(&positions)?;
+            }
+            Self::First(material) => {
+                let energy = Energy::like(material, soft());
+                let settings = Settings { energy, newton: Newton::Full, ..described.clone() };
+                let mut first = Play::new(&settings, geometry)?;
+                for _ in 0..(2.0 / settings.dt) as usize {
+                    first.step()?;
+                }
+                play.simulation_mut().set_positions(first.simulation().positions())?;
+            }
+        }
+        Ok(play)
+    }
 }
 
 /// Plays a scene from each of these starts, as many at once as there are cores.
@@ -107,16 +189,19 @@ fn play(
     scene: &'static Scene,
     body: Body,
     material: &str,
-    newton: Newton,
+    way: Way,
     starts: Vec<Start>,
-) -> Result<Vec<Outcome>, piola_scenes::error::Error> {
-    let described = Settings { body, energy: Energy::like(material, soft()), newton, ..Settings::of(scene) };
+) -> Result<Vec<Outcome>, Box<dyn Error + Send + Sync>> {
+    let described = Settings { body, energy: Energy::like(material, soft()), ..Settings::of(scene) };
     let geometry = Geometry::load(&described)?;
-    let outcomes: Result<Vec<_>, _> = starts
+    let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
         .into_par_iter()
-        .map(|start| attempt(&Settings { start, ..described.clone() }, &geometry))
+        .map(|start| {
+            let play = way.begin(&Settings { start, ..described.clone() }, &geometry)?;
+            Ok(watch(play, described.frames, &geometry)?)
+        })
         .collect();
-    let outcomes = outcomes?;
+    let outcomes: Vec<Outcome> = outcomes?;
     for outcome in &outcomes {
         assert!(outcome.finite, "a position is not finite: {outcome:?}");
         assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
