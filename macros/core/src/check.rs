@@ -1,4 +1,5 @@
-//! What can be said of an energy before any parameter is known: it is isotropic, and free of stress at rest.
+//! What can be said of an energy before any parameter is known: it is isotropic, and at rest it is free of stress and resists
+//! shear.
 //!
 //! Decided by evaluation at random points with random parameters, relative to what rounding could hide. A normal form
 //! would call (x + y)² and x² + 2xy + y² different.

@@ -46,6 +46,7 @@ fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Iden
             && methods.iter().all(|(other, _)| *other != name.ident)
         {
             let result = match &*argument.ty {
+                ty if is_sound && may_be_function(ty) => syn::parse_quote!(&#ty),
                 ty if is_sound => ty.clone(),
                 Type::Array(_) | Type::Slice(_) | Type::Reference(_) => syn::parse_quote!(&[f64]),
                 _ => syn::parse_quote!(f64),

@@ -87,6 +87,7 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
 /// The same after mistakes of form: names are looked up in spite of these, and nothing further is checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let options = &declaration.options;
+    let is_well_formed = diagnostics.is_clean();
     let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let energy = resolver.energy();
@@ -96,7 +97,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         conditions.filter_map(|condition| resolver.condition(condition, index(condition))).collect();
     let nodes = resolver.into_nodes();
     let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
-    if options.extend.is_some() && volume == Volume::Any {
+    // A domain that is misspelt may be one of these.
+    if is_well_formed && options.extend.is_some() && volume == Volume::Any {
         diagnostics.error(
             options.words.iter().find(|word| *word == "extend"),
             "`extend` continues an energy beyond `domain(J > 0.0)` or `domain(J != 0.0)`: declare one of these or remove \

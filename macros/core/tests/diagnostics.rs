@@ -226,6 +226,7 @@ fn physics() {
 fn arguments() {
     check_arguments("domain(J > 0.0, J > 2.0)", &[("J > 2.0", "excludes the rest state")]);
     check_arguments("domain(J > 0.0, l1 != 2.0)", &[("l1 != 2.0", "only a volume can be left out")]);
+    check_arguments("domein(J > 0.0), extend", &[("domein", "did you mean `domain(J > 0.0)`?")]);
     check_arguments("extend", &[("extend", "declare one of these")]);
     check_arguments("domain(J != 0.0), extend, refuse(\"no\")", &[("refuse", "either `extend` or `refuse`")]);
     check_arguments("domain(J > 0.0), refuse(no)", &[("no", "say in a string why")]);
