@@ -13,6 +13,7 @@ use material::material;
 
 mod constructor;
 mod declared;
+mod documentation;
 mod invariants;
 mod material;
 mod writer;
@@ -21,7 +22,8 @@ mod writer;
 #[must_use]
 pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let texts = Texts::of(declaration, &mut model);
-    let structure = structure(declaration, &texts);
+    let documentation = documentation::documentation(declaration, &mut model, &texts);
+    let structure = structure(declaration, &documentation);
     let constructor = constructor(declaration);
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &mut model, &texts);
@@ -72,20 +74,16 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-fn structure(declaration: &Declaration, texts: &Texts) -> TokenStream {
+fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
     let (bounds, _) = generics(declaration);
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
     let copy = (!declaration.has_functions()).then(|| quote!(#[derive(Copy)]));
-    let doc = format!(
-        "\n```text\nψ = {}\n```\n\nDomain: {}. Small strain: μ = {}, λ = {}.",
-        texts.formula, texts.domain, texts.moduli[0], texts.moduli[1]
-    );
     quote! {
         #(#attributes)*
-        #[doc = #doc]
+        #[doc = #documentation]
         #[derive(Clone, Debug, PartialEq)]
         #copy
         #visibility struct #name #bounds {

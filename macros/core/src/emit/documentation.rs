@@ -1,0 +1,117 @@
+//! What rustdoc shows of a material: ψ and its derivatives as formulas, its parameters, domain and moduli.
+
+use crate::formula::formula;
+use crate::model::Model;
+use crate::parse::Declaration;
+
+use super::{Texts, condition_text};
+
+/// Formulas with more characters than this are left out: nobody reads them.
+const LONGEST: usize = 240;
+
+/// The documentation of the type, after what its declaration says.
+pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
+    let Texts { formula, moduli: [shear, lame], .. } = texts;
+    let sections = [
+        format!("```text\nψ = {formula}\n```"),
+        parameters(declaration),
+        format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
+        format!("**Small strain**: μ = {shear}, λ = {lame}."),
+        derivatives(declaration, model),
+    ];
+    let sections: Vec<_> = sections.into_iter().filter(|section| !section.is_empty()).collect();
+    format!("\n{}", sections.join("\n\n"))
+}
+
+fn parameters(declaration: &Declaration) -> String {
+    if declaration.parameters.is_empty() {
+        return String::new();
+    }
+    let parameters = declaration.parameters.iter().map(|p| format!("\n* `{}`: {}", p.name, p.doc));
+    let list: String = parameters.collect();
+    let conditions: Vec<_> = declaration.options.admissible.iter().map(condition_text).collect();
+    let admissible = if conditions.is_empty() {
+        String::new()
+    } else {
+        format!("\n\nThey satisfy `{}`.", conditions.join(", "))
+    };
+    format!("**Parameters**:\n{list}{admissible}")
+}
+
+fn domain(declaration: &Declaration, texts: &Texts) -> String {
+    let has_conditions = !declaration.options.domain.is_empty();
+    if has_conditions { format!("`{}`.", texts.domain) } else { format!("{}.", texts.domain) }
+}
+
+/// What the material does outside its domain.
+fn outside(declaration: &Declaration) -> String {
+    let options = &declaration.options;
+    match (&options.extend, &options.refuse) {
+        (Some(conditions), _) if conditions.is_empty() => " It can be continued beyond that.".to_owned(),
+        (Some(conditions), _) => {
+            let conditions: Vec<_> = conditions.iter().map(condition_text).collect();
+            format!(" It can be continued beyond that where `{}`.", conditions.join(", "))
+        }
+        (None, Some(reason)) => format!(" It cannot be continued beyond that: {}.", reason.value()),
+        (None, None) => String::new(),
+    }
+}
+
+/// The derivatives and quotients that are not the same by isotropy, and those by the invariants.
+fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
+    let plain = &model.plain;
+    let by_stretches = [
+        ("ψ₁", plain.gradient[0]),
+        ("ψ₁₁", plain.hessian[0]),
+        ("ψ₁₂", plain.hessian[3]),
+        ("D⁻₁₂", plain.flip[0]),
+        ("D⁺₁₂", plain.twist[0]),
+    ];
+    let lines = by_stretches.into_iter().filter_map(|(name, id)| {
+        let text = formula(&mut model.graph, declaration, id);
+        (text.chars().count() <= LONGEST).then(|| format!("{name} = {text}\n"))
+    });
+    let lines: String = lines.collect();
+    if lines.is_empty() {
+        return lines;
+    }
+    format!(
+        "**Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\\[x, y\\] is \
+         (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than {LONGEST} characters \
+         are left out:\n\n```text\n{lines}```"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use quote::quote;
+
+    #[test]
+    fn a_type_shows_its_formulas() {
+        let item = quote! {
+            /// Rubber.
+            fn E([l1, l2, l3]: [f64; 3], /** Shear modulus, Pa. */ mu: f64) -> f64 {
+                mu / 2.0 * (I1 - 3.0) - mu * J.ln()
+            }
+        };
+        let (declaration, mut model) =
+            crate::understand(quote!(domain(J > 0.0), admissible(mu > 0.0), extend), item).unwrap();
+        let texts = super::Texts::of(&declaration, &mut model);
+        let documentation = super::documentation(&declaration, &mut model, &texts);
+        let lines: Vec<_> = documentation.lines().collect();
+        for line in [
+            "ψ = 1/2 μ (I1 − 3) − μ ln J",
+            "* `mu`: Shear modulus, Pa.",
+            "They satisfy `mu > 0`.",
+            "**Domain**: `J > 0`. It can be continued beyond that.",
+            "**Small strain**: μ = μ, λ = 0.",
+            "ψ₁ = μ λ₁ − μ/λ₁",
+            "ψ₁₁ = μ + μ/λ₁²",
+            "ψ₁₂ = 0",
+            "D⁻₁₂ = μ + μ/(λ₁ λ₂)",
+            "D⁺₁₂ = μ − μ/(λ₁ λ₂)",
+        ] {
+            assert!(lines.contains(&line), "{line}\n{documentation}");
+        }
+    }
+}
