@@ -9,5 +9,5 @@ pub mod tet;
 
 pub use boxes::{BoxError, tetrahedral_box};
 pub use embed::{EmbedError, Embedding};
-pub use io::{ReadError, Surface, read_msh, read_surface_obj};
+pub use io::{ReadError, Surface, read_msh, read_surface_obj, read_tetgen};
 pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh};

@@ -9,9 +9,13 @@ use std::str::FromStr;
 
 mod msh;
 mod obj;
+mod tetgen;
 
 pub use msh::{parse_msh, read_msh};
 pub use obj::{parse_surface_obj, read_surface_obj};
+pub use tetgen::read_tetgen;
+
+use super::{Group, TetMesh};
 
 /// A triangle surface, such as one that is drawn in place of the tetrahedra it is embedded in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -110,6 +114,11 @@ impl<'a> Line<'a> {
         }
     }
 
+    /// The same, where the line may have ended.
+    fn number_if_any<N: FromStr>(&mut self, what: &str) -> Result<Option<N>, Problem> {
+        if self.words.clone().next().is_none() { Ok(None) } else { self.number(what).map(Some) }
+    }
+
     /// The next word as a finite number.
     fn coordinate(&mut self, what: &str) -> Result<f64, Problem> {
         let x: f64 = self.number(what)?;
@@ -124,4 +133,65 @@ impl<'a> Line<'a> {
             self.coordinate("the z coordinate")?,
         ])
     }
+}
+
+/// The lines of a file in order.
+struct Cursor<'a> {
+    lines: std::str::Lines<'a>,
+    /// Number of the line last read, from 1.
+    number: usize,
+    /// What begins a comment, which is read as if it were not there.
+    comment: Option<char>,
+}
+
+impl<'a> Cursor<'a> {
+    fn new(text: &'a str) -> Self {
+        Self { lines: text.lines(), number: 0, comment: None }
+    }
+
+    fn with_comments(text: &'a str, comment: char) -> Self {
+        Self { comment: Some(comment), ..Self::new(text) }
+    }
+
+    /// The next line that is not blank.
+    fn next_filled(&mut self) -> Option<Line<'a>> {
+        loop {
+            let text = self.lines.next()?;
+            self.number += 1;
+            let text = self.comment.and_then(|comment| text.split(comment).next()).unwrap_or(text);
+            if !text.trim().is_empty() {
+                return Some(Line::new(self.number, text));
+            }
+        }
+    }
+
+    /// The same where `what` is expected.
+    fn next(&mut self, what: &str) -> Result<Line<'a>, Problem> {
+        self.next_filled().ok_or_else(|| Problem {
+            line: self.number + 1,
+            text: format!("the file ends where {what} is expected"),
+        })
+    }
+}
+
+/// The mesh without the nodes of no tetrahedron, in groups neither, whose nodes are then ascending.
+fn keep_used_nodes(mesh: TetMesh) -> TetMesh {
+    let mut renumbered = vec![None; mesh.positions.len()];
+    mesh.tets.iter().flatten().for_each(|&node| renumbered[node] = Some(0));
+    let mut positions = Vec::new();
+    for (number, position) in renumbered.iter_mut().zip(mesh.positions) {
+        if let Some(number) = number {
+            *number = positions.len();
+            positions.push(position);
+        }
+    }
+    let groups = mesh.groups.into_iter().map(|group| {
+        let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(|node| renumbered[node]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Group { nodes, ..group }
+    });
+    // Every node of a tetrahedron is in use, so that the default is never taken.
+    let tets = mesh.tets.iter().map(|tet| tet.map(|node| renumbered[node].unwrap_or_default())).collect();
+    TetMesh { positions, tets, groups: groups.collect(), ..mesh }
 }

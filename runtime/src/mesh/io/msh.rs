@@ -1,17 +1,20 @@
-//! Tetrahedral meshes from Gmsh's MSH 4.1 files in ASCII.
+//! Tetrahedral meshes from Gmsh's MSH files, 4.1 and 2.2, in ASCII.
 //!
-//! [MSH] Gmsh reference manual, "MSH file format", version 4.1.
+//! \[MSH\] Gmsh reference manual, "MSH file format" and "MSH file format version 2 (Legacy)".
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::{Line, Problem, ReadError, named, read};
+use super::{Cursor, Line, Problem, ReadError, keep_used_nodes, named, read};
 use crate::mesh::{Group, TetMesh};
+
+mod version2;
+mod version4;
 
 /// Gmsh's number for a linear tetrahedron.
 const TETRAHEDRON: usize = 4;
 
-/// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 in ASCII, with its physical groups.
+/// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
 ///
 /// Nodes may have any tags; those that belong to no tetrahedron are dropped. Elements of other types count only for
 /// the nodes of their groups. A group without a name is called by its number. Rest volumes are judged later, by
@@ -34,26 +37,27 @@ pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadErro
 
 fn parse(text: &str) -> Result<TetMesh, Problem> {
     let mut file = File::default();
-    let mut cursor = Cursor { lines: text.lines(), number: 0 };
-    let mut seen_format = false;
+    let mut cursor = Cursor::new(text);
+    let mut version = None;
     while let Some(line) = cursor.next_filled() {
         let section = line.text.trim();
-        if !seen_format && section != "$MeshFormat" {
-            return Err(line.problem(format!(
-                "expected `$MeshFormat`, found `{}`; is this a Gmsh file?",
-                clip(section)
-            )));
-        }
-        seen_format = true;
-        match section {
-            "$MeshFormat" => format(&mut cursor)?,
-            "$PhysicalNames" => file.physical_names(&mut cursor)?,
-            "$Entities" => file.entities(&mut cursor)?,
-            "$Nodes" => file.nodes(&mut cursor)?,
-            "$Elements" => file.elements(&mut cursor)?,
-            "$PartitionedEntities" => return Err(line.problem("partitioned meshes are not supported")),
+        match (section, version) {
+            ("$MeshFormat", _) => version = Some(format(&mut cursor)?),
+            (_, None) => {
+                return Err(line.problem(format!(
+                    "expected `$MeshFormat`, found `{}`; is this a Gmsh file?",
+                    clip(section)
+                )));
+            }
+            ("$PhysicalNames", _) => file.physical_names(&mut cursor)?,
+            ("$Nodes", Some(Version::Two)) => file.nodes_2(&mut cursor)?,
+            ("$Elements", Some(Version::Two)) => file.elements_2(&mut cursor)?,
+            ("$Entities", Some(Version::Four)) => file.entities_4(&mut cursor)?,
+            ("$Nodes", Some(Version::Four)) => file.nodes_4(&mut cursor)?,
+            ("$Elements", Some(Version::Four)) => file.elements_4(&mut cursor)?,
+            ("$PartitionedEntities", _) => return Err(line.problem("partitioned meshes are not supported")),
             _ if section.starts_with('$') && !section.starts_with("$End") => {
-                cursor.skip_section(&section[1..])?;
+                skip_section(&mut cursor, &section[1..])?;
                 continue;
             }
             _ => {
@@ -69,6 +73,15 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
         }
     }
     file.into_mesh(cursor.number + 1)
+}
+
+/// Of the format.
+#[derive(Clone, Copy)]
+enum Version {
+    /// 2.2.
+    Two,
+    /// 4.1.
+    Four,
 }
 
 /// What the sections of a file say.
@@ -88,17 +101,20 @@ struct File {
 }
 
 /// `version is-binary size-of-a-number`
-fn format(cursor: &mut Cursor<'_>) -> Result<(), Problem> {
+fn format(cursor: &mut Cursor<'_>) -> Result<Version, Problem> {
     let mut line = cursor.next("the format")?;
-    let version = line.words.next().unwrap_or_default();
-    if version != "4.1" {
-        return Err(line.problem(format!(
-            "the format is `{}`, only MSH 4.1 is read; in Gmsh, export as version 4 ASCII",
-            clip(version)
-        )));
-    }
+    let version = match line.words.next().unwrap_or_default() {
+        "2.2" => Version::Two,
+        "4.1" => Version::Four,
+        other => {
+            return Err(line.problem(format!(
+                "the format is `{}`, only MSH 4.1 and 2.2 are read; in Gmsh, export as version 4 ASCII",
+                clip(other)
+            )));
+        }
+    };
     match line.number::<usize>("the file type")? {
-        0 => Ok(()),
+        0 => Ok(version),
         _ => Err(line.problem("the file is binary, only ASCII is read; in Gmsh, export as version 4 ASCII")),
     }
 }
@@ -122,99 +138,6 @@ impl File {
         Ok(())
     }
 
-    /// Counts of points, curves, surfaces, volumes; then for each its tag, a point or a box, and its physical groups.
-    fn entities(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
-        let mut line = cursor.next("the numbers of entities")?;
-        let mut counts = [0usize; 4];
-        for count in &mut counts {
-            *count = line.number("the number of entities of a dimension")?;
-        }
-        for (dimension, count) in counts.into_iter().enumerate() {
-            for _ in 0..count {
-                let mut line = cursor.next("an entity")?;
-                let tag = line.number("the tag of the entity")?;
-                for _ in 0..if dimension == 0 { 3 } else { 6 } {
-                    line.number::<f64>("a coordinate of the entity")?;
-                }
-                let groups: usize = line.number("the number of physical groups")?;
-                let mut tags = Vec::new();
-                for _ in 0..groups {
-                    // A negative tag means the reversed orientation, which is nothing to a set of elements.
-                    tags.push(line.number::<i32>("the tag of a physical group")?.unsigned_abs().into());
-                }
-                self.physical.insert((dimension, tag), tags);
-            }
-        }
-        Ok(())
-    }
-
-    /// `blocks nodes min max`, then for each block `dimension entity parametric count`, its tags, its coordinates.
-    fn nodes(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
-        let blocks: usize = cursor.next("the number of node blocks")?.number("the number of node blocks")?;
-        let mut tags = Vec::new();
-        for _ in 0..blocks {
-            let mut line = cursor.next("a block of nodes")?;
-            line.number::<usize>("the dimension of the block")?;
-            line.number::<i64>("the entity of the block")?;
-            line.number::<usize>("whether the block is parametric")?;
-            let count: usize = line.number("the number of nodes of the block")?;
-            tags.clear();
-            for _ in 0..count {
-                let mut line = cursor.next("the tag of a node")?;
-                let tag = line.number("the tag of a node")?;
-                if self.node_of_tag.insert(tag, self.positions.len() + tags.len()).is_some() {
-                    return Err(line.problem(format!("node {tag} is given twice")));
-                }
-                tags.push(tag);
-            }
-            for tag in &tags {
-                self.positions.push(cursor.next(&format!("the position of node {tag}"))?.point()?);
-            }
-        }
-        Ok(())
-    }
-
-    /// `blocks elements min max`, then for each block `dimension entity type count` and lines `tag node …`.
-    fn elements(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
-        let blocks: usize =
-            cursor.next("the number of element blocks")?.number("the number of element blocks")?;
-        for _ in 0..blocks {
-            let mut line = cursor.next("a block of elements")?;
-            let dimension: usize = line.number("the dimension of the block")?;
-            let entity: i64 = line.number("the entity of the block")?;
-            let kind: usize = line.number("the type of the elements")?;
-            let count: usize = line.number("the number of elements of the block")?;
-            let groups = self.physical.get(&(dimension, entity)).cloned().unwrap_or_default();
-            for _ in 0..count {
-                let mut line = cursor.next("an element")?;
-                let tag: usize = line.number("the tag of the element")?;
-                if kind == TETRAHEDRON {
-                    self.tags.push(tag);
-                    let tet = [
-                        self.node(&mut line)?,
-                        self.node(&mut line)?,
-                        self.node(&mut line)?,
-                        self.node(&mut line)?,
-                    ];
-                    self.tets.push(tet);
-                    for &group in &groups {
-                        let group = self.groups.entry((dimension, group)).or_default();
-                        group.nodes.extend(tet);
-                        group.tets.push(self.tets.len() - 1);
-                    }
-                } else if !groups.is_empty() {
-                    while line.words.clone().next().is_some() {
-                        let node = self.node(&mut line)?;
-                        for &group in &groups {
-                            self.groups.entry((dimension, group)).or_default().nodes.push(node);
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The next word of an element as the index of a node.
     fn node(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
         let tag = line.number("the tag of a node")?;
@@ -222,6 +145,27 @@ impl File {
             .get(&tag)
             .copied()
             .ok_or_else(|| line.problem(format!("the element names node {tag}, which is not given above")))
+    }
+
+    /// The next four words of an element as the indices of its nodes.
+    fn tetrahedron(&self, line: &mut Line<'_>) -> Result<[usize; 4], Problem> {
+        Ok([self.node(line)?, self.node(line)?, self.node(line)?, self.node(line)?])
+    }
+
+    /// The remaining words of an element as the indices of its nodes.
+    fn nodes_of_element(&self, line: &mut Line<'_>) -> Result<Vec<usize>, Problem> {
+        let mut nodes = Vec::new();
+        while line.words.clone().next().is_some() {
+            nodes.push(self.node(line)?);
+        }
+        Ok(nodes)
+    }
+
+    /// Puts a tetrahedron into a physical group.
+    fn put_into_group(&mut self, tag: i64, tet: usize) {
+        let group = self.groups.entry((3, tag)).or_default();
+        group.nodes.extend(self.tets[tet]);
+        group.tets.push(tet);
     }
 
     /// Drops the nodes of no tetrahedron and names the groups.
@@ -232,61 +176,20 @@ impl File {
                 text: "the file ends without a linear tetrahedron (element type 4)".to_owned(),
             });
         }
-        let mut used = vec![false; self.positions.len()];
-        self.tets.iter().flatten().for_each(|&node| used[node] = true);
-        let mut positions = Vec::new();
-        let mut renumbered = vec![None; used.len()];
-        for (node, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-            renumbered[node] = Some(positions.len());
-            positions.push(self.positions[node]);
-        }
         let groups = self.groups.into_iter().map(|((dimension, tag), group)| {
-            let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(|node| renumbered[node]).collect();
-            nodes.sort_unstable();
-            nodes.dedup();
             let name = self.names.get(&(dimension, tag)).cloned().unwrap_or_else(|| tag.to_string());
-            Group { name, dimension, nodes, tets: group.tets }
+            Group { name, dimension, ..group }
         });
-        let groups = groups.collect();
-        // Every node of a tetrahedron is in use, so that the default is never taken.
-        let tets = self.tets.iter().map(|tet| tet.map(|node| renumbered[node].unwrap_or_default())).collect();
-        Ok(TetMesh { positions, tets, tags: self.tags, groups })
+        let (positions, groups) = (self.positions, groups.collect());
+        Ok(keep_used_nodes(TetMesh { positions, tets: self.tets, tags: self.tags, groups }))
     }
 }
 
-/// The lines of a file in order.
-struct Cursor<'a> {
-    lines: std::str::Lines<'a>,
-    /// Number of the line last read, from 1.
-    number: usize,
-}
-
-impl<'a> Cursor<'a> {
-    /// The next line that is not blank.
-    fn next_filled(&mut self) -> Option<Line<'a>> {
-        loop {
-            let text = self.lines.next()?;
-            self.number += 1;
-            if !text.trim().is_empty() {
-                return Some(Line::new(self.number, text));
-            }
-        }
-    }
-
-    /// The same where `what` is expected.
-    fn next(&mut self, what: &str) -> Result<Line<'a>, Problem> {
-        self.next_filled().ok_or_else(|| Problem {
-            line: self.number + 1,
-            text: format!("the file ends where {what} is expected"),
-        })
-    }
-
-    /// Goes behind the end of a section of no interest.
-    fn skip_section(&mut self, name: &str) -> Result<(), Problem> {
-        let end = format!("$End{name}");
-        while self.next(&format!("`{end}`"))?.text.trim() != end {}
-        Ok(())
-    }
+/// Goes behind the end of a section of no interest.
+fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
+    let end = format!("$End{name}");
+    while cursor.next(&format!("`{end}`"))?.text.trim() != end {}
+    Ok(())
 }
 
 /// At most 40 characters, for a complaint.
@@ -345,6 +248,42 @@ $Elements
 $EndElements
 "#;
 
+    /// The same in the older format; the second tetrahedron, of two groups, stands there twice.
+    const OLDER: &str = r#"$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 7 "left side"
+3 9 "flesh"
+$EndPhysicalNames
+$Nodes
+6
+1000 8 8 8
+40 0 0 0
+3 1 0 0
+20 0 1 0
+10 0 0 1
+30 1 1 1
+$EndNodes
+$Elements
+5
+1 2 2 -7 3 40 3 20
+11 4 2 9 1 40 3 20 10
+12 4 2 9 2 3 20 10 30
+12 4 2 11 2 3 20 10 30
+13 15 2 0 5 1000
+$EndElements
+"#;
+
+    #[test]
+    fn both_formats_say_the_same() {
+        assert_eq!(parse(OLDER), parse(GOOD));
+        // Without groups, and without tags at all.
+        let bare = parse(&OLDER.replace("11 4 2 9 1 40", "11 4 0 40")).expect("no tags");
+        assert_eq!((bare.groups[1].tets.as_slice(), bare.tets.len()), (&[1][..], 2));
+    }
+
     #[test]
     fn nodes_elements_and_groups_arrive() {
         let mesh = parse(GOOD).expect("a good file");
@@ -372,8 +311,13 @@ $EndElements
     /// Replaces a piece of the good file and expects a complaint.
     #[track_caller]
     fn check(piece: &str, replacement: &str, line: usize, problem: &str) {
-        assert!(GOOD.contains(piece));
-        let text = GOOD.replacen(piece, replacement, 1);
+        check_in(GOOD, piece, replacement, line, problem);
+    }
+
+    #[track_caller]
+    fn check_in(good: &str, piece: &str, replacement: &str, line: usize, problem: &str) {
+        assert!(good.contains(piece));
+        let text = good.replacen(piece, replacement, 1);
         assert_eq!(parse(&text), Err(Problem { line, text: problem.to_owned() }));
     }
 
@@ -381,9 +325,9 @@ $EndElements
     fn problems_name_the_line() {
         check(
             "4.1 0 8",
-            "2.2 0 8",
+            "4 0 8",
             2,
-            "the format is `2.2`, only MSH 4.1 is read; in Gmsh, export as version 4 ASCII",
+            "the format is `4`, only MSH 4.1 and 2.2 are read; in Gmsh, export as version 4 ASCII",
         );
         check(
             "4.1 0 8",
@@ -412,9 +356,33 @@ $EndElements
     }
 
     #[test]
+    fn problems_of_the_older_format_name_the_line() {
+        check_in(
+            OLDER,
+            "2.2 0 8",
+            "2.2 1 8",
+            2,
+            "the file is binary, only ASCII is read; in Gmsh, export as version 4 ASCII",
+        );
+        check_in(OLDER, "\n10 0 0 1", "\n40 0 0 1", 15, "node 40 is given twice");
+        check_in(OLDER, "\n10 0 0 1", "\n10 0 0", 15, "the z coordinate is missing");
+        check_in(OLDER, "11 4 2", "11 99 2", 21, "Gmsh knows no element type 99");
+        check_in(
+            OLDER,
+            "40 3 20 10",
+            "40 3 20 99",
+            21,
+            "the element names node 99, which is not given above",
+        );
+        check_in(OLDER, "\n5\n1 2", "\n6\n1 2", 25, "expected the tag of the element, found `$EndElements`");
+    }
+
+    #[test]
     fn a_file_cut_anywhere_is_an_error_and_no_panic() {
-        for end in 0..GOOD.len() - "$EndElements\n".len() {
-            assert!(parse(&GOOD[..end]).is_err(), "cut after {end} bytes");
+        for good in [GOOD, OLDER] {
+            for end in 0..good.len() - "$EndElements\n".len() {
+                assert!(parse(&good[..end]).is_err(), "cut after {end} bytes");
+            }
         }
     }
 

@@ -1,0 +1,70 @@
+//! What is particular to MSH 2.2: flat lists of nodes and elements, which name their groups themselves.
+
+use std::collections::HashMap;
+
+use super::super::{Cursor, Problem};
+use super::{File, TETRAHEDRON};
+
+impl File {
+    /// `count`, then `tag x y z` each.
+    pub(super) fn nodes_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
+        let count: usize = cursor.next("the number of nodes")?.number("the number of nodes")?;
+        for _ in 0..count {
+            let mut line = cursor.next("a node")?;
+            let tag = line.number("the tag of a node")?;
+            if self.node_of_tag.insert(tag, self.positions.len()).is_some() {
+                return Err(line.problem(format!("node {tag} is given twice")));
+            }
+            self.positions.push(line.point()?);
+        }
+        Ok(())
+    }
+
+    /// `count`, then `tag type number-of-tags physical-group …, node …` each; an element of several groups is written once for
+    /// each of them.
+    pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
+        let count: usize = cursor.next("the number of elements")?.number("the number of elements")?;
+        let mut seen = HashMap::new();
+        for _ in 0..count {
+            let mut line = cursor.next("an element")?;
+            let tag: usize = line.number("the tag of the element")?;
+            let kind: usize = line.number("the type of the element")?;
+            let dimension =
+                dimension(kind).ok_or_else(|| line.problem(format!("Gmsh knows no element type {kind}")))?;
+            let mut group = 0;
+            for at in 0..line.number::<usize>("the number of tags of the element")? {
+                let tag: i32 = line.number("a tag of the element")?;
+                if at == 0 {
+                    // A negative tag means the reversed orientation, which is nothing to a set of elements.
+                    group = tag.unsigned_abs().into();
+                }
+            }
+            if kind == TETRAHEDRON {
+                let tet = self.tetrahedron(&mut line)?;
+                let index = *seen.entry(tet).or_insert(self.tets.len());
+                if index == self.tets.len() {
+                    self.tags.push(tag);
+                    self.tets.push(tet);
+                }
+                if group != 0 {
+                    self.put_into_group(group, index);
+                }
+            } else if group != 0 {
+                let nodes = self.nodes_of_element(&mut line)?;
+                self.groups.entry((dimension, group)).or_default().nodes.extend(nodes);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Of the element types of the manual, by which the names of groups are told apart.
+fn dimension(kind: usize) -> Option<usize> {
+    match kind {
+        15 => Some(0),
+        1 | 8 | 26..=28 => Some(1),
+        2 | 3 | 9 | 10 | 16 | 20..=25 => Some(2),
+        4..=7 | 11..=14 | 17..=19 | 29..=31 | 92 | 93 => Some(3),
+        _ => None,
+    }
+}

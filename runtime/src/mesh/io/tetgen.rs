@@ -1,0 +1,211 @@
+//! Tetrahedral meshes from TetGen's pairs of files, `.node` and `.ele`.
+//!
+//! \[Si15\] Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, 2015; formats in the manual, "File formats".
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use super::{Cursor, Line, Problem, ReadError, keep_used_nodes, read};
+use crate::mesh::{Group, TetMesh};
+
+/// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file beside it; either may be named.
+///
+/// Nodes are numbered from 0, from 1, or in any other way. Of tetrahedra with ten nodes the four corners count; one whose
+/// corners are in the other order is turned, since the format promises none. The first attribute of a tetrahedron, the
+/// number of its region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of dimension 2;
+/// both are called by their numbers. Nodes that belong to no tetrahedron are dropped.
+///
+/// # Errors
+/// Where one of the files cannot be read or a line of it (named) is malformed, or there is no tetrahedron.
+pub fn read_tetgen(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
+    let nodes = read(&path.as_ref().with_extension("node"), parse_nodes)?;
+    read(&path.as_ref().with_extension("ele"), |text| parse_tets(text, nodes))
+}
+
+/// What a `.node` file says.
+#[derive(Debug, Default, PartialEq)]
+struct Nodes {
+    positions: Vec<[f64; 3]>,
+    /// Index of each node by its number.
+    index: HashMap<usize, usize>,
+    /// Nodes by boundary marker.
+    marked: BTreeMap<i64, Vec<usize>>,
+}
+
+/// `count 3 attributes markers`, then `number x y z attribute … marker` each.
+fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
+    let mut cursor = Cursor::with_comments(text, '#');
+    let mut line = cursor.next("the number of nodes")?;
+    let count: usize = line.number("the number of nodes")?;
+    let dimension: usize = line.number("the dimension")?;
+    if dimension != 3 {
+        return Err(line.problem(format!("nodes have {dimension} coordinates; they must have 3")));
+    }
+    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
+    let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
+    let mut nodes = Nodes::default();
+    for _ in 0..count {
+        let mut line = cursor.next("a node")?;
+        let number = line.number("the number of the node")?;
+        let node = nodes.positions.len();
+        if nodes.index.insert(number, node).is_some() {
+            return Err(line.problem(format!("node {number} is given twice")));
+        }
+        nodes.positions.push(line.point()?);
+        for _ in 0..attributes {
+            line.number::<f64>("an attribute of the node")?;
+        }
+        if markers > 0 {
+            let marker: i64 = line.number("the boundary marker of the node")?;
+            nodes.marked.entry(marker).or_default().push(node);
+        }
+    }
+    nodes.marked.remove(&0);
+    Ok(nodes)
+}
+
+/// `count corners attributes`, then `number node … attribute …` each.
+fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
+    let mut cursor = Cursor::with_comments(text, '#');
+    let mut line = cursor.next("the number of tetrahedra")?;
+    let count: usize = line.number("the number of tetrahedra")?;
+    let corners: usize = line.number("the number of nodes of a tetrahedron")?;
+    if count == 0 {
+        return Err(line.problem("there is no tetrahedron"));
+    }
+    if corners != 4 && corners != 10 {
+        return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4 or 10")));
+    }
+    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
+    let (mut tets, mut tags) = (Vec::new(), Vec::new());
+    let mut regions: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
+    for tet in 0..count {
+        let mut line = cursor.next("a tetrahedron")?;
+        tags.push(line.number("the number of the tetrahedron")?);
+        let mut corner = || nodes.named(&mut line);
+        tets.push(nodes.turned([corner()?, corner()?, corner()?, corner()?]));
+        for _ in 4..corners {
+            corner()?;
+        }
+        if attributes > 0 {
+            // A whole number, written as a real one.
+            let region: f64 = line.number("the region of the tetrahedron")?;
+            regions.entry(region as i64).or_default().push(tet);
+        }
+    }
+    let marked = nodes.marked.into_iter().map(|(marker, nodes)| Group {
+        name: marker.to_string(),
+        dimension: 2,
+        nodes,
+        tets: Vec::new(),
+    });
+    let regions = regions.into_iter().map(|(region, members)| Group {
+        name: region.to_string(),
+        dimension: 3,
+        nodes: members.iter().flat_map(|&tet| tets[tet]).collect(),
+        tets: members,
+    });
+    let groups = marked.chain(regions).collect();
+    Ok(keep_used_nodes(TetMesh { positions: nodes.positions, tets, tags, groups }))
+}
+
+impl Nodes {
+    /// The next word of a line as the index of a node.
+    fn named(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
+        let number: usize = line.number("the number of a node")?;
+        let index = self.index.get(&number).copied();
+        index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
+    }
+
+    /// The corners in the order in which their volume is positive, if they have any.
+    fn turned(&self, [a, b, c, d]: [usize; 4]) -> [usize; 4] {
+        let edge = |node: usize| -> [f64; 3] {
+            std::array::from_fn(|i| self.positions[node][i] - self.positions[a][i])
+        };
+        let ([x, y, z], [u, v, w], e) = (edge(b), edge(c), edge(d));
+        let across = [y * w - z * v, z * u - x * w, x * v - y * u];
+        let volume = across[0] * e[0] + across[1] * e[1] + across[2] * e[2];
+        if volume < 0.0 { [a, c, b, d] } else { [a, b, c, d] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stray node, attributes and boundary markers.
+    const NODES: &str = "# made by hand\n\
+        6 3 1 1\n\
+        1  0 0 0  0.5 2\n\
+        2  1 0 0  0.5 2 # a corner\n\
+        3  0 1 0  0.5 0\n\
+        \n\
+        4  0 0 1  0.5 -1\n\
+        5  1 1 1  0.5 0\n\
+        6  8 8 8  0.5 2\n";
+
+    /// The second tetrahedron is in the other order.
+    const TETS: &str = "2 4 1\n  1  1 2 3 4  7\n  2  3 2 4 5  -1\n";
+
+    #[test]
+    fn nodes_tetrahedra_and_groups_arrive() {
+        let mesh = parse_nodes(NODES).and_then(|nodes| parse_tets(TETS, nodes)).expect("good files");
+        assert_eq!((mesh.positions.len(), mesh.positions[4]), (5, [1.0; 3]));
+        assert_eq!(
+            (mesh.tets.as_slice(), mesh.tags.as_slice()),
+            (&[[0, 1, 2, 3], [2, 3, 1, 4]][..], &[1, 2][..])
+        );
+        let group = |name: &str, dimension, nodes: &[usize], tets: &[usize]| Group {
+            name: name.to_owned(),
+            dimension,
+            nodes: nodes.to_vec(),
+            tets: tets.to_vec(),
+        };
+        assert_eq!(
+            mesh.groups,
+            [
+                group("-1", 2, &[3], &[]),
+                group("2", 2, &[0, 1], &[]),
+                group("-1", 3, &[1, 2, 3, 4], &[1]),
+                group("7", 3, &[0, 1, 2, 3], &[0]),
+            ]
+        );
+        assert!(mesh.rest_shapes().is_ok());
+    }
+
+    #[test]
+    fn nodes_may_be_counted_from_zero_and_tetrahedra_have_ten() {
+        let nodes = parse_nodes("5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1").expect("bare nodes");
+        let mesh = parse_tets("1 10\n0  0 1 2 3 4 4 4 4 4 4", nodes).expect("ten nodes");
+        assert_eq!((mesh.positions.len(), mesh.tets, mesh.groups), (4, vec![[0, 1, 2, 3]], vec![]));
+    }
+
+    #[track_caller]
+    fn check(piece: &str, replacement: &str, line: usize, problem: &str) {
+        assert!(NODES.contains(piece) || TETS.contains(piece));
+        let nodes = parse_nodes(&NODES.replacen(piece, replacement, 1));
+        let mesh = nodes.and_then(|nodes| parse_tets(&TETS.replacen(piece, replacement, 1), nodes));
+        assert_eq!(mesh, Err(Problem { line, text: problem.to_owned() }));
+    }
+
+    #[test]
+    fn problems_name_the_line() {
+        check("6 3 1 1", "6 2 1 1", 2, "nodes have 2 coordinates; they must have 3");
+        check("6 3 1 1", "7 3 1 1", 10, "the file ends where a node is expected");
+        check("4  0 0 1", "4  0 o 1", 7, "expected the y coordinate, found `o`");
+        check("4  0 0 1", "3  0 0 1", 7, "node 3 is given twice");
+        check("0.5 -1", "0.5", 7, "the boundary marker of the node is missing");
+        check("3 2 4 5", "3 2 4 9", 3, "the .node file has no node 9");
+        check("2 4 1\n", "2 5 1\n", 1, "tetrahedra have 5 nodes; they must have 4 or 10");
+        check("2 4 1\n", "0 4 1\n", 1, "there is no tetrahedron");
+        check("  7", "", 2, "the region of the tetrahedron is missing");
+    }
+
+    #[test]
+    fn either_file_may_be_named_and_both_must_be_there() {
+        for name in ["no/such/mesh.ele", "no/such/mesh.node"] {
+            let missing = read_tetgen(name).expect_err("no such file");
+            assert!(missing.to_string().starts_with("no/such/mesh.node: cannot be read: "), "{missing}");
+        }
+    }
+}
