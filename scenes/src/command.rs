@@ -9,6 +9,7 @@ use piola::Inversion;
 use piola_scenes::energy::Energy;
 use piola_scenes::error::Error;
 use piola_scenes::output::Newton;
+use piola_scenes::run::Output;
 use piola_scenes::scene::{self, Amplitude, Scene, Start, body};
 use piola_scenes::settings::{Files, Settings};
 use piola_scenes::view::recording::Recording;
@@ -52,6 +53,10 @@ pub(crate) struct Run {
     /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Write the tetrahedra as well, frame_NNNN.vtu with fields and frames.pvd with times, for ParaView.
+    #[arg(long)]
+    vtu: bool,
 }
 
 /// All quantities are in SI units; y points upwards.
@@ -131,7 +136,7 @@ struct Choice {
     #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
     amplitude: Option<Amplitude>,
 
-    /// Another body: tetrahedra in Gmsh MSH 4.1, ASCII; the scene's places become shares of its bounding box.
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places become shares of its bounding box.
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
 
@@ -165,11 +170,12 @@ impl fmt::Display for Iterations {
 
 impl Run {
     /// What is asked for, and the folder for it.
-    pub(crate) fn settings(self) -> Result<(Settings, PathBuf), Error> {
+    pub(crate) fn settings(self) -> Result<(Settings, Output), Error> {
         let mut settings = self.choice.settings()?;
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
-        Ok((settings, self.out.unwrap_or_else(|| PathBuf::from("out").join(name))))
+        let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
+        Ok((settings, Output { folder, vtu: self.vtu }))
     }
 }
 

@@ -1,12 +1,13 @@
 //! The geometry of a run: tetrahedra and the surface that is drawn in their place.
 
 use std::collections::{HashMap, HashSet};
+use std::ffi::OsStr;
 use std::fmt::Display;
 use std::path::Path;
 
 use piola::mesh::embed::Anchor;
 use piola::mesh::io::{parse_msh, parse_surface_obj};
-use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj, tetrahedral_box};
+use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj, read_tetgen, tetrahedral_box};
 
 use crate::error::Error;
 use crate::scene::body::{Body, Shape};
@@ -35,7 +36,10 @@ impl Geometry {
     /// or the surface is not in it.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
-        let mesh = readable(read_msh(&files.mesh))?;
+        let mesh = match files.mesh.extension().and_then(OsStr::to_str) {
+            Some("node" | "ele") => readable(read_tetgen(&files.mesh))?,
+            _ => readable(read_msh(&files.mesh))?,
+        };
         let mesh_name = files.mesh.display().to_string();
         match &files.surface {
             Some(file) => {

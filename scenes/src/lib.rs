@@ -10,6 +10,7 @@
 pub mod clock;
 pub mod energy;
 pub mod error;
+pub mod fields;
 pub mod gauge;
 pub mod geometry;
 pub mod measure;

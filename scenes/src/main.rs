@@ -37,16 +37,16 @@ fn main() -> ExitCode {
 }
 
 fn play(arguments: Run) -> Result<(), Error> {
-    let (settings, folder) = arguments.settings()?;
+    let (settings, output) = arguments.settings()?;
     // The bar goes to standard error, and nowhere where that is no terminal.
     let bar = ProgressBar::new(settings.frames as u64).with_message(settings.scene.name);
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps") {
         bar.set_style(style);
     }
-    let result = run(&settings, &folder, &mut || bar.inc(1));
+    let result = run(&settings, &output, &mut || bar.inc(1));
     bar.finish_and_clear();
     say(result?);
-    say(format_args!("  surfaces, frames.png and summary.json are in {}", folder.display()));
+    say(format_args!("  surfaces, frames.png and summary.json are in {}", output.folder.display()));
     Ok(())
 }
 

@@ -5,16 +5,27 @@
 mod folder;
 mod ply;
 mod summary;
+mod vtu;
 
 pub use folder::Folder;
 pub use ply::write_ply;
 pub use summary::{Newton, Place, Reading, Standing, Summary};
+pub use vtu::{Field, write_pvd, write_vtu};
 
 /// The file of a frame's surface.
 #[must_use]
 pub fn frame_file(frame: usize) -> String {
     format!("frame_{frame:04}.ply")
 }
+
+/// The file of a frame's tetrahedra.
+#[must_use]
+pub fn cage_file(frame: usize) -> String {
+    format!("frame_{frame:04}.vtu")
+}
+
+/// The times of the tetrahedra's files.
+pub const CAGES_FILE: &str = "frames.pvd";
 
 /// The contact sheet.
 pub const PICTURE_FILE: &str = "frames.png";

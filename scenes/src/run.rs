@@ -1,13 +1,19 @@
 //! From settings to files: plays a scene.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use piola::batch::Energy;
+use piola::step::Simulation;
+
 use crate::error::Error;
+use crate::fields;
 use crate::gauge;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::output::{Folder, PICTURE_FILE, SUMMARY_FILE, Summary, frame_file, write_ply};
+use crate::output::{
+    CAGES_FILE, Folder, PICTURE_FILE, SUMMARY_FILE, Summary, cage_file, frame_file, write_ply, write_pvd,
+};
 use crate::play::Play;
 use crate::render::{self, contact_sheet};
 use crate::settings::Settings;
@@ -22,19 +28,29 @@ const CANDIDATES: usize = 400;
 /// those of ten thousand elements of its size, each with an error of a few roundings, are smaller still.
 const NO_FORCE: f64 = 1e-11;
 
-/// Plays a scene, calling `on_step` after every time step, and leaves surfaces, a picture and the summary in `folder`.
+/// Where a run leaves its files, and which.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// The folder for surfaces, a picture and the summary.
+    pub folder: PathBuf,
+    /// Whether the tetrahedra are written with [fields](crate::fields), too.
+    pub vtu: bool,
+}
+
+/// Plays a scene, calling `on_step` after every time step, and leaves its files.
 ///
 /// # Errors
 /// With [`Error::exit_code`] 2 where the settings make no sense or the folder cannot be written to, else 1 where a
 /// step or a file fails. Then nothing is written.
-pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Result<Summary, Error> {
+pub fn run(settings: &Settings, output: &Output, on_step: &mut dyn FnMut()) -> Result<Summary, Error> {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings, &geometry)?;
     let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
     let threads = threads.map_err(|error| Error::Threads { reason: error.to_string() })?;
 
-    let mut recording = Recording::new(&geometry, settings, Folder::prepare(folder)?);
-    recording.frame(0, play.simulation().positions())?;
+    let cages_of = if output.vtu { Some(settings.energy.build()?.elements) } else { None };
+    let mut recording = Recording::new(&geometry, settings, Folder::prepare(&output.folder)?, cages_of);
+    recording.frame(0, play.simulation())?;
     let mesh = &geometry.mesh;
     let pinned = play.simulation().pinned().len();
     let start = play.simulation().positions();
@@ -57,7 +73,7 @@ pub fn run(settings: &Settings, folder: &Path, on_step: &mut dyn FnMut()) -> Res
         }
         iterations += report.newton.iterations;
         energy = report.energies.elastic;
-        recording.frame(frame, play.simulation().positions())?;
+        recording.frame(frame, play.simulation())?;
         on_step();
     }
 
@@ -112,11 +128,18 @@ struct Recording<'a> {
     path: f64,
     /// What may become tiles, and the path up to there. Only the frames that `stride` divides are kept, and the last.
     candidates: Vec<(render::Frame, f64)>,
+    /// The material where tetrahedra are written, too.
+    cages_of: Option<Box<dyn Energy<f64>>>,
     stride: usize,
 }
 
 impl<'a> Recording<'a> {
-    fn new(geometry: &'a Geometry, settings: &Settings, folder: Folder) -> Self {
+    fn new(
+        geometry: &'a Geometry,
+        settings: &Settings,
+        folder: Folder,
+        cages_of: Option<Box<dyn Energy<f64>>>,
+    ) -> Self {
         Self {
             geometry,
             folder,
@@ -126,11 +149,13 @@ impl<'a> Recording<'a> {
             before: Vec::new(),
             path: 0.0,
             candidates: Vec::new(),
+            cages_of,
             stride: 1,
         }
     }
 
-    fn frame(&mut self, number: usize, positions: &[[f64; 3]]) -> Result<(), Error> {
+    fn frame(&mut self, number: usize, simulation: &Simulation) -> Result<(), Error> {
+        let positions = simulation.positions();
         let mesh = &self.geometry.mesh;
         self.min_det_f = self.min_det_f.min(measure::min_det_f(&mesh.positions, positions, &mesh.tets));
         self.path += measure::mean_distance(&self.before, positions);
@@ -140,6 +165,10 @@ impl<'a> Recording<'a> {
         let vertices = self.geometry.surface_at(positions);
         self.folder
             .write(&frame_file(number), |file| write_ply(file, &vertices, &self.geometry.triangles))?;
+        if let Some(material) = &self.cages_of {
+            let write = |file: &mut _| fields::write(file, simulation, material.as_ref());
+            self.folder.write(&cage_file(number), write)?;
+        }
         if number.is_multiple_of(self.stride) || number == self.last {
             let frame = render::Frame { number, time: number as f64 * self.dt, vertices };
             self.candidates.push((frame, self.path));
@@ -163,6 +192,10 @@ impl<'a> Recording<'a> {
         let tiles: Vec<_> = chosen.into_iter().map(|index| self.candidates[index].0.clone()).collect();
         let picture = contact_sheet(&tiles, &self.geometry.triangles, &settings.body.style);
         self.folder.write(PICTURE_FILE, |file| picture.write_png(file).map_err(Into::into))?;
+        if self.cages_of.is_some() {
+            let frames = (0..=self.last).map(|frame| (frame as f64 * self.dt, cage_file(frame)));
+            self.folder.write(CAGES_FILE, |file| write_pvd(file, frames))?;
+        }
         self.folder.write(SUMMARY_FILE, |file| summary.write_json(file))?;
         self.folder.publish()
     }

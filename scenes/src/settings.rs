@@ -47,7 +47,7 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Files {
-    /// Tetrahedra, Gmsh MSH 4.1 in ASCII.
+    /// Tetrahedra: Gmsh MSH 4.1 or 2.2 in ASCII, or TetGen where it ends in `.node` or `.ele`.
     pub mesh: PathBuf,
     /// The surface to embed in them, OBJ; where None, their own boundary.
     pub surface: Option<PathBuf>,

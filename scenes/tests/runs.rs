@@ -123,6 +123,24 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
 }
 
 #[test]
+fn tetrahedra_with_fields_are_written_for_paraview() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    fs::write(folder.path().join("one.node"), "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n")
+        .expect("a scratch file");
+    fs::write(folder.path().join("one.ele"), "1 4\n1 1 2 3 4\n").expect("a scratch file");
+    let arguments = ["run", "point", "--mesh", "one.ele", "--frames", "2", "--vtu"];
+    let output = piola(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let file = |name: &str| fs::read_to_string(folder.path().join("out/point").join(name)).expect("a file");
+    for frame in ["frame_0000.vtu", "frame_0001.vtu", "frame_0002.vtu"] {
+        assert!(file("frames.pvd").contains(&format!("file=\"{frame}\"")), "{frame}");
+        for field in ["displacement", "velocity", "det F", "stretches", "energy density"] {
+            assert!(file(frame).contains(&format!("Name=\"{field}\"")), "{field} in {frame}");
+        }
+    }
+}
+
+#[test]
 fn threads_change_no_bit() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let surface = |threads: &str| {

@@ -55,7 +55,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Moves all files into place, over those of an earlier run; surfaces of an earlier, longer run are removed.
+    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are removed.
     ///
     /// # Errors
     /// [`Error::Write`] where a file of that name is in the way and cannot be replaced.
@@ -89,9 +89,10 @@ impl Drop for Folder {
     }
 }
 
-/// Whether it is a name that [`frame_file`](super::frame_file) gives.
+/// Whether it is a name that [`frame_file`](super::frame_file) or [`cage_file`](super::cage_file) gives.
 fn is_frame(name: &str) -> bool {
-    let digits = name.strip_prefix("frame_").and_then(|rest| rest.strip_suffix(".ply"));
+    let digits =
+        name.strip_prefix("frame_").and_then(|rest| rest.strip_suffix(".ply").or(rest.strip_suffix(".vtu")));
     digits.is_some_and(|digits| digits.len() >= 4 && digits.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
@@ -119,7 +120,9 @@ mod tests {
         assert_eq!(names(scratch.path()), [""; 0], "an abandoned run leaves no folder");
 
         fs::create_dir_all(&target)?;
-        for earlier in ["frame_0000.ply", "frame_0007.ply", "frame_of_mind.ply", "notes.txt"] {
+        for earlier in
+            ["frame_0000.ply", "frame_0007.ply", "frame_0003.vtu", "frame_of_mind.ply", "notes.txt"]
+        {
             fs::write(target.join(earlier), "old")?;
         }
         let mut folder = Folder::prepare(&target)?;

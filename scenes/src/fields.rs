@@ -1,0 +1,48 @@
+//! What ParaView is shown of a body: its tetrahedra with fields.
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use std::io::{self, Write};
+
+use piola::batch::{Batch, Energy};
+use piola::point::svd::svd;
+use piola::step::Simulation;
+
+use crate::output::{Field, write_vtu};
+
+/// Writes the tetrahedra of a body as VTU: displacement, m, and velocity, m/s, of nodes; det F, the principal stretches and the
+/// energy density, J/m³, of tetrahedra, NaN where one is outside the domain of its energy.
+///
+/// # Errors
+/// Where `target` cannot be written to.
+pub fn write(target: &mut impl Write, simulation: &Simulation, material: &dyn Energy<f64>) -> io::Result<()> {
+    let (body, positions) = (simulation.body(), simulation.positions());
+    let displacements: Vec<f64> = positions
+        .as_flattened()
+        .iter()
+        .zip(body.rest().as_flattened())
+        .map(|(position, rest)| position - rest)
+        .collect();
+    let F: Vec<_> = body.elements().iter().map(|element| element.deformation_gradient(positions)).collect();
+    let stretches: Vec<[f64; 3]> = F.iter().map(|F| svd(F).stretches).collect();
+    let dets: Vec<f64> = stretches.iter().map(|[l1, l2, l3]| l1 * l2 * l3).collect();
+    let mut energies = vec![f64::NAN; F.len()];
+    for (F, energy) in F.iter().zip(&mut energies) {
+        let mut density = [0.0];
+        let survey = Batch::new(material).energies(F.as_flattened(), &mut density);
+        if survey.is_ok_and(|survey| survey.refused == 0 && survey.nonfinite == 0) {
+            *energy = density[0];
+        }
+    }
+    let tets: Vec<_> = body.elements().iter().map(|element| element.nodes).collect();
+    let nodal = [
+        Field { name: "displacement", components: 3, values: &displacements },
+        Field { name: "velocity", components: 3, values: simulation.velocities().as_flattened() },
+    ];
+    let elemental = [
+        Field { name: "det F", components: 1, values: &dets },
+        Field { name: "stretches", components: 3, values: stretches.as_flattened() },
+        Field { name: "energy density", components: 1, values: &energies },
+    ];
+    write_vtu(target, positions, &tets, &nodal, &elemental)
+}
