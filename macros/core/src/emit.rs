@@ -53,6 +53,12 @@ impl Texts {
     }
 }
 
+/// Text as documentation, a line at a time as people write it.
+fn doc(text: &str) -> TokenStream {
+    let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+    quote!(#(#[doc = #lines])*)
+}
+
 /// A condition as people write it: `mu[p] * alpha[p] > 0`.
 fn condition_text(condition: &Expr) -> String {
     let text = condition.to_token_stream().to_string();
@@ -76,6 +82,7 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
 
 fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
+    let documentation = doc(documentation);
     let (bounds, _) = generics(declaration);
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
@@ -83,7 +90,7 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let copy = (!declaration.has_functions()).then(|| quote!(#[derive(Copy)]));
     quote! {
         #(#attributes)*
-        #[doc = #documentation]
+        #documentation
         #[derive(Clone, Debug, PartialEq)]
         #copy
         #visibility struct #name #bounds {

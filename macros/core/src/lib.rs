@@ -8,6 +8,7 @@
 //! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
 
 pub mod check;
+pub mod count;
 mod culprit;
 pub mod diagnostics;
 pub mod diff;

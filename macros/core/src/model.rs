@@ -74,6 +74,14 @@ pub struct Variant {
     pub has_pole: bool,
 }
 
+impl Variant {
+    /// What a tangent is made of: gradient, Hessian, flip and twist.
+    #[must_use]
+    pub fn blocks(&self) -> Vec<Id> {
+        [&self.gradient[..], &self.hessian, &self.flip, &self.twist].concat()
+    }
+}
+
 /// Understands, checks, differentiates.
 ///
 /// # Errors

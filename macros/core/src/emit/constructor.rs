@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::Expr;
 
-use super::{condition_text, generics};
+use super::{condition_text, doc, generics};
 use crate::model::indexed_lists;
 use crate::parse::{Declaration, Parameter, identifiers};
 
@@ -38,6 +38,7 @@ fn new(declaration: &Declaration) -> TokenStream {
         "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible.",
         documented.collect::<Vec<_>>().join("\n")
     );
+    let new_doc = doc(&new_doc);
     let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
     let finite = numbers.map(|parameter| {
         let (name, text) = (&parameter.name, parameter.name.to_string());
@@ -70,7 +71,7 @@ fn new(declaration: &Declaration) -> TokenStream {
         }
     });
     quote! {
-        #[doc = #new_doc]
+        #new_doc
         #[allow(clippy::too_many_arguments)]
         #visibility fn new(#(#names: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
             #(#finite)*

@@ -1,5 +1,7 @@
-//! What rustdoc shows of a material: ψ and its derivatives as formulas, its parameters, domain and moduli.
+//! What rustdoc shows of a material: ψ and its derivatives as formulas, its parameters, domain and moduli, and how many
+//! operations each result takes.
 
+use crate::count::{LEGEND, counts, table};
 use crate::formula::formula;
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -18,6 +20,7 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
         format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
         format!("**Small strain**: μ = {shear}, λ = {lame}."),
         derivatives(declaration, model),
+        operations(declaration, model),
     ];
     let sections: Vec<_> = sections.into_iter().filter(|section| !section.is_empty()).collect();
     format!("\n{}", sections.join("\n\n"))
@@ -82,6 +85,12 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
     )
 }
 
+/// What each result costs.
+fn operations(declaration: &Declaration, model: &mut Model) -> String {
+    let table = table(declaration, &counts(model));
+    format!("**Operations**, of each result by itself:\n\n{table}\n{LEGEND}.")
+}
+
 #[cfg(test)]
 mod tests {
     use quote::quote;
@@ -110,6 +119,7 @@ mod tests {
             "ψ₁₂ = 0",
             "D⁻₁₂ = μ + μ/(λ₁ λ₂)",
             "D⁺₁₂ = μ − μ/(λ₁ λ₂)",
+            "| energy | 11 (1 ln) |",
         ] {
             assert!(lines.contains(&line), "{line}\n{documentation}");
         }

@@ -167,21 +167,18 @@ impl<'a> Bodies<'a> {
         };
         let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
         let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
-        let blocks = bodies(
-            &|variant| [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat(),
-            &|outputs| {
-                let (gradient, hessian, flip, twist) =
-                    (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
-                quote! {
-                    ::piola::material::Blocks {
-                        gradient: [#(#gradient),*],
-                        hessian: [#(#hessian),*],
-                        flip: [#(#flip),*],
-                        twist: [#(#twist),*],
-                    }
+        let blocks = bodies(&Variant::blocks, &|outputs| {
+            let (gradient, hessian, flip, twist) =
+                (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
+            quote! {
+                ::piola::material::Blocks {
+                    gradient: [#(#gradient),*],
+                    hessian: [#(#hessian),*],
+                    flip: [#(#flip),*],
+                    twist: [#(#twist),*],
                 }
-            },
-        );
+            }
+        });
 
         let at_strains = at_strains(model, &writer, stretches);
         let admits = admits(model, &writer, stretches);
