@@ -1,0 +1,1001 @@
+/// Gent solid: rubber that locks where I1 − 3 reaches Jm.
+///
+/// ψ = −μ Jm/2 ln(1 − (I1 − 3)/Jm) − μ ln J + κ/2 (J − 1)².
+///
+/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is incompressible, and the
+/// others free the rest state of stress and penalise changes of volume. Defined for J > 0 and I1 − 3 < Jm; the first of
+/// these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0, the second stays.
+///
+/// Typical: `mu = 3.3e5, jm = 108.0, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+///
+/// ```text
+/// ψ = 1/2 κ (J − 1)² − 1/2 μ jm ln(−(I1 − 3)/jm + 1) − μ ln J
+/// ```
+///
+/// **Parameters**:
+///
+/// * `mu`: Shear modulus μ, Pa.
+/// * `jm`: Locking value Jm of I1 − 3.
+/// * `kappa`: Volumetric modulus κ, Pa.
+///
+/// They satisfy `mu > 0, jm > 0`.
+///
+/// **Domain**: `J > 0, I1 - 3 < jm`. It can be continued beyond that where `kappa >= 0`.
+///
+/// **Small strain**: μ = μ, λ = κ + 2 μ/jm.
+///
+/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than 240 characters are left out:
+///
+/// ```text
+/// ψ₁ = μ λ₁/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₂ λ₃ − μ/λ₁
+/// ψ₁₁ = μ/(−(I1 − 3)/jm + 1) + 2 μ λ₁²/(jm (−(I1 − 3)/jm + 1)²) + μ/λ₁² + κ λ₂² λ₃²
+/// ψ₁₂ = 2 μ λ₁ λ₂/(jm (−(I1 − 3)/jm + 1)²) + κ (J − 1) λ₃ + κ λ₁ λ₂ λ₃²
+/// D⁻₁₂ = μ/(−(I1 − 3)/jm + 1) + μ/(λ₁ λ₂) − κ (J − 1) λ₃
+/// D⁺₁₂ = μ/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₃ − μ/(λ₁ λ₂)
+/// ```
+///
+/// **Operations**, of each result by itself:
+///
+/// | result | operations |
+/// |---|---|
+/// | energy | 23 (1 ÷, 2 ln) |
+/// | gradient | 39 (5 ÷) |
+/// | energy, gradient and Hessian | 111 (5 ÷, 2 ln) |
+/// | flip | 34 (5 ÷) |
+/// | twist | 34 (5 ÷) |
+/// | blocks | 115 (5 ÷) |
+/// | blocks, continued | 171 (9 ÷, 6 Δ) |
+///
+/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
+#[derive(Clone, Debug, PartialEq)]
+#[derive(Copy)]
+pub struct Gent {
+    mu: f64,
+    jm: f64,
+    kappa: f64,
+    inversion: ::piola::Inversion,
+}
+impl Gent {
+    /// The material with these parameters.
+    ///
+    /// * `mu`: Shear modulus μ, Pa.
+    /// * `jm`: Locking value Jm of I1 − 3.
+    /// * `kappa`: Volumetric modulus κ, Pa.
+    ///
+    /// # Errors
+    /// Where a parameter is not finite or not admissible.
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(
+        mu: f64,
+        jm: f64,
+        kappa: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        for value in [mu] {
+            if !value.is_finite() {
+                return Err(::piola::material::Inadmissible::NotFinite {
+                    parameter: "mu",
+                    value,
+                });
+            }
+        }
+        for value in [jm] {
+            if !value.is_finite() {
+                return Err(::piola::material::Inadmissible::NotFinite {
+                    parameter: "jm",
+                    value,
+                });
+            }
+        }
+        for value in [kappa] {
+            if !value.is_finite() {
+                return Err(::piola::material::Inadmissible::NotFinite {
+                    parameter: "kappa",
+                    value,
+                });
+            }
+        }
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+        if !(mu > 0.0) {
+            return Err(::piola::material::Inadmissible::Violated {
+                condition: "mu > 0",
+                given: [::std::format!("mu = {}", mu)].join(", "),
+            });
+        }
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+        if !(jm > 0.0) {
+            return Err(::piola::material::Inadmissible::Violated {
+                condition: "jm > 0",
+                given: [::std::format!("jm = {}", jm)].join(", "),
+            });
+        }
+        let material = Self {
+            mu,
+            jm,
+            kappa,
+            inversion: ::piola::Inversion::Refuse,
+        };
+        let moduli = ::piola::material::Declared::moduli(&material);
+        if !(moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite()) {
+            return Err(::piola::material::Inadmissible::UnstableRest {
+                moduli,
+            });
+        }
+        Ok(material)
+    }
+    /// The same material with another way to meet what lies outside its domain.
+    ///
+    /// # Errors
+    /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
+    pub fn with_inversion(
+        mut self,
+        inversion: ::piola::Inversion,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        if let ::piola::Inversion::Extend { epsilon } = inversion {
+            if !(epsilon > 0.0 && epsilon < 1.0) {
+                return Err(::piola::material::Inadmissible::Threshold {
+                    epsilon,
+                });
+            }
+            #[allow(unused_variables)]
+            let Self { mu, jm, kappa, .. } = self;
+            #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+            if !(kappa >= 0.0) {
+                return Err(::piola::material::Inadmissible::DoesNotRestore {
+                    condition: "kappa >= 0",
+                    given: [::std::format!("kappa = {}", kappa)].join(", "),
+                });
+            }
+        }
+        self.inversion = inversion;
+        Ok(self)
+    }
+    /// Shear modulus μ, Pa.
+    #[must_use]
+    pub fn mu(&self) -> f64 {
+        self.mu
+    }
+    /// Locking value Jm of I1 − 3.
+    #[must_use]
+    pub fn jm(&self) -> f64 {
+        self.jm
+    }
+    /// Volumetric modulus κ, Pa.
+    #[must_use]
+    pub fn kappa(&self) -> f64 {
+        self.kappa
+    }
+}
+impl ::piola::Material for Gent {
+    #[inline(always)]
+    fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
+        <Self as ::piola::material::Varying>::energy_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn gradient<R: ::piola::Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn gradient_at_strains<R: ::piola::Real>(&self, strains: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_at_strains_of(
+            &::piola::material::Uniform(self),
+            strains,
+        )
+    }
+    #[inline(always)]
+    fn blocks<R: ::piola::Real>(
+        &self,
+        stretches: [R; 3],
+    ) -> ::piola::material::Blocks<R> {
+        <Self as ::piola::material::Varying>::blocks_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn admits<R: ::piola::Real>(&self, stretches: [R; 3]) -> R::Mask {
+        <Self as ::piola::material::Varying>::admits_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    const HAS_INVARIANTS: bool = true;
+    #[inline(always)]
+    fn energy_by_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> R {
+        <Self as ::piola::material::Varying>::energy_by_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline(always)]
+    fn gradient_by_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_by_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline(always)]
+    fn admits_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> R::Mask {
+        <Self as ::piola::material::Varying>::admits_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline]
+    fn has_pole(&self) -> bool {
+        match self.inversion {
+            ::piola::Inversion::Refuse => false,
+            ::piola::Inversion::Extend { .. } => true,
+        }
+    }
+    #[inline]
+    fn ends_at_zero_volume(&self) -> bool {
+        ::core::matches!(self.inversion, ::piola::Inversion::Refuse)
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl ::piola::material::Varying for Gent {
+    #[inline(always)]
+    fn energy_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> R {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t0 = l1 * l2;
+                let t1 = l3.mul_add(t0, -R::splat(1.0));
+                let t2 = kappa * t1;
+                let t3 = t1 * t2;
+                let t4 = t3 * R::splat(0.5);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t5 = R::splat(1.0) / jm;
+                let t6 = l1 * l1;
+                let t7 = l2.mul_add(l2, t6);
+                let t8 = l3.mul_add(l3, t7);
+                let t9 = t8 - R::splat(3.0);
+                let t10 = (-t5).mul_add(t9, R::splat(1.0));
+                let t11 = t10.ln();
+                let t12 = mu * jm;
+                let t13 = t11 * t12;
+                let t14 = (-R::splat(0.5)).mul_add(t13, t4);
+                let t15 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let t16 = (-mu).mul_add(t15, t14);
+                t16
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t0 = l1 * l2;
+                let t1 = l3.mul_add(t0, -R::splat(1.0));
+                let t2 = kappa * t1;
+                let t3 = t1 * t2;
+                let t4 = t3 * R::splat(0.5);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t5 = R::splat(1.0) / jm;
+                let t6 = l1 * l1;
+                let t7 = l2.mul_add(l2, t6);
+                let t8 = l3.mul_add(l3, t7);
+                let t9 = t8 - R::splat(3.0);
+                let t10 = (-t5).mul_add(t9, R::splat(1.0));
+                let t11 = t10.ln();
+                let t12 = mu * jm;
+                let t13 = t11 * t12;
+                let t14 = (-R::splat(0.5)).mul_add(t13, t4);
+                let t15 = l1.max(epsilon);
+                let t16 = t15.ln();
+                let t17 = (l1 - epsilon).min(R::splat(0.0));
+                let t18 = R::splat(1.0) / t15;
+                let t19 = t17.mul_add(t18, t16);
+                let t20 = l2.max(epsilon);
+                let t21 = t20.ln();
+                let t22 = t19 + t21;
+                let t23 = (l2 - epsilon).min(R::splat(0.0));
+                let t24 = R::splat(1.0) / t20;
+                let t25 = t23.mul_add(t24, t22);
+                let t26 = l3.max(epsilon);
+                let t27 = t26.ln();
+                let t28 = t25 + t27;
+                let t29 = (l3 - epsilon).min(R::splat(0.0));
+                let t30 = R::splat(1.0) / t26;
+                let t31 = t29.mul_add(t30, t28);
+                let t32 = t17 * t17;
+                let t33 = t18 * t32;
+                let t34 = t18 * t33;
+                let t35 = (-R::splat(0.5)).mul_add(t34, t31);
+                let t36 = t23 * t23;
+                let t37 = t24 * t36;
+                let t38 = t24 * t37;
+                let t39 = (-R::splat(0.5)).mul_add(t38, t35);
+                let t40 = t29 * t29;
+                let t41 = t30 * t40;
+                let t42 = t30 * t41;
+                let t43 = (-R::splat(0.5)).mul_add(t42, t39);
+                let t44 = (-mu).mul_add(t43, t14);
+                t44
+            }
+        }
+    }
+    #[inline(always)]
+    fn gradient_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> [R; 3] {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t0 = R::splat(1.0) / jm;
+                let t1 = l1 * l1;
+                let t2 = l2.mul_add(l2, t1);
+                let t3 = l3.mul_add(l3, t2);
+                let t4 = t3 - R::splat(3.0);
+                let t5 = (-t0).mul_add(t4, R::splat(1.0));
+                let t6 = R::splat(1.0) / t5;
+                let t7 = mu * l1;
+                let t8 = t6 * t7;
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t9 = l1 * l2;
+                let t10 = l3.mul_add(t9, -R::splat(1.0));
+                let t11 = l2 * kappa;
+                let t12 = l3 * t11;
+                let t13 = t10.mul_add(t12, t8);
+                let t14 = R::splat(1.0) / l1;
+                let t15 = (-mu).mul_add(t14, t13);
+                let t16 = mu * l2;
+                let t17 = t6 * t16;
+                let t18 = l1 * kappa;
+                let t19 = l3 * t18;
+                let t20 = t10.mul_add(t19, t17);
+                let t21 = R::splat(1.0) / l2;
+                let t22 = (-mu).mul_add(t21, t20);
+                let t23 = mu * l3;
+                let t24 = t6 * t23;
+                let t25 = l2 * t18;
+                let t26 = t10.mul_add(t25, t24);
+                let t27 = R::splat(1.0) / l3;
+                let t28 = (-mu).mul_add(t27, t26);
+                [t15, t22, t28]
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t0 = R::splat(1.0) / jm;
+                let t1 = l1 * l1;
+                let t2 = l2.mul_add(l2, t1);
+                let t3 = l3.mul_add(l3, t2);
+                let t4 = t3 - R::splat(3.0);
+                let t5 = (-t0).mul_add(t4, R::splat(1.0));
+                let t6 = R::splat(1.0) / t5;
+                let t7 = mu * l1;
+                let t8 = t6 * t7;
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t9 = l1 * l2;
+                let t10 = l3.mul_add(t9, -R::splat(1.0));
+                let t11 = l2 * kappa;
+                let t12 = l3 * t11;
+                let t13 = t10.mul_add(t12, t8);
+                let t14 = l1.max(epsilon);
+                let t15 = R::splat(1.0) / t14;
+                let t16 = (l1 - epsilon).min(R::splat(0.0));
+                let t17 = t15 * t16;
+                let t18 = (-t15).mul_add(t17, t15);
+                let t19 = (-mu).mul_add(t18, t13);
+                let t20 = mu * l2;
+                let t21 = t6 * t20;
+                let t22 = l1 * kappa;
+                let t23 = l3 * t22;
+                let t24 = t10.mul_add(t23, t21);
+                let t25 = l2.max(epsilon);
+                let t26 = R::splat(1.0) / t25;
+                let t27 = (l2 - epsilon).min(R::splat(0.0));
+                let t28 = t26 * t27;
+                let t29 = (-t26).mul_add(t28, t26);
+                let t30 = (-mu).mul_add(t29, t24);
+                let t31 = mu * l3;
+                let t32 = t6 * t31;
+                let t33 = l2 * t22;
+                let t34 = t10.mul_add(t33, t32);
+                let t35 = l3.max(epsilon);
+                let t36 = R::splat(1.0) / t35;
+                let t37 = (l3 - epsilon).min(R::splat(0.0));
+                let t38 = t36 * t37;
+                let t39 = (-t36).mul_add(t38, t36);
+                let t40 = (-mu).mul_add(t39, t34);
+                [t19, t30, t40]
+            }
+        }
+    }
+    #[inline(always)]
+    fn gradient_at_strains_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        strains: [R; 3],
+    ) -> [R; 3] {
+        let [l1, l2, l3] = [
+            R::splat(1.0) + strains[0],
+            R::splat(1.0) + strains[1],
+            R::splat(1.0) + strains[2],
+        ];
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let jm = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.jm);
+        let t0 = R::splat(1.0) / jm;
+        let t1 = R::splat(1.0) + l1;
+        let t2 = strains[0] * t1;
+        let t3 = R::splat(1.0) + l2;
+        let t4 = strains[1].mul_add(t3, t2);
+        let t5 = R::splat(1.0) + l3;
+        let t6 = strains[2].mul_add(t5, t4);
+        let t7 = l1 * l1;
+        let t8 = l2.mul_add(l2, t7);
+        let t9 = l3.mul_add(l3, t8);
+        let t10 = t9 - R::splat(3.0);
+        let t11 = (-t0).mul_add(t10, R::splat(1.0));
+        let t12 = R::splat(1.0) / t11;
+        let t13 = mu * t0;
+        let t14 = t6 * t13;
+        let t15 = t12 * t14;
+        let t16 = mu * strains[0];
+        let t17 = t12.mul_add(t16, t15);
+        let t18 = R::splat(1.0) / l1;
+        let t19 = t16.mul_add(t18, t17);
+        let kappa = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.kappa);
+        let t20 = strains[1].mul_add(l3, strains[2]);
+        let t21 = strains[0] * l2;
+        let t22 = l3.mul_add(t21, t20);
+        let t23 = kappa * t22;
+        let t24 = t19 + t23;
+        let t25 = l1 * l2;
+        let t26 = l3.mul_add(t25, -R::splat(1.0));
+        let t27 = strains[2] * kappa;
+        let t28 = t26 * t27;
+        let t29 = t24 + t28;
+        let t30 = strains[1] * kappa;
+        let t31 = l3 * t30;
+        let t32 = t26.mul_add(t31, t29);
+        let t33 = t15 + t23;
+        let t34 = t28 + t33;
+        let t35 = mu * strains[1];
+        let t36 = t12.mul_add(t35, t34);
+        let t37 = R::splat(1.0) / l2;
+        let t38 = t35.mul_add(t37, t36);
+        let t39 = strains[0] * kappa;
+        let t40 = l3 * t39;
+        let t41 = t26.mul_add(t40, t38);
+        let t42 = mu * strains[2];
+        let t43 = t12.mul_add(t42, t33);
+        let t44 = R::splat(1.0) / l3;
+        let t45 = t42.mul_add(t44, t43);
+        let t46 = t26.mul_add(t30, t45);
+        let t47 = l2 * t39;
+        let t48 = t26.mul_add(t47, t46);
+        let inside = [t32, t41, t48];
+        if let ::piola::Inversion::Extend { epsilon: epsilon } = ::piola::material::Parameters::first(
+                materials,
+            )
+            .inversion
+        {
+            let below = strains[2].less(R::splat(epsilon - 1.0));
+            if ::piola::lanes::Mask::any(below) {
+                let extended = <Self as ::piola::material::Varying>::gradient_of(
+                    materials,
+                    [
+                        R::splat(1.0) + strains[0],
+                        R::splat(1.0) + strains[1],
+                        R::splat(1.0) + strains[2],
+                    ],
+                );
+                return [
+                    R::select(below, extended[0], inside[0]),
+                    R::select(below, extended[1], inside[1]),
+                    R::select(below, extended[2], inside[2]),
+                ];
+            }
+        }
+        inside
+    }
+    #[inline(always)]
+    fn blocks_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> ::piola::material::Blocks<R> {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t0 = R::splat(1.0) / jm;
+                let t1 = l1 * l1;
+                let t2 = l2.mul_add(l2, t1);
+                let t3 = l3.mul_add(l3, t2);
+                let t4 = t3 - R::splat(3.0);
+                let t5 = (-t0).mul_add(t4, R::splat(1.0));
+                let t6 = R::splat(1.0) / t5;
+                let t7 = mu * l1;
+                let t8 = t6 * t7;
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t9 = l1 * l2;
+                let t10 = l3.mul_add(t9, -R::splat(1.0));
+                let t11 = l2 * kappa;
+                let t12 = l3 * t11;
+                let t13 = t10.mul_add(t12, t8);
+                let t14 = R::splat(1.0) / l1;
+                let t15 = mu * t14;
+                let t16 = t13 - t15;
+                let t17 = mu * l2;
+                let t18 = t6 * t17;
+                let t19 = l1 * kappa;
+                let t20 = l3 * t19;
+                let t21 = t10.mul_add(t20, t18);
+                let t22 = R::splat(1.0) / l2;
+                let t23 = mu * t22;
+                let t24 = t21 - t23;
+                let t25 = mu * l3;
+                let t26 = t6 * t25;
+                let t27 = l2 * t19;
+                let t28 = t10.mul_add(t27, t26);
+                let t29 = R::splat(1.0) / l3;
+                let t30 = mu * t29;
+                let t31 = t28 - t30;
+                let t32 = mu * t6;
+                let t33 = mu * t0;
+                let t34 = l1 * t33;
+                let t35 = t6 * t34;
+                let t36 = l1 * t35;
+                let t37 = t6 * t36;
+                let t38 = t37.mul_add(R::splat(2.0), t32);
+                let t39 = t14.mul_add(t15, t38);
+                let t40 = l2 * t11;
+                let t41 = l3 * t40;
+                let t42 = l3.mul_add(t41, t39);
+                let t43 = l2 * t33;
+                let t44 = t6 * t43;
+                let t45 = l2 * t44;
+                let t46 = t6 * t45;
+                let t47 = R::splat(2.0).mul_add(t46, t32);
+                let t48 = t22.mul_add(t23, t47);
+                let t49 = l1 * t19;
+                let t50 = l3 * t49;
+                let t51 = l3.mul_add(t50, t48);
+                let t52 = l3 * t33;
+                let t53 = t6 * t52;
+                let t54 = l3 * t53;
+                let t55 = t6 * t54;
+                let t56 = R::splat(2.0).mul_add(t55, t32);
+                let t57 = t29.mul_add(t30, t56);
+                let t58 = l2 * t49;
+                let t59 = l2.mul_add(t58, t57);
+                let t60 = l2 * t35;
+                let t61 = t6 * t60;
+                let t62 = l3 * kappa;
+                let t63 = t10 * t62;
+                let t64 = R::splat(2.0).mul_add(t61, t63);
+                let t65 = l3 * t27;
+                let t66 = l3.mul_add(t65, t64);
+                let t67 = l3 * t35;
+                let t68 = t6 * t67;
+                let t69 = t10 * t11;
+                let t70 = R::splat(2.0).mul_add(t68, t69);
+                let t71 = l2 * t27;
+                let t72 = l3.mul_add(t71, t70);
+                let t73 = l3 * t44;
+                let t74 = t6 * t73;
+                let t75 = t10 * t19;
+                let t76 = R::splat(2.0).mul_add(t74, t75);
+                let t77 = l3.mul_add(t58, t76);
+                let t78 = t15 * t22;
+                let t79 = t32 + t78;
+                let t80 = t79 - t63;
+                let t81 = t15 * t29;
+                let t82 = t32 + t81;
+                let t83 = t82 - t69;
+                let t84 = t23 * t29;
+                let t85 = t32 + t84;
+                let t86 = t85 - t75;
+                let t87 = t32 + t63;
+                let t88 = t87 - t78;
+                let t89 = t32 + t69;
+                let t90 = t89 - t81;
+                let t91 = t32 + t75;
+                let t92 = t91 - t84;
+                ::piola::material::Blocks {
+                    gradient: [t16, t24, t31],
+                    hessian: [t42, t51, t59, t66, t72, t77],
+                    flip: [t80, t83, t86],
+                    twist: [t88, t90, t92],
+                }
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let jm = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.jm);
+                let t0 = R::splat(1.0) / jm;
+                let t1 = l1 * l1;
+                let t2 = l2.mul_add(l2, t1);
+                let t3 = l3.mul_add(l3, t2);
+                let t4 = t3 - R::splat(3.0);
+                let t5 = (-t0).mul_add(t4, R::splat(1.0));
+                let t6 = R::splat(1.0) / t5;
+                let t7 = mu * l1;
+                let t8 = t6 * t7;
+                let kappa = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.kappa);
+                let t9 = l1 * l2;
+                let t10 = l3.mul_add(t9, -R::splat(1.0));
+                let t11 = l2 * kappa;
+                let t12 = l3 * t11;
+                let t13 = t10.mul_add(t12, t8);
+                let t14 = l1.max(epsilon);
+                let t15 = R::splat(1.0) / t14;
+                let t16 = (l1 - epsilon).min(R::splat(0.0));
+                let t17 = t15 * t16;
+                let t18 = (-t15).mul_add(t17, t15);
+                let t19 = mu * t18;
+                let t20 = t13 - t19;
+                let t21 = mu * l2;
+                let t22 = t6 * t21;
+                let t23 = l1 * kappa;
+                let t24 = l3 * t23;
+                let t25 = t10.mul_add(t24, t22);
+                let t26 = l2.max(epsilon);
+                let t27 = R::splat(1.0) / t26;
+                let t28 = (l2 - epsilon).min(R::splat(0.0));
+                let t29 = t27 * t28;
+                let t30 = (-t27).mul_add(t29, t27);
+                let t31 = mu * t30;
+                let t32 = t25 - t31;
+                let t33 = mu * l3;
+                let t34 = t6 * t33;
+                let t35 = l2 * t23;
+                let t36 = t10.mul_add(t35, t34);
+                let t37 = l3.max(epsilon);
+                let t38 = R::splat(1.0) / t37;
+                let t39 = (l3 - epsilon).min(R::splat(0.0));
+                let t40 = t38 * t39;
+                let t41 = (-t38).mul_add(t40, t38);
+                let t42 = mu * t41;
+                let t43 = t36 - t42;
+                let t44 = mu * t6;
+                let t45 = mu * t0;
+                let t46 = l1 * t45;
+                let t47 = t6 * t46;
+                let t48 = l1 * t47;
+                let t49 = t6 * t48;
+                let t50 = t49.mul_add(R::splat(2.0), t44);
+                let t51 = l2 * t11;
+                let t52 = l3 * t51;
+                let t53 = l3.mul_add(t52, t50);
+                let t54 = mu * t15;
+                let t55 = t15.mul_add(t54, t53);
+                let t56 = l2 * t45;
+                let t57 = t6 * t56;
+                let t58 = l2 * t57;
+                let t59 = t6 * t58;
+                let t60 = R::splat(2.0).mul_add(t59, t44);
+                let t61 = l1 * t23;
+                let t62 = l3 * t61;
+                let t63 = l3.mul_add(t62, t60);
+                let t64 = mu * t27;
+                let t65 = t27.mul_add(t64, t63);
+                let t66 = l3 * t45;
+                let t67 = t6 * t66;
+                let t68 = l3 * t67;
+                let t69 = t6 * t68;
+                let t70 = R::splat(2.0).mul_add(t69, t44);
+                let t71 = l2 * t61;
+                let t72 = l2.mul_add(t71, t70);
+                let t73 = mu * t38;
+                let t74 = t38.mul_add(t73, t72);
+                let t75 = l2 * t47;
+                let t76 = t6 * t75;
+                let t77 = l3 * kappa;
+                let t78 = t10 * t77;
+                let t79 = R::splat(2.0).mul_add(t76, t78);
+                let t80 = l3 * t35;
+                let t81 = l3.mul_add(t80, t79);
+                let t82 = l3 * t47;
+                let t83 = t6 * t82;
+                let t84 = t10 * t11;
+                let t85 = R::splat(2.0).mul_add(t83, t84);
+                let t86 = l2 * t35;
+                let t87 = l3.mul_add(t86, t85);
+                let t88 = l3 * t57;
+                let t89 = t6 * t88;
+                let t90 = t10 * t23;
+                let t91 = R::splat(2.0).mul_add(t89, t90);
+                let t92 = l3.mul_add(t71, t91);
+                let t93 = t44 - t78;
+                let t94 = ::piola::quotient::share_above(l1, l2, epsilon);
+                let t95 = t15 * t94;
+                let t96 = t27 * t95;
+                let t97 = -t96;
+                let t98 = R::splat(1.0) / epsilon;
+                let t99 = ::piola::quotient::share_below(l1, l2, epsilon);
+                let t100 = t98 * t98;
+                let t101 = (-t99).mul_add(t100, t97);
+                let t102 = (-mu).mul_add(t101, t93);
+                let t103 = t44 - t84;
+                let t104 = ::piola::quotient::share_above(l1, l3, epsilon);
+                let t105 = t15 * t104;
+                let t106 = t38 * t105;
+                let t107 = -t106;
+                let t108 = ::piola::quotient::share_below(l1, l3, epsilon);
+                let t109 = (-t100).mul_add(t108, t107);
+                let t110 = (-mu).mul_add(t109, t103);
+                let t111 = t44 - t90;
+                let t112 = ::piola::quotient::share_above(l2, l3, epsilon);
+                let t113 = t27 * t112;
+                let t114 = t38 * t113;
+                let t115 = -t114;
+                let t116 = ::piola::quotient::share_below(l2, l3, epsilon);
+                let t117 = (-t100).mul_add(t116, t115);
+                let t118 = (-mu).mul_add(t117, t111);
+                let t119 = t44 + t78;
+                let t120 = -t19;
+                let t121 = t120 - t31;
+                let t122 = l1 + l2;
+                let t123 = ::piola::quotient::pole_floor([l1, l2, l3]);
+                let t124 = t122.max(t123);
+                let t125 = t121 / t124;
+                let t126 = t119 + t125;
+                let t127 = t44 + t84;
+                let t128 = t120 - t42;
+                let t129 = l1 + l3;
+                let t130 = t129.max(t123);
+                let t131 = t128 / t130;
+                let t132 = t127 + t131;
+                let t133 = t44 + t90;
+                let t134 = -t31;
+                let t135 = t134 - t42;
+                let t136 = l2 + l3;
+                let t137 = t136.max(t123);
+                let t138 = t135 / t137;
+                let t139 = t133 + t138;
+                ::piola::material::Blocks {
+                    gradient: [t20, t32, t43],
+                    hessian: [t55, t65, t74, t81, t87, t92],
+                    flip: [t102, t110, t118],
+                    twist: [t126, t132, t139],
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn admits_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> R::Mask {
+        let jm = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.jm);
+        let t0 = (-l1).mul_add(l1, jm);
+        let t1 = (-l2).mul_add(l2, t0);
+        let t2 = (-l3).mul_add(l3, t1);
+        let t3 = t2 + R::splat(3.0);
+        R::splat(0.0).less(t3)
+            & match ::piola::material::Parameters::first(materials).inversion {
+                ::piola::Inversion::Refuse => R::splat(0.0).less(l3),
+                ::piola::Inversion::Extend { .. } => {
+                    <R::Mask as ::piola::lanes::Mask>::splat(true)
+                }
+            }
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn energy_by_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> R {
+        let kappa = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.kappa);
+        let t0 = J - R::splat(1.0);
+        let t1 = kappa * t0;
+        let t2 = t0 * t1;
+        let t3 = t2 * R::splat(0.5);
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let jm = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.jm);
+        let t4 = R::splat(1.0) / jm;
+        let t5 = I1 - R::splat(3.0);
+        let t6 = (-t4).mul_add(t5, R::splat(1.0));
+        let t7 = t6.ln();
+        let t8 = mu * jm;
+        let t9 = t7 * t8;
+        let t10 = (-R::splat(0.5)).mul_add(t9, t3);
+        let t11 = J.ln();
+        let t12 = (-mu).mul_add(t11, t10);
+        t12
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn gradient_by_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> [R; 3] {
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let jm = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.jm);
+        let t0 = R::splat(1.0) / jm;
+        let t1 = I1 - R::splat(3.0);
+        let t2 = (-t0).mul_add(t1, R::splat(1.0));
+        let t3 = R::splat(1.0) / t2;
+        let t4 = mu * t3;
+        let t5 = t4 * R::splat(0.5);
+        let kappa = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.kappa);
+        let t6 = J - R::splat(1.0);
+        let t7 = kappa * t6;
+        let t8 = R::splat(1.0) / J;
+        let t9 = (-mu).mul_add(t8, t7);
+        [t5, R::splat(0.0), t9]
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn admits_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> R::Mask {
+        let jm = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.jm);
+        let t0 = jm - I1;
+        let t1 = t0 + R::splat(3.0);
+        R::splat(0.0).less(t1)
+            & match ::piola::material::Parameters::first(materials).inversion {
+                ::piola::Inversion::Refuse => R::splat(0.0).less(J),
+                ::piola::Inversion::Extend { epsilon: epsilon } => {
+                    (R::splat(epsilon) * I1).less(J + J)
+                }
+            }
+    }
+    #[inline]
+    fn inversion(&self) -> ::piola::Inversion {
+        self.inversion
+    }
+}
+impl ::piola::material::Declared for Gent {
+    const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+        name: "Gent",
+        summary: "Gent solid: rubber that locks where I1 − 3 reaches Jm.",
+        formula: "1/2 κ (J − 1)² − 1/2 μ jm ln(−(I1 − 3)/jm + 1) − μ ln J",
+        parameters: &[
+            ::piola::material::Parameter {
+                name: "mu",
+                doc: "Shear modulus μ, Pa.",
+                is_list: false,
+            },
+            ::piola::material::Parameter {
+                name: "jm",
+                doc: "Locking value Jm of I1 − 3.",
+                is_list: false,
+            },
+            ::piola::material::Parameter {
+                name: "kappa",
+                doc: "Volumetric modulus κ, Pa.",
+                is_list: false,
+            },
+        ],
+        domain: "J > 0, I1 - 3 < jm",
+        extends: true,
+        refusal: ::core::option::Option::None,
+        admissible: &["mu > 0", "jm > 0"],
+        moduli: ["μ", "κ + 2 μ/jm"],
+    };
+    fn from_values(
+        values: &[&[f64]],
+        inversion: ::piola::Inversion,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        let &[mu, jm, kappa] = values else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "3 parameters are expected: `mu`, `jm`, `kappa`".to_owned(),
+            });
+        };
+        let Ok([mu]) = <[f64; 1]>::try_from(mu) else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "`mu` must be one number".to_owned(),
+            });
+        };
+        let Ok([jm]) = <[f64; 1]>::try_from(jm) else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "`jm` must be one number".to_owned(),
+            });
+        };
+        let Ok([kappa]) = <[f64; 1]>::try_from(kappa) else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "`kappa` must be one number".to_owned(),
+            });
+        };
+        Self::new(mu, jm, kappa)?.with_inversion(inversion)
+    }
+    #[allow(unused_imports, clippy::all)]
+    fn moduli(&self) -> ::piola::material::Moduli {
+        use ::piola::Real;
+        type R = f64;
+        let mu = R::splat(self.mu);
+        let kappa = R::splat(self.kappa);
+        let jm = R::splat(self.jm);
+        let t0 = R::splat(1.0) / jm;
+        let t1 = mu * t0;
+        let t2 = t1.mul_add(R::splat(2.0), kappa);
+        ::piola::material::Moduli {
+            mu: mu,
+            lambda: t2,
+        }
+    }
+}

@@ -1,0 +1,812 @@
+/// Compressible neo-Hookean solid with a logarithmic volumetric part: rubber at moderate strain.
+///
+/// ψ = μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
+///
+/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
+/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
+///
+/// Typical: `mu = 3.8e5, lambda = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+///
+/// ```text
+/// ψ = 1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J
+/// ```
+///
+/// **Parameters**:
+///
+/// * `mu`: Shear modulus μ, Pa.
+/// * `lambda`: First Lamé parameter λ, Pa.
+///
+/// They satisfy `mu > 0`.
+///
+/// **Domain**: `J > 0`. It can be continued beyond that where `lambda >= 0`.
+///
+/// **Small strain**: μ = μ, λ = λ.
+///
+/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than 240 characters are left out:
+///
+/// ```text
+/// ψ₁ = μ λ₁ + λ ln J/λ₁ − μ/λ₁
+/// ψ₁₁ = μ + μ/λ₁² + λ/λ₁² − λ ln J/λ₁²
+/// ψ₁₂ = λ/(λ₁ λ₂)
+/// D⁻₁₂ = μ + μ/(λ₁ λ₂) − λ ln J/(λ₁ λ₂)
+/// D⁺₁₂ = μ + λ ln J/(λ₁ λ₂) − μ/(λ₁ λ₂)
+/// ```
+///
+/// **Operations**, of each result by itself:
+///
+/// | result | operations |
+/// |---|---|
+/// | energy | 15 (1 ln) |
+/// | gradient | 20 (3 ÷, 1 ln) |
+/// | energy, gradient and Hessian | 58 (3 ÷, 1 ln) |
+/// | flip | 21 (3 ÷, 1 ln) |
+/// | twist | 21 (3 ÷, 1 ln) |
+/// | blocks | 62 (3 ÷, 1 ln) |
+/// | blocks, continued | 147 (7 ÷, 3 ln, 6 Δ) |
+///
+/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
+#[derive(Clone, Debug, PartialEq)]
+#[derive(Copy)]
+pub struct NeoHookean {
+    mu: f64,
+    lambda: f64,
+    inversion: ::piola::Inversion,
+}
+impl NeoHookean {
+    /// The material with these parameters.
+    ///
+    /// * `mu`: Shear modulus μ, Pa.
+    /// * `lambda`: First Lamé parameter λ, Pa.
+    ///
+    /// # Errors
+    /// Where a parameter is not finite or not admissible.
+    #[allow(clippy::too_many_arguments)]
+    pub fn new(
+        mu: f64,
+        lambda: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        for value in [mu] {
+            if !value.is_finite() {
+                return Err(::piola::material::Inadmissible::NotFinite {
+                    parameter: "mu",
+                    value,
+                });
+            }
+        }
+        for value in [lambda] {
+            if !value.is_finite() {
+                return Err(::piola::material::Inadmissible::NotFinite {
+                    parameter: "lambda",
+                    value,
+                });
+            }
+        }
+        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+        if !(mu > 0.0) {
+            return Err(::piola::material::Inadmissible::Violated {
+                condition: "mu > 0",
+                given: [::std::format!("mu = {}", mu)].join(", "),
+            });
+        }
+        let material = Self {
+            mu,
+            lambda,
+            inversion: ::piola::Inversion::Refuse,
+        };
+        let moduli = ::piola::material::Declared::moduli(&material);
+        if !(moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite()) {
+            return Err(::piola::material::Inadmissible::UnstableRest {
+                moduli,
+            });
+        }
+        Ok(material)
+    }
+    /// The same material with another way to meet what lies outside its domain.
+    ///
+    /// # Errors
+    /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
+    pub fn with_inversion(
+        mut self,
+        inversion: ::piola::Inversion,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        if let ::piola::Inversion::Extend { epsilon } = inversion {
+            if !(epsilon > 0.0 && epsilon < 1.0) {
+                return Err(::piola::material::Inadmissible::Threshold {
+                    epsilon,
+                });
+            }
+            #[allow(unused_variables)]
+            let Self { mu, lambda, .. } = self;
+            #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
+            if !(lambda >= 0.0) {
+                return Err(::piola::material::Inadmissible::DoesNotRestore {
+                    condition: "lambda >= 0",
+                    given: [::std::format!("lambda = {}", lambda)].join(", "),
+                });
+            }
+        }
+        self.inversion = inversion;
+        Ok(self)
+    }
+    /// Shear modulus μ, Pa.
+    #[must_use]
+    pub fn mu(&self) -> f64 {
+        self.mu
+    }
+    /// First Lamé parameter λ, Pa.
+    #[must_use]
+    pub fn lambda(&self) -> f64 {
+        self.lambda
+    }
+}
+impl ::piola::Material for NeoHookean {
+    #[inline(always)]
+    fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
+        <Self as ::piola::material::Varying>::energy_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn gradient<R: ::piola::Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn gradient_at_strains<R: ::piola::Real>(&self, strains: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_at_strains_of(
+            &::piola::material::Uniform(self),
+            strains,
+        )
+    }
+    #[inline(always)]
+    fn blocks<R: ::piola::Real>(
+        &self,
+        stretches: [R; 3],
+    ) -> ::piola::material::Blocks<R> {
+        <Self as ::piola::material::Varying>::blocks_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    #[inline(always)]
+    fn admits<R: ::piola::Real>(&self, stretches: [R; 3]) -> R::Mask {
+        <Self as ::piola::material::Varying>::admits_of(
+            &::piola::material::Uniform(self),
+            stretches,
+        )
+    }
+    const HAS_INVARIANTS: bool = true;
+    #[inline(always)]
+    fn energy_by_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> R {
+        <Self as ::piola::material::Varying>::energy_by_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline(always)]
+    fn gradient_by_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> [R; 3] {
+        <Self as ::piola::material::Varying>::gradient_by_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline(always)]
+    fn admits_invariants<R: ::piola::Real>(&self, invariants: [R; 3]) -> R::Mask {
+        <Self as ::piola::material::Varying>::admits_invariants_of(
+            &::piola::material::Uniform(self),
+            invariants,
+        )
+    }
+    #[inline]
+    fn has_pole(&self) -> bool {
+        match self.inversion {
+            ::piola::Inversion::Refuse => false,
+            ::piola::Inversion::Extend { .. } => true,
+        }
+    }
+    #[inline]
+    fn ends_at_zero_volume(&self) -> bool {
+        ::core::matches!(self.inversion, ::piola::Inversion::Refuse)
+    }
+}
+#[allow(unused_variables, clippy::all)]
+impl ::piola::material::Varying for NeoHookean {
+    #[inline(always)]
+    fn energy_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> R {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let t0 = l1 * l1;
+                let t1 = l2.mul_add(l2, t0);
+                let t2 = l3.mul_add(l3, t1);
+                let t3 = t2 - R::splat(3.0);
+                let t4 = mu * t3;
+                let t5 = t4 * R::splat(0.5);
+                let t6 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t7 = t6 * t6;
+                let t8 = lambda * t7;
+                let t9 = R::splat(0.5).mul_add(t8, t5);
+                let t10 = (-mu).mul_add(t6, t9);
+                t10
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let t0 = l1 * l1;
+                let t1 = l2.mul_add(l2, t0);
+                let t2 = l3.mul_add(l3, t1);
+                let t3 = t2 - R::splat(3.0);
+                let t4 = mu * t3;
+                let t5 = t4 * R::splat(0.5);
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t6 = l1.max(epsilon);
+                let t7 = t6.ln();
+                let t8 = (l1 - epsilon).min(R::splat(0.0));
+                let t9 = R::splat(1.0) / t6;
+                let t10 = t8.mul_add(t9, t7);
+                let t11 = l2.max(epsilon);
+                let t12 = t11.ln();
+                let t13 = t10 + t12;
+                let t14 = (l2 - epsilon).min(R::splat(0.0));
+                let t15 = R::splat(1.0) / t11;
+                let t16 = t14.mul_add(t15, t13);
+                let t17 = l3.max(epsilon);
+                let t18 = t17.ln();
+                let t19 = t16 + t18;
+                let t20 = (l3 - epsilon).min(R::splat(0.0));
+                let t21 = R::splat(1.0) / t17;
+                let t22 = t20.mul_add(t21, t19);
+                let t23 = t8 * t8;
+                let t24 = t9 * t23;
+                let t25 = t9 * t24;
+                let t26 = (-R::splat(0.5)).mul_add(t25, t22);
+                let t27 = t14 * t14;
+                let t28 = t15 * t27;
+                let t29 = t15 * t28;
+                let t30 = (-R::splat(0.5)).mul_add(t29, t26);
+                let t31 = t20 * t20;
+                let t32 = t21 * t31;
+                let t33 = t21 * t32;
+                let t34 = (-R::splat(0.5)).mul_add(t33, t30);
+                let t35 = lambda * t34;
+                let t36 = t34 * t35;
+                let t37 = R::splat(0.5).mul_add(t36, t5);
+                let t38 = (-mu).mul_add(t34, t37);
+                t38
+            }
+        }
+    }
+    #[inline(always)]
+    fn gradient_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> [R; 3] {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let t0 = mu * l1;
+                let t1 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t2 = R::splat(1.0) / l1;
+                let t3 = t1 * lambda;
+                let t4 = t2.mul_add(t3, t0);
+                let t5 = (-mu).mul_add(t2, t4);
+                let t6 = mu * l2;
+                let t7 = R::splat(1.0) / l2;
+                let t8 = t3.mul_add(t7, t6);
+                let t9 = (-mu).mul_add(t7, t8);
+                let t10 = mu * l3;
+                let t11 = R::splat(1.0) / l3;
+                let t12 = t3.mul_add(t11, t10);
+                let t13 = (-mu).mul_add(t11, t12);
+                [t5, t9, t13]
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let t0 = mu * l1;
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t1 = l1.max(epsilon);
+                let t2 = t1.ln();
+                let t3 = (l1 - epsilon).min(R::splat(0.0));
+                let t4 = R::splat(1.0) / t1;
+                let t5 = t3 * t4;
+                let t6 = t2 + t5;
+                let t7 = l2.max(epsilon);
+                let t8 = t7.ln();
+                let t9 = t6 + t8;
+                let t10 = (l2 - epsilon).min(R::splat(0.0));
+                let t11 = R::splat(1.0) / t7;
+                let t12 = t10 * t11;
+                let t13 = t9 + t12;
+                let t14 = l3.max(epsilon);
+                let t15 = t14.ln();
+                let t16 = t13 + t15;
+                let t17 = (l3 - epsilon).min(R::splat(0.0));
+                let t18 = R::splat(1.0) / t14;
+                let t19 = t17 * t18;
+                let t20 = t16 + t19;
+                let t21 = t3 * t3;
+                let t22 = t4 * t21;
+                let t23 = t4 * t22;
+                let t24 = (-t23).mul_add(R::splat(0.5), t20);
+                let t25 = t10 * t10;
+                let t26 = t11 * t25;
+                let t27 = t11 * t26;
+                let t28 = (-R::splat(0.5)).mul_add(t27, t24);
+                let t29 = t17 * t17;
+                let t30 = t18 * t29;
+                let t31 = t18 * t30;
+                let t32 = (-R::splat(0.5)).mul_add(t31, t28);
+                let t33 = (-t4).mul_add(t5, t4);
+                let t34 = lambda * t32;
+                let t35 = t33.mul_add(t34, t0);
+                let t36 = (-mu).mul_add(t33, t35);
+                let t37 = mu * l2;
+                let t38 = (-t11).mul_add(t12, t11);
+                let t39 = t34.mul_add(t38, t37);
+                let t40 = (-mu).mul_add(t38, t39);
+                let t41 = mu * l3;
+                let t42 = (-t18).mul_add(t19, t18);
+                let t43 = t34.mul_add(t42, t41);
+                let t44 = (-mu).mul_add(t42, t43);
+                [t36, t40, t44]
+            }
+        }
+    }
+    #[inline(always)]
+    fn gradient_at_strains_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        strains: [R; 3],
+    ) -> [R; 3] {
+        let [l1, l2, l3] = [
+            R::splat(1.0) + strains[0],
+            R::splat(1.0) + strains[1],
+            R::splat(1.0) + strains[2],
+        ];
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let t0 = mu * strains[0];
+        let t1 = R::splat(1.0) / l1;
+        let t2 = t0.mul_add(t1, t0);
+        let lambda = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.lambda);
+        let t3 = strains[1].mul_add(l3, strains[2]);
+        let t4 = strains[0] * l2;
+        let t5 = l3.mul_add(t4, t3);
+        let t6 = l1 * l2;
+        let t7 = l3 * t6;
+        let t8 = R::splat(1.0) / t7;
+        let t9 = t7.logarithm();
+        let t10 = R::splat(1.0).logarithm();
+        let t11 = ::piola::quotient::Pair::new(
+            [t7, R::splat(1.0)],
+            [t8, R::splat(1.0)],
+            [t9, t10],
+        );
+        let t12 = t11.ln_quotient();
+        let t13 = lambda * t5;
+        let t14 = t12 * t13;
+        let t15 = t2 + t14;
+        let t16 = ::piola::quotient::ln_product([l1, l2, l3]);
+        let t17 = lambda * t16;
+        let t18 = strains[0] * t17;
+        let t19 = (-t1).mul_add(t18, t15);
+        let t20 = mu * strains[1];
+        let t21 = t14 + t20;
+        let t22 = R::splat(1.0) / l2;
+        let t23 = t20.mul_add(t22, t21);
+        let t24 = strains[1] * t17;
+        let t25 = (-t22).mul_add(t24, t23);
+        let t26 = mu * strains[2];
+        let t27 = t14 + t26;
+        let t28 = R::splat(1.0) / l3;
+        let t29 = t26.mul_add(t28, t27);
+        let t30 = strains[2] * t17;
+        let t31 = (-t28).mul_add(t30, t29);
+        let inside = [t19, t25, t31];
+        if let ::piola::Inversion::Extend { epsilon: epsilon } = ::piola::material::Parameters::first(
+                materials,
+            )
+            .inversion
+        {
+            let below = strains[2].less(R::splat(epsilon - 1.0));
+            if ::piola::lanes::Mask::any(below) {
+                let extended = <Self as ::piola::material::Varying>::gradient_of(
+                    materials,
+                    [
+                        R::splat(1.0) + strains[0],
+                        R::splat(1.0) + strains[1],
+                        R::splat(1.0) + strains[2],
+                    ],
+                );
+                return [
+                    R::select(below, extended[0], inside[0]),
+                    R::select(below, extended[1], inside[1]),
+                    R::select(below, extended[2], inside[2]),
+                ];
+            }
+        }
+        inside
+    }
+    #[inline(always)]
+    fn blocks_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> ::piola::material::Blocks<R> {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => {
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let t0 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t1 = R::splat(1.0) / l1;
+                let t2 = t0 * lambda;
+                let t3 = t1 * t2;
+                let t4 = mu.mul_add(l1, t3);
+                let t5 = mu * t1;
+                let t6 = t4 - t5;
+                let t7 = R::splat(1.0) / l2;
+                let t8 = t2 * t7;
+                let t9 = mu.mul_add(l2, t8);
+                let t10 = mu * t7;
+                let t11 = t9 - t10;
+                let t12 = R::splat(1.0) / l3;
+                let t13 = t2 * t12;
+                let t14 = mu.mul_add(l3, t13);
+                let t15 = mu * t12;
+                let t16 = t14 - t15;
+                let t17 = t1.mul_add(t5, mu);
+                let t18 = lambda * t1;
+                let t19 = t1.mul_add(t18, t17);
+                let t20 = (-t1).mul_add(t3, t19);
+                let t21 = t7.mul_add(t10, mu);
+                let t22 = lambda * t7;
+                let t23 = t7.mul_add(t22, t21);
+                let t24 = (-t7).mul_add(t8, t23);
+                let t25 = t12.mul_add(t15, mu);
+                let t26 = lambda * t12;
+                let t27 = t12.mul_add(t26, t25);
+                let t28 = (-t12).mul_add(t13, t27);
+                let t29 = t7 * t18;
+                let t30 = t12 * t18;
+                let t31 = t12 * t22;
+                let t32 = t5 * t7;
+                let t33 = mu + t32;
+                let t34 = t3 * t7;
+                let t35 = t33 - t34;
+                let t36 = t5 * t12;
+                let t37 = mu + t36;
+                let t38 = t3 * t12;
+                let t39 = t37 - t38;
+                let t40 = t10 * t12;
+                let t41 = mu + t40;
+                let t42 = t8 * t12;
+                let t43 = t41 - t42;
+                let t44 = mu + t34;
+                let t45 = t44 - t32;
+                let t46 = mu + t38;
+                let t47 = t46 - t36;
+                let t48 = mu + t42;
+                let t49 = t48 - t40;
+                ::piola::material::Blocks {
+                    gradient: [t6, t11, t16],
+                    hessian: [t20, t24, t28, t29, t30, t31],
+                    flip: [t35, t39, t43],
+                    twist: [t45, t47, t49],
+                }
+            }
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                let epsilon = R::splat(epsilon);
+                let mu = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.mu);
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t0 = l1.max(epsilon);
+                let t1 = t0.ln();
+                let t2 = (l1 - epsilon).min(R::splat(0.0));
+                let t3 = R::splat(1.0) / t0;
+                let t4 = t2 * t3;
+                let t5 = t1 + t4;
+                let t6 = l2.max(epsilon);
+                let t7 = t6.ln();
+                let t8 = t5 + t7;
+                let t9 = (l2 - epsilon).min(R::splat(0.0));
+                let t10 = R::splat(1.0) / t6;
+                let t11 = t9 * t10;
+                let t12 = t8 + t11;
+                let t13 = l3.max(epsilon);
+                let t14 = t13.ln();
+                let t15 = t12 + t14;
+                let t16 = (l3 - epsilon).min(R::splat(0.0));
+                let t17 = R::splat(1.0) / t13;
+                let t18 = t16 * t17;
+                let t19 = t15 + t18;
+                let t20 = t2 * t2;
+                let t21 = t3 * t20;
+                let t22 = t3 * t21;
+                let t23 = (-t22).mul_add(R::splat(0.5), t19);
+                let t24 = t9 * t9;
+                let t25 = t10 * t24;
+                let t26 = t10 * t25;
+                let t27 = (-R::splat(0.5)).mul_add(t26, t23);
+                let t28 = t16 * t16;
+                let t29 = t17 * t28;
+                let t30 = t17 * t29;
+                let t31 = (-R::splat(0.5)).mul_add(t30, t27);
+                let t32 = (-t3).mul_add(t4, t3);
+                let t33 = lambda * t31;
+                let t34 = t32 * t33;
+                let t35 = mu.mul_add(l1, t34);
+                let t36 = mu * t32;
+                let t37 = t35 - t36;
+                let t38 = (-t10).mul_add(t11, t10);
+                let t39 = t33 * t38;
+                let t40 = mu.mul_add(l2, t39);
+                let t41 = mu * t38;
+                let t42 = t40 - t41;
+                let t43 = (-t17).mul_add(t18, t17);
+                let t44 = t33 * t43;
+                let t45 = mu.mul_add(l3, t44);
+                let t46 = mu * t43;
+                let t47 = t45 - t46;
+                let t48 = mu * t3;
+                let t49 = t3.mul_add(t48, mu);
+                let t50 = lambda * t32;
+                let t51 = t32.mul_add(t50, t49);
+                let t52 = t3 * t33;
+                let t53 = (-t3).mul_add(t52, t51);
+                let t54 = mu * t10;
+                let t55 = t10.mul_add(t54, mu);
+                let t56 = lambda * t38;
+                let t57 = t38.mul_add(t56, t55);
+                let t58 = t10 * t33;
+                let t59 = (-t10).mul_add(t58, t57);
+                let t60 = mu * t17;
+                let t61 = t17.mul_add(t60, mu);
+                let t62 = lambda * t43;
+                let t63 = t43.mul_add(t62, t61);
+                let t64 = t17 * t33;
+                let t65 = (-t17).mul_add(t64, t63);
+                let t66 = t38 * t50;
+                let t67 = t43 * t50;
+                let t68 = t43 * t56;
+                let t69 = ::piola::quotient::share_above(l1, l2, epsilon);
+                let t70 = t3 * t69;
+                let t71 = t10 * t70;
+                let t72 = -t71;
+                let t73 = R::splat(1.0) / epsilon;
+                let t74 = ::piola::quotient::share_below(l1, l2, epsilon);
+                let t75 = t73 * t73;
+                let t76 = (-t74).mul_add(t75, t72);
+                let t77 = lambda * t76;
+                let t78 = t31.mul_add(t77, mu);
+                let t79 = (-mu).mul_add(t76, t78);
+                let t80 = ::piola::quotient::share_above(l1, l3, epsilon);
+                let t81 = t3 * t80;
+                let t82 = t17 * t81;
+                let t83 = -t82;
+                let t84 = ::piola::quotient::share_below(l1, l3, epsilon);
+                let t85 = (-t75).mul_add(t84, t83);
+                let t86 = lambda * t85;
+                let t87 = t31.mul_add(t86, mu);
+                let t88 = (-mu).mul_add(t85, t87);
+                let t89 = ::piola::quotient::share_above(l2, l3, epsilon);
+                let t90 = t10 * t89;
+                let t91 = t17 * t90;
+                let t92 = -t91;
+                let t93 = ::piola::quotient::share_below(l2, l3, epsilon);
+                let t94 = (-t75).mul_add(t93, t92);
+                let t95 = lambda * t94;
+                let t96 = t31.mul_add(t95, mu);
+                let t97 = (-mu).mul_add(t94, t96);
+                let t98 = t34 + t39;
+                let t99 = t98 - t36;
+                let t100 = t99 - t41;
+                let t101 = l1 + l2;
+                let t102 = ::piola::quotient::pole_floor([l1, l2, l3]);
+                let t103 = t101.max(t102);
+                let t104 = t100 / t103;
+                let t105 = mu + t104;
+                let t106 = t34 + t44;
+                let t107 = t106 - t36;
+                let t108 = t107 - t46;
+                let t109 = l1 + l3;
+                let t110 = t109.max(t102);
+                let t111 = t108 / t110;
+                let t112 = mu + t111;
+                let t113 = t39 + t44;
+                let t114 = t113 - t41;
+                let t115 = t114 - t46;
+                let t116 = l2 + l3;
+                let t117 = t116.max(t102);
+                let t118 = t115 / t117;
+                let t119 = mu + t118;
+                ::piola::material::Blocks {
+                    gradient: [t37, t42, t47],
+                    hessian: [t53, t59, t65, t66, t67, t68],
+                    flip: [t79, t88, t97],
+                    twist: [t105, t112, t119],
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn admits_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [l1,
+        l2,
+        l3,
+        ]: [R; 3],
+    ) -> R::Mask {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => R::splat(0.0).less(l3),
+            ::piola::Inversion::Extend { .. } => {
+                <R::Mask as ::piola::lanes::Mask>::splat(true)
+            }
+        }
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn energy_by_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> R {
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let t0 = I1 - R::splat(3.0);
+        let t1 = mu * t0;
+        let t2 = t1 * R::splat(0.5);
+        let lambda = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.lambda);
+        let t3 = J.ln();
+        let t4 = lambda * t3;
+        let t5 = t3 * t4;
+        let t6 = R::splat(0.5).mul_add(t5, t2);
+        let t7 = (-mu).mul_add(t3, t6);
+        t7
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn gradient_by_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> [R; 3] {
+        let mu = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.mu);
+        let t0 = mu * R::splat(0.5);
+        let lambda = ::piola::material::Parameters::read::<
+            R,
+        >(materials, |material| material.lambda);
+        let t1 = J.ln();
+        let t2 = R::splat(1.0) / J;
+        let t3 = lambda * t1;
+        let t4 = t2 * t3;
+        let t5 = (-mu).mul_add(t2, t4);
+        [t0, R::splat(0.0), t5]
+    }
+    #[inline(always)]
+    #[allow(non_snake_case)]
+    fn admits_invariants_of<R: ::piola::Real>(
+        materials: &impl ::piola::material::Parameters<Self>,
+        [I1,
+        I2,
+        J,
+        ]: [R; 3],
+    ) -> R::Mask {
+        match ::piola::material::Parameters::first(materials).inversion {
+            ::piola::Inversion::Refuse => R::splat(0.0).less(J),
+            ::piola::Inversion::Extend { epsilon: epsilon } => {
+                (R::splat(epsilon) * I1).less(J + J)
+            }
+        }
+    }
+    #[inline]
+    fn inversion(&self) -> ::piola::Inversion {
+        self.inversion
+    }
+}
+impl ::piola::material::Declared for NeoHookean {
+    const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+        name: "NeoHookean",
+        summary: "Compressible neo-Hookean solid with a logarithmic volumetric part: rubber at moderate strain.",
+        formula: "1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J",
+        parameters: &[
+            ::piola::material::Parameter {
+                name: "mu",
+                doc: "Shear modulus μ, Pa.",
+                is_list: false,
+            },
+            ::piola::material::Parameter {
+                name: "lambda",
+                doc: "First Lamé parameter λ, Pa.",
+                is_list: false,
+            },
+        ],
+        domain: "J > 0",
+        extends: true,
+        refusal: ::core::option::Option::None,
+        admissible: &["mu > 0"],
+        moduli: ["μ", "λ"],
+    };
+    fn from_values(
+        values: &[&[f64]],
+        inversion: ::piola::Inversion,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        let &[mu, lambda] = values else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "2 parameters are expected: `mu`, `lambda`".to_owned(),
+            });
+        };
+        let Ok([mu]) = <[f64; 1]>::try_from(mu) else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "`mu` must be one number".to_owned(),
+            });
+        };
+        let Ok([lambda]) = <[f64; 1]>::try_from(lambda) else {
+            return Err(::piola::material::Inadmissible::Shape {
+                expected: "`lambda` must be one number".to_owned(),
+            });
+        };
+        Self::new(mu, lambda)?.with_inversion(inversion)
+    }
+    #[allow(unused_imports, clippy::all)]
+    fn moduli(&self) -> ::piola::material::Moduli {
+        use ::piola::Real;
+        type R = f64;
+        let mu = R::splat(self.mu);
+        let lambda = R::splat(self.lambda);
+        ::piola::material::Moduli {
+            mu: mu,
+            lambda: lambda,
+        }
+    }
+}
