@@ -21,6 +21,7 @@ pub mod formula;
 pub mod increment;
 pub mod interpret;
 pub mod invariants;
+mod literals;
 pub mod model;
 pub mod parse;
 pub mod quotient;

@@ -41,7 +41,7 @@ enum Scope {
     Stretches,
     /// I1, I2, J and the parameters.
     Invariants,
-    /// The parameters alone, in a condition that is emitted as it is written.
+    /// The parameters alone, in a condition that is emitted as it is written, numbers apart.
     Parameters,
 }
 
@@ -274,10 +274,6 @@ impl<'a> Resolver<'a> {
     fn literal(&mut self, literal: &Lit) -> Id {
         let (digits, suffix) = match literal {
             Lit::Float(number) => (number.base10_digits().to_owned(), number.suffix()),
-            Lit::Int(number) if self.scope == Scope::Parameters => {
-                let message = format!("conditions on parameters are Rust as it stands: write `{number}.0`");
-                return self.mistake(literal, &message);
-            }
             Lit::Int(number) => (number.base10_digits().to_owned(), number.suffix()),
             _ => return self.mistake(literal, "a literal in an energy is a number"),
         };

@@ -59,7 +59,7 @@ fn check_signature(signature: &str, expected: &[(&str, &str)]) {
 fn a_good_energy_has_none() {
     check_body(GOOD, &[]);
     check_arguments(
-        "domain(J > 0.0), admissible(m[p] * m[p] > -1.0, mu.powi(2) >= 0.0), extend(mu > 0.0)",
+        "domain(J > 0.0), admissible(m[p] * m[p] > -1.0, mu.powi(2.0) * 3.0.sqrt() >= 0), extend(mu > 0.0)",
         &[],
     );
     check_signature("fn E([a, b, c]: [f64; 3], mu: f64) -> f64", &[]);
@@ -248,7 +248,9 @@ fn arguments() {
     parameters("mu", "mu", "a condition is a comparison");
     parameters("l1 > 0.0", "l1", "stands in `domain(…)`");
     parameters("mu * J > 0.0", "J", "stands in `domain(…)`");
-    parameters("mu > 0", "0", "write `0.0`");
+    parameters("mu.powi(1 + 1) > 0.0", "1 + 1", "`powi` takes one number");
+    parameters("mu.powi(0.5) > 0.0", "0.5", "`powi` takes a whole number");
+    parameters("mu.abs() > 0.0", "abs", "has a kink");
     parameters("m > 0.0", "m", "write `m[p]`");
     parameters("sum(|p| m[p]) > 0.0", "sum(|p| m[p])", "it holds for each entry");
     parameters("m[p] > m[q]", "q", "the index here is `p`");

@@ -1,6 +1,6 @@
 use piola::{Material, material};
 
-#[material(domain(J > 0.0), admissible(l1 > 0.0, mu > 0, mu))]
+#[material(domain(J > 0.0), admissible(l1 > 0.0, mu.powi(0.5) > 0, mu))]
 pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
     mu / 2.0 * (I1 - 3.0 - 2.0 * J.ln())
 }

@@ -6,6 +6,7 @@ use quote::{ToTokens, quote};
 use syn::Expr;
 
 use super::{condition_text, doc, generics};
+use crate::literals::typed;
 use crate::model::indexed_lists;
 use crate::parse::{Declaration, Parameter, identifiers};
 
@@ -153,9 +154,10 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
                 }
             }
         });
+    let test = typed(condition);
     let test = quote! {
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-        if !(#condition) {
+        if !(#test) {
             return Err(::piola::material::Inadmissible::#error {
                 condition: #text,
                 given: [#(#given),*].join(", "),

@@ -4,6 +4,7 @@ use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
 use super::{Resolver, Scope};
 use crate::expr::{Exponent, Id, Node};
+use crate::literals::is_number;
 use crate::rational::Rational;
 use crate::spelling::{list, nearest};
 
@@ -87,14 +88,14 @@ impl Resolver<'_> {
     }
 
     fn whole_power(&mut self, base: Id, argument: &Expr) -> Id {
-        // Conditions are emitted as they are written, exponents included.
-        let scope = std::mem::replace(&mut self.scope, Scope::Stretches);
         let exponent = self.expression(argument);
-        self.scope = scope;
         let Some(exponent) = self.graph.as_constant(exponent).filter(|exponent| exponent.denominator() == 1)
         else {
             return self.mistake(argument, "`powi` takes a whole number: for others use `.powf(…)`");
         };
+        if self.scope == Scope::Parameters && !is_number(argument) {
+            return self.mistake(argument, "in a condition `powi` takes one number, such as `2`");
+        }
         match exponent.as_integer() {
             Some(n) if n < 0 && self.graph.is_zero(base) => self.mistake(argument, "division by zero"),
             Some(n) if n.abs() <= 64 => self.graph.powi(base, n),

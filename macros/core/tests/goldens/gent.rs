@@ -95,14 +95,14 @@ impl Gent {
             }
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-        if !(mu > 0.0) {
+        if !(mu > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "mu > 0",
                 given: [::std::format!("mu = {}", mu)].join(", "),
             });
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-        if !(jm > 0.0) {
+        if !(jm > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "jm > 0",
                 given: [::std::format!("jm = {}", jm)].join(", "),
@@ -139,7 +139,7 @@ impl Gent {
             #[allow(unused_variables)]
             let Self { mu, jm, kappa, .. } = self;
             #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-            if !(kappa >= 0.0) {
+            if !(kappa >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "kappa >= 0",
                     given: [::std::format!("kappa = {}", kappa)].join(", "),

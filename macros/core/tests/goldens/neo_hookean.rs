@@ -82,7 +82,7 @@ impl NeoHookean {
             }
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-        if !(mu > 0.0) {
+        if !(mu > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "mu > 0",
                 given: [::std::format!("mu = {}", mu)].join(", "),
@@ -118,7 +118,7 @@ impl NeoHookean {
             #[allow(unused_variables)]
             let Self { mu, lambda, .. } = self;
             #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-            if !(lambda >= 0.0) {
+            if !(lambda >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "lambda >= 0",
                     given: [::std::format!("lambda = {}", lambda)].join(", "),

@@ -99,7 +99,7 @@ impl<const N: usize> Ogden<N> {
         }
         for p in 0..alpha.len() {
             #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-            if !(alpha[p] != 0.0) {
+            if !(alpha[p] != 0f64) {
                 return Err(::piola::material::Inadmissible::Violated {
                     condition: "alpha[p] != 0",
                     given: [::std::format!("alpha[{}] = {}", p, alpha[p])].join(", "),
@@ -138,7 +138,7 @@ impl<const N: usize> Ogden<N> {
             let Self { mu, alpha, kappa, .. } = self;
             for p in 0..mu.len() {
                 #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-                if !(mu[p] * alpha[p] > 0.0) {
+                if !(mu[p] * alpha[p] > 0f64) {
                     return Err(::piola::material::Inadmissible::DoesNotRestore {
                         condition: "mu[p] * alpha[p] > 0",
                         given: [
@@ -150,7 +150,7 @@ impl<const N: usize> Ogden<N> {
                 }
             }
             #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-            if !(kappa >= 0.0) {
+            if !(kappa >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "kappa >= 0",
                     given: [::std::format!("kappa = {}", kappa)].join(", "),
