@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A body is back from the frame on from which every node stays within a thousandth of the body's height. All energies
-//! have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests. A last table has what other
-//! ways back gain where many bodies are lost.
+//! have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and with which seeds. A last
+//! table has what other ways back gain where many bodies are lost.
 
 use std::error::Error;
 use std::fmt;
@@ -29,6 +29,9 @@ const MATERIALS: [&str; 5] = ["rotated linear", "fixed corotated", "stable neo-H
 
 /// Differences of energies err by some roundings; slopes judge what is below them.
 const RISE: f64 = 1e-12;
+
+/// Of so many bodies that are not back the seeds are named.
+const NAMED: usize = 5;
 
 #[derive(Parser)]
 struct Options {
@@ -232,10 +235,14 @@ impl fmt::Display for Row<'_> {
             [Place::StableElsewhere, Place::UndecidedElsewhere, Place::Saddle, Place::NotAtRest, Place::Rest];
         let mut separator = "";
         for place in places {
-            let standings = outcomes.iter().filter_map(|outcome| outcome.standing);
-            let count = standings.filter(|standing| standing.place == place).count();
-            if count > 0 {
-                write!(f, "{separator}{count} {place}")?;
+            // By their numbers, which are the seeds.
+            let there = |outcome: &Outcome| outcome.standing.is_some_and(|standing| standing.place == place);
+            let numbers: Vec<_> = (1..).zip(*outcomes).filter(|(_, outcome)| there(outcome)).collect();
+            if !numbers.is_empty() {
+                let first: Vec<_> =
+                    numbers.iter().take(NAMED).map(|(number, _)| format!("{number}")).collect();
+                let more = if numbers.len() > NAMED { ", …" } else { "" };
+                write!(f, "{separator}{} {place} ({}{more})", numbers.len(), first.join(", "))?;
                 separator = "; ";
             }
         }
