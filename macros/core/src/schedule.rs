@@ -2,7 +2,8 @@
 //!
 //! Operations are numbered by value: what is computed twice is computed once, and what does not change from one entry
 //! of a list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
-//! needs the result of another. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
+//! needs the result of another. What products and sums have in common is computed first, if the range of the numbers
+//! allows. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
 //! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
 //! base are made from one logarithm.
 
@@ -11,12 +12,17 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::rational::Rational;
 use order::Order;
+use parts::Parts;
 use passes::{fuse_multiply_add, renumber};
 use powers::{Powers, Way};
 
+mod collect;
+mod degrees;
 mod order;
+mod parts;
 mod passes;
 mod powers;
+mod shifts;
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -164,12 +170,17 @@ pub struct Program {
 /// Orders the computation of the roots and of nothing else.
 #[must_use]
 pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
-    let reachable = graph.reachable(roots);
-    let powers = Powers::used_by(graph, &reachable);
+    let powers = Powers::used_by(graph, &graph.reachable(roots));
+    let roots = shifts::take_out(graph, &powers, roots);
+    let roots = collect::collect(graph, &roots);
+    let reachable = graph.reachable(&roots);
+    let order = Order::of(graph, &reachable);
+    let parts = Parts::of(graph, &reachable);
     let mut scheduler = Scheduler {
         graph,
         powers,
-        order: Order::default(),
+        order,
+        parts,
         count: 0,
         statements: Vec::new(),
         numbers: HashMap::new(),
@@ -177,7 +188,7 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
         open_loop: None,
     };
     scheduler.loops(&reachable);
-    let outputs = roots.iter().map(|&root| scheduler.value(root)).collect();
+    let outputs = roots.into_iter().map(|root| scheduler.value(root)).collect();
     renumber(fuse_multiply_add(Program { statements: scheduler.statements, outputs }))
 }
 
@@ -185,6 +196,7 @@ struct Scheduler<'g> {
     graph: &'g mut Graph,
     powers: Powers,
     order: Order,
+    parts: Parts,
     count: usize,
     statements: Vec<Statement>,
     numbers: HashMap<Op, Value>,
@@ -376,6 +388,8 @@ impl Scheduler<'_> {
     }
 
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
+        let (constant, terms) = self.parts.regrouped(constant, terms);
+        let terms = &terms[..];
         let magnitude = |r: Rational| if r.is_negative() { r.negated() } else { r };
         // c a − c b is c (a − b).
         if let [(_, first), _, ..] = terms

@@ -1,91 +1,76 @@
 //! In which order the factors of a product are multiplied: such that no part of it leaves the range of the numbers when the
 //! product does not.
 //!
-//! The degree of an expression is its exponent t^n when all stretches are scaled by t. A product of high degree leaves the
-//! range soonest, so factors are taken such that the degree of what has been multiplied stays near zero. With I1 y^(−2/3)
-//! z^(−2/3) x^(−8/3), of degree −2, the powers of stretches alone would be of degree −4.
+//! A product of high degree leaves the range soonest, so factors are taken such that the degree of what has been multiplied
+//! stays near zero. With I1 y^(−2/3) z^(−2/3) x^(−8/3), of degree −2, the powers of stretches alone would be of degree −4.
+//!
+//! Among factors that are equally good, the one is taken with which what has been multiplied is a part of the most products of
+//! the program: such a part is computed once for all of them.
 
-use std::collections::HashMap;
-
+use super::degrees::{Degree, Degrees, power, sum};
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::rational::Rational;
 
-/// Degrees for t → 0 and for t → ∞.
-type Degrees = [f64; 2];
+/// A base with an exponent, one of those into which [`parts`] takes powers.
+type Factor = (Id, Exponent);
 
-/// Degrees of expressions, each found once.
-#[derive(Default)]
+/// What decides on the order: degrees, and the products of a program.
 pub(super) struct Order {
-    memo: HashMap<Id, Degrees>,
+    degrees: Degrees,
+    products: Vec<Vec<Factor>>,
 }
 
 impl Order {
+    /// For products among these nodes.
+    pub(super) fn of(graph: &Graph, reachable: &[Id]) -> Self {
+        let factors = |&id: &Id| match graph.node(id) {
+            Node::Product(factors) => Some(apart(factors)),
+            _ => None,
+        };
+        Self { degrees: Degrees::default(), products: reachable.iter().filter_map(factors).collect() }
+    }
+
     /// The factors in the order of multiplication, parameters first.
-    pub(super) fn balanced(&mut self, graph: &Graph, factors: &[(Id, Exponent)]) -> Vec<(Id, Exponent)> {
-        let mut left: Vec<(Degrees, (Id, Exponent))> = Vec::new();
-        for &(base, exponent) in factors {
-            for part in parts(exponent) {
-                left.push((power(self.degrees(graph, base), part), (base, part)));
-            }
+    pub(super) fn balanced(&mut self, graph: &Graph, factors: &[Factor]) -> Vec<Factor> {
+        let mut left: Vec<(Degree, Factor)> = Vec::new();
+        for factor @ (base, exponent) in apart(factors) {
+            left.push((power(self.degrees.of(graph, base), exponent), factor));
         }
-        let mut order = Vec::new();
+        let mut order: Vec<Factor> = Vec::new();
         let mut total = [0.0; 2];
+        let mut alike: Vec<usize> = (0..self.products.len()).collect();
         while !left.is_empty() {
-            let size = |[low, high]: Degrees| (total[0] + low).abs() + (total[1] + high).abs();
-            // The first of the smallest.
-            let mut best = 0;
-            for k in 1..left.len() {
-                if size(left[k].0) < size(left[best].0) {
-                    best = k;
+            let size = |[low, high]: Degree| (total[0] + low).abs() + (total[1] + high).abs();
+            let smallest = left.iter().map(|&(degrees, _)| size(degrees)).fold(f64::INFINITY, f64::min);
+            // The first of the most shared of the smallest.
+            let mut best: Option<(usize, Vec<usize>)> = None;
+            for (k, &(degrees, factor)) in left.iter().enumerate() {
+                if size(degrees) > smallest || left[..k].iter().any(|other| other.1 == factor) {
+                    continue;
+                }
+                let times = |factors: &[Factor]| factors.iter().filter(|&&other| other == factor).count();
+                let needed = times(&order) + 1;
+                let sharing: Vec<_> =
+                    alike.iter().copied().filter(|&p| times(&self.products[p]) >= needed).collect();
+                if best.as_ref().is_none_or(|(_, most)| sharing.len() > most.len()) {
+                    best = Some((k, sharing));
                 }
             }
-            let (degrees, factor) = left.remove(best);
+            // A degree that is no number is as good as any.
+            let (k, sharing) = best.unwrap_or_default();
+            let (degrees, factor) = left.remove(k);
             total = sum(total, degrees);
             order.push(factor);
+            alike = sharing;
         }
         order
     }
+}
 
-    fn degrees(&mut self, graph: &Graph, id: Id) -> Degrees {
-        if let Some(&done) = self.memo.get(&id) {
-            return done;
-        }
-        let result = self.rule(graph, id);
-        self.memo.insert(id, result);
-        result
-    }
-
-    fn rule(&mut self, graph: &Graph, id: Id) -> Degrees {
-        match graph.node(id) {
-            Node::Stretch(_) => [1.0, 1.0],
-            Node::Linear { constant, terms } => {
-                let start = if constant.is_zero() { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
-                let degrees = terms.iter().fold(start, |[low, high], &(term, _)| {
-                    let [term_low, term_high] = self.degrees(graph, term);
-                    [low.min(term_low), high.max(term_high)]
-                });
-                if degrees[0] <= degrees[1] { degrees } else { [0.0; 2] }
-            }
-            Node::Product(factors) => factors
-                .iter()
-                .map(|&(base, exponent)| power(self.degrees(graph, base), exponent))
-                .fold([0.0; 2], sum),
-            Node::Sum(_, body) => self.degrees(graph, *body),
-            Node::LnQuotient(a, _) => power(self.degrees(graph, *a), Exponent::integer(-1)),
-            Node::PowerQuotient(a, _, exponent) => {
-                let [a, power] = [Exponent::integer(1), *exponent].map(|e| power(self.degrees(graph, *a), e));
-                [power[0] - a[0], power[1] - a[1]]
-            }
-            Node::PoleQuotient(a, b) => {
-                let [a, b] = [*a, *b].map(|id| self.degrees(graph, id));
-                [a[0] - b[0], a[1] - b[1]]
-            }
-            // max(λ, ε) and powers of it.
-            Node::Above(_) => [0.0, 1.0],
-            // Logarithms, exponentials, parameters, and what of a stretch is bounded.
-            _ => [0.0; 2],
-        }
-    }
+/// Factors such that no power of one base leaves the range when their product does not.
+fn apart(factors: &[Factor]) -> Vec<Factor> {
+    let apart = |&(base, exponent): &Factor| parts(exponent).into_iter().map(move |part| (base, part));
+    factors.iter().flat_map(apart).collect()
 }
 
 /// x^(−7/3) may leave the range where x^(−1/3) and x^(−1) do not.
@@ -106,13 +91,4 @@ fn parts(exponent: Exponent) -> Vec<Exponent> {
         whole -= part;
     }
     parts
-}
-
-/// A real exponent is unknown here and counts by its rational part.
-fn power(degrees: Degrees, exponent: Exponent) -> Degrees {
-    degrees.map(|degree| degree * exponent.rational.to_f64())
-}
-
-fn sum(a: Degrees, b: Degrees) -> Degrees {
-    [a[0] + b[0], a[1] + b[1]]
 }

@@ -39,12 +39,12 @@
 /// | result | operations |
 /// |---|---|
 /// | energy | 23 (1 ÷, 2 ln) |
-/// | gradient | 39 (5 ÷) |
-/// | energy, gradient and Hessian | 111 (5 ÷, 2 ln) |
+/// | gradient | 37 (5 ÷) |
+/// | energy, gradient and Hessian | 103 (5 ÷, 2 ln) |
 /// | flip | 34 (5 ÷) |
 /// | twist | 34 (5 ÷) |
-/// | blocks | 115 (5 ÷) |
-/// | blocks, continued | 171 (9 ÷, 6 Δ) |
+/// | blocks | 107 (5 ÷) |
+/// | blocks, continued | 163 (9 ÷, 6 Δ) |
 ///
 /// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -361,8 +361,8 @@ impl ::piola::material::Varying for Gent {
                 let t4 = t3 - R::splat(3.0);
                 let t5 = (-t0).mul_add(t4, R::splat(1.0));
                 let t6 = R::splat(1.0) / t5;
-                let t7 = mu * l1;
-                let t8 = t6 * t7;
+                let t7 = mu * t6;
+                let t8 = l1 * t7;
                 let kappa = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.kappa);
@@ -373,20 +373,18 @@ impl ::piola::material::Varying for Gent {
                 let t13 = t10.mul_add(t12, t8);
                 let t14 = R::splat(1.0) / l1;
                 let t15 = (-mu).mul_add(t14, t13);
-                let t16 = mu * l2;
-                let t17 = t6 * t16;
-                let t18 = l1 * kappa;
-                let t19 = l3 * t18;
-                let t20 = t10.mul_add(t19, t17);
-                let t21 = R::splat(1.0) / l2;
-                let t22 = (-mu).mul_add(t21, t20);
-                let t23 = mu * l3;
-                let t24 = t6 * t23;
-                let t25 = l2 * t18;
-                let t26 = t10.mul_add(t25, t24);
-                let t27 = R::splat(1.0) / l3;
-                let t28 = (-mu).mul_add(t27, t26);
-                [t15, t22, t28]
+                let t16 = l2 * t7;
+                let t17 = l1 * kappa;
+                let t18 = l3 * t17;
+                let t19 = t10.mul_add(t18, t16);
+                let t20 = R::splat(1.0) / l2;
+                let t21 = (-mu).mul_add(t20, t19);
+                let t22 = l3 * t7;
+                let t23 = l2 * t17;
+                let t24 = t10.mul_add(t23, t22);
+                let t25 = R::splat(1.0) / l3;
+                let t26 = (-mu).mul_add(t25, t24);
+                [t15, t21, t26]
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
                 let epsilon = R::splat(epsilon);
@@ -403,8 +401,8 @@ impl ::piola::material::Varying for Gent {
                 let t4 = t3 - R::splat(3.0);
                 let t5 = (-t0).mul_add(t4, R::splat(1.0));
                 let t6 = R::splat(1.0) / t5;
-                let t7 = mu * l1;
-                let t8 = t6 * t7;
+                let t7 = mu * t6;
+                let t8 = l1 * t7;
                 let kappa = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.kappa);
@@ -419,28 +417,26 @@ impl ::piola::material::Varying for Gent {
                 let t17 = t15 * t16;
                 let t18 = (-t15).mul_add(t17, t15);
                 let t19 = (-mu).mul_add(t18, t13);
-                let t20 = mu * l2;
-                let t21 = t6 * t20;
-                let t22 = l1 * kappa;
-                let t23 = l3 * t22;
-                let t24 = t10.mul_add(t23, t21);
-                let t25 = l2.max(epsilon);
-                let t26 = R::splat(1.0) / t25;
-                let t27 = (l2 - epsilon).min(R::splat(0.0));
-                let t28 = t26 * t27;
-                let t29 = (-t26).mul_add(t28, t26);
-                let t30 = (-mu).mul_add(t29, t24);
-                let t31 = mu * l3;
-                let t32 = t6 * t31;
-                let t33 = l2 * t22;
-                let t34 = t10.mul_add(t33, t32);
-                let t35 = l3.max(epsilon);
-                let t36 = R::splat(1.0) / t35;
-                let t37 = (l3 - epsilon).min(R::splat(0.0));
-                let t38 = t36 * t37;
-                let t39 = (-t36).mul_add(t38, t36);
-                let t40 = (-mu).mul_add(t39, t34);
-                [t19, t30, t40]
+                let t20 = l2 * t7;
+                let t21 = l1 * kappa;
+                let t22 = l3 * t21;
+                let t23 = t10.mul_add(t22, t20);
+                let t24 = l2.max(epsilon);
+                let t25 = R::splat(1.0) / t24;
+                let t26 = (l2 - epsilon).min(R::splat(0.0));
+                let t27 = t25 * t26;
+                let t28 = (-t25).mul_add(t27, t25);
+                let t29 = (-mu).mul_add(t28, t23);
+                let t30 = l3 * t7;
+                let t31 = l2 * t21;
+                let t32 = t10.mul_add(t31, t30);
+                let t33 = l3.max(epsilon);
+                let t34 = R::splat(1.0) / t33;
+                let t35 = (l3 - epsilon).min(R::splat(0.0));
+                let t36 = t34 * t35;
+                let t37 = (-t34).mul_add(t36, t34);
+                let t38 = (-mu).mul_add(t37, t32);
+                [t19, t29, t38]
             }
         }
     }
@@ -488,8 +484,8 @@ impl ::piola::material::Varying for Gent {
         let t22 = l3.mul_add(t21, t20);
         let t23 = kappa * t22;
         let t24 = t19 + t23;
-        let t25 = l1 * l2;
-        let t26 = l3.mul_add(t25, -R::splat(1.0));
+        let t25 = l2 * l3;
+        let t26 = l1.mul_add(t25, -R::splat(1.0));
         let t27 = strains[2] * kappa;
         let t28 = t26 * t27;
         let t29 = t24 + t28;
@@ -560,8 +556,8 @@ impl ::piola::material::Varying for Gent {
                 let t4 = t3 - R::splat(3.0);
                 let t5 = (-t0).mul_add(t4, R::splat(1.0));
                 let t6 = R::splat(1.0) / t5;
-                let t7 = mu * l1;
-                let t8 = t6 * t7;
+                let t7 = mu * t6;
+                let t8 = l1 * t7;
                 let kappa = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.kappa);
@@ -573,87 +569,79 @@ impl ::piola::material::Varying for Gent {
                 let t14 = R::splat(1.0) / l1;
                 let t15 = mu * t14;
                 let t16 = t13 - t15;
-                let t17 = mu * l2;
-                let t18 = t6 * t17;
-                let t19 = l1 * kappa;
-                let t20 = l3 * t19;
-                let t21 = t10.mul_add(t20, t18);
-                let t22 = R::splat(1.0) / l2;
-                let t23 = mu * t22;
-                let t24 = t21 - t23;
-                let t25 = mu * l3;
-                let t26 = t6 * t25;
-                let t27 = l2 * t19;
-                let t28 = t10.mul_add(t27, t26);
-                let t29 = R::splat(1.0) / l3;
-                let t30 = mu * t29;
-                let t31 = t28 - t30;
-                let t32 = mu * t6;
-                let t33 = mu * t0;
-                let t34 = l1 * t33;
-                let t35 = t6 * t34;
-                let t36 = l1 * t35;
-                let t37 = t6 * t36;
-                let t38 = t37.mul_add(R::splat(2.0), t32);
-                let t39 = t14.mul_add(t15, t38);
-                let t40 = l2 * t11;
-                let t41 = l3 * t40;
-                let t42 = l3.mul_add(t41, t39);
-                let t43 = l2 * t33;
-                let t44 = t6 * t43;
-                let t45 = l2 * t44;
-                let t46 = t6 * t45;
-                let t47 = R::splat(2.0).mul_add(t46, t32);
-                let t48 = t22.mul_add(t23, t47);
-                let t49 = l1 * t19;
-                let t50 = l3 * t49;
-                let t51 = l3.mul_add(t50, t48);
-                let t52 = l3 * t33;
-                let t53 = t6 * t52;
-                let t54 = l3 * t53;
-                let t55 = t6 * t54;
-                let t56 = R::splat(2.0).mul_add(t55, t32);
-                let t57 = t29.mul_add(t30, t56);
-                let t58 = l2 * t49;
-                let t59 = l2.mul_add(t58, t57);
-                let t60 = l2 * t35;
+                let t17 = l2 * t7;
+                let t18 = l1 * kappa;
+                let t19 = l3 * t18;
+                let t20 = t10.mul_add(t19, t17);
+                let t21 = R::splat(1.0) / l2;
+                let t22 = mu * t21;
+                let t23 = t20 - t22;
+                let t24 = l3 * t7;
+                let t25 = l2 * t18;
+                let t26 = t10.mul_add(t25, t24);
+                let t27 = R::splat(1.0) / l3;
+                let t28 = mu * t27;
+                let t29 = t26 - t28;
+                let t30 = mu * t0;
+                let t31 = t6 * t30;
+                let t32 = l1 * t31;
+                let t33 = l1 * t32;
+                let t34 = t6 * t33;
+                let t35 = t34.mul_add(R::splat(2.0), t7);
+                let t36 = t14.mul_add(t15, t35);
+                let t37 = l2 * t12;
+                let t38 = l3.mul_add(t37, t36);
+                let t39 = l2 * t31;
+                let t40 = l2 * t39;
+                let t41 = t6 * t40;
+                let t42 = R::splat(2.0).mul_add(t41, t7);
+                let t43 = t21.mul_add(t22, t42);
+                let t44 = l1 * t19;
+                let t45 = l3.mul_add(t44, t43);
+                let t46 = l3 * t31;
+                let t47 = l3 * t46;
+                let t48 = t6 * t47;
+                let t49 = R::splat(2.0).mul_add(t48, t7);
+                let t50 = t27.mul_add(t28, t49);
+                let t51 = l1 * t25;
+                let t52 = l2.mul_add(t51, t50);
+                let t53 = l2 * t32;
+                let t54 = t6 * t53;
+                let t55 = l3 * kappa;
+                let t56 = t10 * t55;
+                let t57 = R::splat(2.0).mul_add(t54, t56);
+                let t58 = l3 * t25;
+                let t59 = l3.mul_add(t58, t57);
+                let t60 = l3 * t32;
                 let t61 = t6 * t60;
-                let t62 = l3 * kappa;
-                let t63 = t10 * t62;
-                let t64 = R::splat(2.0).mul_add(t61, t63);
-                let t65 = l3 * t27;
-                let t66 = l3.mul_add(t65, t64);
-                let t67 = l3 * t35;
-                let t68 = t6 * t67;
-                let t69 = t10 * t11;
-                let t70 = R::splat(2.0).mul_add(t68, t69);
-                let t71 = l2 * t27;
-                let t72 = l3.mul_add(t71, t70);
-                let t73 = l3 * t44;
-                let t74 = t6 * t73;
-                let t75 = t10 * t19;
-                let t76 = R::splat(2.0).mul_add(t74, t75);
-                let t77 = l3.mul_add(t58, t76);
-                let t78 = t15 * t22;
-                let t79 = t32 + t78;
-                let t80 = t79 - t63;
-                let t81 = t15 * t29;
-                let t82 = t32 + t81;
-                let t83 = t82 - t69;
-                let t84 = t23 * t29;
-                let t85 = t32 + t84;
-                let t86 = t85 - t75;
-                let t87 = t32 + t63;
-                let t88 = t87 - t78;
-                let t89 = t32 + t69;
-                let t90 = t89 - t81;
-                let t91 = t32 + t75;
-                let t92 = t91 - t84;
+                let t62 = t10 * t11;
+                let t63 = R::splat(2.0).mul_add(t61, t62);
+                let t64 = l2.mul_add(t58, t63);
+                let t65 = l3 * t39;
+                let t66 = t6 * t65;
+                let t67 = t10 * t18;
+                let t68 = R::splat(2.0).mul_add(t66, t67);
+                let t69 = l1.mul_add(t58, t68);
+                let t70 = t15 * t21;
+                let t71 = t7 + t70;
+                let t72 = t71 - t56;
+                let t73 = t15 * t27;
+                let t74 = t7 + t73;
+                let t75 = t74 - t62;
+                let t76 = t22 * t27;
+                let t77 = t7 + t76;
+                let t78 = t77 - t67;
+                let t79 = t7 + t56;
+                let t80 = t79 - t70;
+                let t81 = t7 + t62;
+                let t82 = t81 - t73;
+                let t83 = t7 + t67;
+                let t84 = t83 - t76;
                 ::piola::material::Blocks {
-                    gradient: [t16, t24, t31],
-                    hessian: [t42, t51, t59, t66, t72, t77],
-                    flip: [t80, t83, t86],
-                    twist: [t88, t90, t92],
+                    gradient: [t16, t23, t29],
+                    hessian: [t38, t45, t52, t59, t64, t69],
+                    flip: [t72, t75, t78],
+                    twist: [t80, t82, t84],
                 }
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
@@ -671,8 +659,8 @@ impl ::piola::material::Varying for Gent {
                 let t4 = t3 - R::splat(3.0);
                 let t5 = (-t0).mul_add(t4, R::splat(1.0));
                 let t6 = R::splat(1.0) / t5;
-                let t7 = mu * l1;
-                let t8 = t6 * t7;
+                let t7 = mu * t6;
+                let t8 = l1 * t7;
                 let kappa = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.kappa);
@@ -688,130 +676,122 @@ impl ::piola::material::Varying for Gent {
                 let t18 = (-t15).mul_add(t17, t15);
                 let t19 = mu * t18;
                 let t20 = t13 - t19;
-                let t21 = mu * l2;
-                let t22 = t6 * t21;
-                let t23 = l1 * kappa;
-                let t24 = l3 * t23;
-                let t25 = t10.mul_add(t24, t22);
-                let t26 = l2.max(epsilon);
-                let t27 = R::splat(1.0) / t26;
-                let t28 = (l2 - epsilon).min(R::splat(0.0));
-                let t29 = t27 * t28;
-                let t30 = (-t27).mul_add(t29, t27);
-                let t31 = mu * t30;
-                let t32 = t25 - t31;
-                let t33 = mu * l3;
-                let t34 = t6 * t33;
-                let t35 = l2 * t23;
-                let t36 = t10.mul_add(t35, t34);
-                let t37 = l3.max(epsilon);
-                let t38 = R::splat(1.0) / t37;
-                let t39 = (l3 - epsilon).min(R::splat(0.0));
-                let t40 = t38 * t39;
-                let t41 = (-t38).mul_add(t40, t38);
-                let t42 = mu * t41;
-                let t43 = t36 - t42;
-                let t44 = mu * t6;
-                let t45 = mu * t0;
-                let t46 = l1 * t45;
-                let t47 = t6 * t46;
-                let t48 = l1 * t47;
-                let t49 = t6 * t48;
-                let t50 = t49.mul_add(R::splat(2.0), t44);
-                let t51 = l2 * t11;
-                let t52 = l3 * t51;
-                let t53 = l3.mul_add(t52, t50);
-                let t54 = mu * t15;
-                let t55 = t15.mul_add(t54, t53);
-                let t56 = l2 * t45;
-                let t57 = t6 * t56;
-                let t58 = l2 * t57;
-                let t59 = t6 * t58;
-                let t60 = R::splat(2.0).mul_add(t59, t44);
-                let t61 = l1 * t23;
-                let t62 = l3 * t61;
-                let t63 = l3.mul_add(t62, t60);
-                let t64 = mu * t27;
-                let t65 = t27.mul_add(t64, t63);
-                let t66 = l3 * t45;
-                let t67 = t6 * t66;
-                let t68 = l3 * t67;
+                let t21 = l2 * t7;
+                let t22 = l1 * kappa;
+                let t23 = l3 * t22;
+                let t24 = t10.mul_add(t23, t21);
+                let t25 = l2.max(epsilon);
+                let t26 = R::splat(1.0) / t25;
+                let t27 = (l2 - epsilon).min(R::splat(0.0));
+                let t28 = t26 * t27;
+                let t29 = (-t26).mul_add(t28, t26);
+                let t30 = mu * t29;
+                let t31 = t24 - t30;
+                let t32 = l3 * t7;
+                let t33 = l2 * t22;
+                let t34 = t10.mul_add(t33, t32);
+                let t35 = l3.max(epsilon);
+                let t36 = R::splat(1.0) / t35;
+                let t37 = (l3 - epsilon).min(R::splat(0.0));
+                let t38 = t36 * t37;
+                let t39 = (-t36).mul_add(t38, t36);
+                let t40 = mu * t39;
+                let t41 = t34 - t40;
+                let t42 = mu * t0;
+                let t43 = t6 * t42;
+                let t44 = l1 * t43;
+                let t45 = l1 * t44;
+                let t46 = t6 * t45;
+                let t47 = t46.mul_add(R::splat(2.0), t7);
+                let t48 = l2 * t12;
+                let t49 = l3.mul_add(t48, t47);
+                let t50 = mu * t15;
+                let t51 = t15.mul_add(t50, t49);
+                let t52 = l2 * t43;
+                let t53 = l2 * t52;
+                let t54 = t6 * t53;
+                let t55 = R::splat(2.0).mul_add(t54, t7);
+                let t56 = l1 * t23;
+                let t57 = l3.mul_add(t56, t55);
+                let t58 = mu * t26;
+                let t59 = t26.mul_add(t58, t57);
+                let t60 = l3 * t43;
+                let t61 = l3 * t60;
+                let t62 = t6 * t61;
+                let t63 = R::splat(2.0).mul_add(t62, t7);
+                let t64 = l1 * t33;
+                let t65 = l2.mul_add(t64, t63);
+                let t66 = mu * t36;
+                let t67 = t36.mul_add(t66, t65);
+                let t68 = l2 * t44;
                 let t69 = t6 * t68;
-                let t70 = R::splat(2.0).mul_add(t69, t44);
-                let t71 = l2 * t61;
-                let t72 = l2.mul_add(t71, t70);
-                let t73 = mu * t38;
-                let t74 = t38.mul_add(t73, t72);
-                let t75 = l2 * t47;
+                let t70 = l3 * kappa;
+                let t71 = t10 * t70;
+                let t72 = R::splat(2.0).mul_add(t69, t71);
+                let t73 = l3 * t33;
+                let t74 = l3.mul_add(t73, t72);
+                let t75 = l3 * t44;
                 let t76 = t6 * t75;
-                let t77 = l3 * kappa;
-                let t78 = t10 * t77;
-                let t79 = R::splat(2.0).mul_add(t76, t78);
-                let t80 = l3 * t35;
-                let t81 = l3.mul_add(t80, t79);
-                let t82 = l3 * t47;
-                let t83 = t6 * t82;
-                let t84 = t10 * t11;
-                let t85 = R::splat(2.0).mul_add(t83, t84);
-                let t86 = l2 * t35;
-                let t87 = l3.mul_add(t86, t85);
-                let t88 = l3 * t57;
-                let t89 = t6 * t88;
-                let t90 = t10 * t23;
-                let t91 = R::splat(2.0).mul_add(t89, t90);
-                let t92 = l3.mul_add(t71, t91);
-                let t93 = t44 - t78;
-                let t94 = ::piola::quotient::share_above(l1, l2, epsilon);
-                let t95 = t15 * t94;
-                let t96 = t27 * t95;
-                let t97 = -t96;
-                let t98 = R::splat(1.0) / epsilon;
-                let t99 = ::piola::quotient::share_below(l1, l2, epsilon);
-                let t100 = t98 * t98;
-                let t101 = (-t99).mul_add(t100, t97);
-                let t102 = (-mu).mul_add(t101, t93);
-                let t103 = t44 - t84;
-                let t104 = ::piola::quotient::share_above(l1, l3, epsilon);
-                let t105 = t15 * t104;
-                let t106 = t38 * t105;
+                let t77 = t10 * t11;
+                let t78 = R::splat(2.0).mul_add(t76, t77);
+                let t79 = l2.mul_add(t73, t78);
+                let t80 = l3 * t52;
+                let t81 = t6 * t80;
+                let t82 = t10 * t22;
+                let t83 = R::splat(2.0).mul_add(t81, t82);
+                let t84 = l1.mul_add(t73, t83);
+                let t85 = t7 - t71;
+                let t86 = ::piola::quotient::share_above(l1, l2, epsilon);
+                let t87 = t15 * t86;
+                let t88 = t26 * t87;
+                let t89 = -t88;
+                let t90 = R::splat(1.0) / epsilon;
+                let t91 = ::piola::quotient::share_below(l1, l2, epsilon);
+                let t92 = t90 * t90;
+                let t93 = (-t91).mul_add(t92, t89);
+                let t94 = (-mu).mul_add(t93, t85);
+                let t95 = t7 - t77;
+                let t96 = ::piola::quotient::share_above(l1, l3, epsilon);
+                let t97 = t15 * t96;
+                let t98 = t36 * t97;
+                let t99 = -t98;
+                let t100 = ::piola::quotient::share_below(l1, l3, epsilon);
+                let t101 = (-t92).mul_add(t100, t99);
+                let t102 = (-mu).mul_add(t101, t95);
+                let t103 = t7 - t82;
+                let t104 = ::piola::quotient::share_above(l2, l3, epsilon);
+                let t105 = t26 * t104;
+                let t106 = t36 * t105;
                 let t107 = -t106;
-                let t108 = ::piola::quotient::share_below(l1, l3, epsilon);
-                let t109 = (-t100).mul_add(t108, t107);
+                let t108 = ::piola::quotient::share_below(l2, l3, epsilon);
+                let t109 = (-t92).mul_add(t108, t107);
                 let t110 = (-mu).mul_add(t109, t103);
-                let t111 = t44 - t90;
-                let t112 = ::piola::quotient::share_above(l2, l3, epsilon);
-                let t113 = t27 * t112;
-                let t114 = t38 * t113;
-                let t115 = -t114;
-                let t116 = ::piola::quotient::share_below(l2, l3, epsilon);
-                let t117 = (-t100).mul_add(t116, t115);
-                let t118 = (-mu).mul_add(t117, t111);
-                let t119 = t44 + t78;
-                let t120 = -t19;
-                let t121 = t120 - t31;
-                let t122 = l1 + l2;
-                let t123 = ::piola::quotient::pole_floor([l1, l2, l3]);
-                let t124 = t122.max(t123);
-                let t125 = t121 / t124;
-                let t126 = t119 + t125;
-                let t127 = t44 + t84;
-                let t128 = t120 - t42;
-                let t129 = l1 + l3;
-                let t130 = t129.max(t123);
-                let t131 = t128 / t130;
-                let t132 = t127 + t131;
-                let t133 = t44 + t90;
-                let t134 = -t31;
-                let t135 = t134 - t42;
-                let t136 = l2 + l3;
-                let t137 = t136.max(t123);
-                let t138 = t135 / t137;
-                let t139 = t133 + t138;
+                let t111 = t7 + t71;
+                let t112 = -t19;
+                let t113 = t112 - t30;
+                let t114 = l1 + l2;
+                let t115 = ::piola::quotient::pole_floor([l1, l2, l3]);
+                let t116 = t114.max(t115);
+                let t117 = t113 / t116;
+                let t118 = t111 + t117;
+                let t119 = t7 + t77;
+                let t120 = t112 - t40;
+                let t121 = l1 + l3;
+                let t122 = t121.max(t115);
+                let t123 = t120 / t122;
+                let t124 = t119 + t123;
+                let t125 = t7 + t82;
+                let t126 = -t30;
+                let t127 = t126 - t40;
+                let t128 = l2 + l3;
+                let t129 = t128.max(t115);
+                let t130 = t127 / t129;
+                let t131 = t125 + t130;
                 ::piola::material::Blocks {
-                    gradient: [t20, t32, t43],
-                    hessian: [t55, t65, t74, t81, t87, t92],
-                    flip: [t102, t110, t118],
-                    twist: [t126, t132, t139],
+                    gradient: [t20, t31, t41],
+                    hessian: [t51, t59, t67, t74, t79, t84],
+                    flip: [t94, t102, t110],
+                    twist: [t118, t124, t131],
                 }
             }
         }

@@ -37,12 +37,12 @@
 /// | result | operations |
 /// |---|---|
 /// | energy | 15 (1 ln) |
-/// | gradient | 20 (3 ÷, 1 ln) |
-/// | energy, gradient and Hessian | 58 (3 ÷, 1 ln) |
-/// | flip | 21 (3 ÷, 1 ln) |
-/// | twist | 21 (3 ÷, 1 ln) |
-/// | blocks | 62 (3 ÷, 1 ln) |
-/// | blocks, continued | 147 (7 ÷, 3 ln, 6 Δ) |
+/// | gradient | 15 (3 ÷, 1 ln) |
+/// | energy, gradient and Hessian | 43 (3 ÷, 1 ln) |
+/// | flip | 14 (3 ÷, 1 ln) |
+/// | twist | 14 (3 ÷, 1 ln) |
+/// | blocks | 45 (3 ÷, 1 ln) |
+/// | blocks, continued | 136 (7 ÷, 3 ln, 6 Δ) |
 ///
 /// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -254,9 +254,6 @@ impl ::piola::material::Varying for NeoHookean {
                 let t3 = t2 - R::splat(3.0);
                 let t4 = mu * t3;
                 let t5 = t4 * R::splat(0.5);
-                let lambda = ::piola::material::Parameters::read::<
-                    R,
-                >(materials, |material| material.lambda);
                 let t6 = l1.max(epsilon);
                 let t7 = t6.ln();
                 let t8 = (l1 - epsilon).min(R::splat(0.0));
@@ -286,7 +283,10 @@ impl ::piola::material::Varying for NeoHookean {
                 let t32 = t21 * t31;
                 let t33 = t21 * t32;
                 let t34 = (-R::splat(0.5)).mul_add(t33, t30);
-                let t35 = lambda * t34;
+                let lambda = ::piola::material::Parameters::read::<
+                    R,
+                >(materials, |material| material.lambda);
+                let t35 = t34 * lambda;
                 let t36 = t34 * t35;
                 let t37 = R::splat(0.5).mul_add(t36, t5);
                 let t38 = (-mu).mul_add(t34, t37);
@@ -312,19 +312,16 @@ impl ::piola::material::Varying for NeoHookean {
                 let lambda = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.lambda);
-                let t2 = R::splat(1.0) / l1;
-                let t3 = t1 * lambda;
+                let t2 = t1.mul_add(lambda, -mu);
+                let t3 = R::splat(1.0) / l1;
                 let t4 = t2.mul_add(t3, t0);
-                let t5 = (-mu).mul_add(t2, t4);
-                let t6 = mu * l2;
-                let t7 = R::splat(1.0) / l2;
-                let t8 = t3.mul_add(t7, t6);
-                let t9 = (-mu).mul_add(t7, t8);
-                let t10 = mu * l3;
-                let t11 = R::splat(1.0) / l3;
-                let t12 = t3.mul_add(t11, t10);
-                let t13 = (-mu).mul_add(t11, t12);
-                [t5, t9, t13]
+                let t5 = mu * l2;
+                let t6 = R::splat(1.0) / l2;
+                let t7 = t2.mul_add(t6, t5);
+                let t8 = mu * l3;
+                let t9 = R::splat(1.0) / l3;
+                let t10 = t2.mul_add(t9, t8);
+                [t4, t7, t10]
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
                 let epsilon = R::splat(epsilon);
@@ -397,45 +394,42 @@ impl ::piola::material::Varying for NeoHookean {
             R,
         >(materials, |material| material.mu);
         let t0 = mu * strains[0];
-        let t1 = R::splat(1.0) / l1;
-        let t2 = t0.mul_add(t1, t0);
         let lambda = ::piola::material::Parameters::read::<
             R,
         >(materials, |material| material.lambda);
-        let t3 = strains[1].mul_add(l3, strains[2]);
-        let t4 = strains[0] * l2;
-        let t5 = l3.mul_add(t4, t3);
-        let t6 = l1 * l2;
-        let t7 = l3 * t6;
-        let t8 = R::splat(1.0) / t7;
-        let t9 = t7.logarithm();
-        let t10 = R::splat(1.0).logarithm();
-        let t11 = ::piola::quotient::Pair::new(
-            [t7, R::splat(1.0)],
-            [t8, R::splat(1.0)],
-            [t9, t10],
+        let t1 = strains[1].mul_add(l3, strains[2]);
+        let t2 = strains[0] * l2;
+        let t3 = l3.mul_add(t2, t1);
+        let t4 = l3 * l2;
+        let t5 = l1 * t4;
+        let t6 = R::splat(1.0) / t5;
+        let t7 = t5.logarithm();
+        let t8 = R::splat(1.0).logarithm();
+        let t9 = ::piola::quotient::Pair::new(
+            [t5, R::splat(1.0)],
+            [t6, R::splat(1.0)],
+            [t7, t8],
         );
-        let t12 = t11.ln_quotient();
-        let t13 = lambda * t5;
-        let t14 = t12 * t13;
-        let t15 = t2 + t14;
-        let t16 = ::piola::quotient::ln_product([l1, l2, l3]);
-        let t17 = lambda * t16;
-        let t18 = strains[0] * t17;
-        let t19 = (-t1).mul_add(t18, t15);
-        let t20 = mu * strains[1];
-        let t21 = t14 + t20;
+        let t10 = t9.ln_quotient();
+        let t11 = lambda * t3;
+        let t12 = t10 * t11;
+        let t13 = t0 + t12;
+        let t14 = ::piola::quotient::ln_product([l1, l2, l3]);
+        let t15 = lambda * t14;
+        let t16 = (-strains[0]).mul_add(t15, t0);
+        let t17 = R::splat(1.0) / l1;
+        let t18 = t16.mul_add(t17, t13);
+        let t19 = mu * strains[1];
+        let t20 = t12 + t19;
+        let t21 = (-strains[1]).mul_add(t15, t19);
         let t22 = R::splat(1.0) / l2;
-        let t23 = t20.mul_add(t22, t21);
-        let t24 = strains[1] * t17;
-        let t25 = (-t22).mul_add(t24, t23);
-        let t26 = mu * strains[2];
-        let t27 = t14 + t26;
-        let t28 = R::splat(1.0) / l3;
-        let t29 = t26.mul_add(t28, t27);
-        let t30 = strains[2] * t17;
-        let t31 = (-t28).mul_add(t30, t29);
-        let inside = [t19, t25, t31];
+        let t23 = t21.mul_add(t22, t20);
+        let t24 = mu * strains[2];
+        let t25 = t12 + t24;
+        let t26 = (-strains[2]).mul_add(t15, t24);
+        let t27 = R::splat(1.0) / l3;
+        let t28 = t26.mul_add(t27, t25);
+        let inside = [t18, t23, t28];
         if let ::piola::Inversion::Extend { epsilon: epsilon } = ::piola::material::Parameters::first(
                 materials,
             )
@@ -473,64 +467,47 @@ impl ::piola::material::Varying for NeoHookean {
                 let mu = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.mu);
-                let t0 = ::piola::quotient::ln_product([l1, l2, l3]);
                 let lambda = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.lambda);
-                let t1 = R::splat(1.0) / l1;
-                let t2 = t0 * lambda;
-                let t3 = t1 * t2;
-                let t4 = mu.mul_add(l1, t3);
-                let t5 = mu * t1;
-                let t6 = t4 - t5;
-                let t7 = R::splat(1.0) / l2;
-                let t8 = t2 * t7;
-                let t9 = mu.mul_add(l2, t8);
-                let t10 = mu * t7;
-                let t11 = t9 - t10;
-                let t12 = R::splat(1.0) / l3;
-                let t13 = t2 * t12;
-                let t14 = mu.mul_add(l3, t13);
-                let t15 = mu * t12;
-                let t16 = t14 - t15;
-                let t17 = t1.mul_add(t5, mu);
-                let t18 = lambda * t1;
-                let t19 = t1.mul_add(t18, t17);
-                let t20 = (-t1).mul_add(t3, t19);
-                let t21 = t7.mul_add(t10, mu);
-                let t22 = lambda * t7;
-                let t23 = t7.mul_add(t22, t21);
-                let t24 = (-t7).mul_add(t8, t23);
-                let t25 = t12.mul_add(t15, mu);
-                let t26 = lambda * t12;
-                let t27 = t12.mul_add(t26, t25);
-                let t28 = (-t12).mul_add(t13, t27);
-                let t29 = t7 * t18;
-                let t30 = t12 * t18;
-                let t31 = t12 * t22;
-                let t32 = t5 * t7;
-                let t33 = mu + t32;
-                let t34 = t3 * t7;
-                let t35 = t33 - t34;
-                let t36 = t5 * t12;
-                let t37 = mu + t36;
-                let t38 = t3 * t12;
-                let t39 = t37 - t38;
-                let t40 = t10 * t12;
-                let t41 = mu + t40;
-                let t42 = t8 * t12;
-                let t43 = t41 - t42;
-                let t44 = mu + t34;
-                let t45 = t44 - t32;
-                let t46 = mu + t38;
-                let t47 = t46 - t36;
-                let t48 = mu + t42;
-                let t49 = t48 - t40;
+                let t0 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let t1 = lambda * t0;
+                let t2 = t1 - mu;
+                let t3 = R::splat(1.0) / l1;
+                let t4 = t2 * t3;
+                let t5 = mu.mul_add(l1, t4);
+                let t6 = R::splat(1.0) / l2;
+                let t7 = t2 * t6;
+                let t8 = mu.mul_add(l2, t7);
+                let t9 = mu * l3;
+                let t10 = R::splat(1.0) / l3;
+                let t11 = t2.mul_add(t10, t9);
+                let t12 = lambda - t2;
+                let t13 = t3 * t12;
+                let t14 = t3.mul_add(t13, mu);
+                let t15 = t6 * t12;
+                let t16 = t6.mul_add(t15, mu);
+                let t17 = t10 * t12;
+                let t18 = t10.mul_add(t17, mu);
+                let t19 = lambda * t3;
+                let t20 = t6 * t19;
+                let t21 = t10 * t19;
+                let t22 = lambda * t6;
+                let t23 = t10 * t22;
+                let t24 = mu - t1;
+                let t25 = t3 * t24;
+                let t26 = t6.mul_add(t25, mu);
+                let t27 = t10.mul_add(t25, mu);
+                let t28 = t6 * t24;
+                let t29 = t10.mul_add(t28, mu);
+                let t30 = t4.mul_add(t6, mu);
+                let t31 = t4.mul_add(t10, mu);
+                let t32 = t7.mul_add(t10, mu);
                 ::piola::material::Blocks {
-                    gradient: [t6, t11, t16],
-                    hessian: [t20, t24, t28, t29, t30, t31],
-                    flip: [t35, t39, t43],
-                    twist: [t45, t47, t49],
+                    gradient: [t5, t8, t11],
+                    hessian: [t14, t16, t18, t20, t21, t23],
+                    flip: [t26, t27, t29],
+                    twist: [t30, t31, t32],
                 }
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
@@ -589,83 +566,75 @@ impl ::piola::material::Varying for NeoHookean {
                 let t45 = mu.mul_add(l3, t44);
                 let t46 = mu * t43;
                 let t47 = t45 - t46;
-                let t48 = mu * t3;
-                let t49 = t3.mul_add(t48, mu);
-                let t50 = lambda * t32;
-                let t51 = t32.mul_add(t50, t49);
-                let t52 = t3 * t33;
-                let t53 = (-t3).mul_add(t52, t51);
-                let t54 = mu * t10;
-                let t55 = t10.mul_add(t54, mu);
-                let t56 = lambda * t38;
-                let t57 = t38.mul_add(t56, t55);
-                let t58 = t10 * t33;
-                let t59 = (-t10).mul_add(t58, t57);
-                let t60 = mu * t17;
-                let t61 = t17.mul_add(t60, mu);
-                let t62 = lambda * t43;
-                let t63 = t43.mul_add(t62, t61);
-                let t64 = t17 * t33;
-                let t65 = (-t17).mul_add(t64, t63);
-                let t66 = t38 * t50;
-                let t67 = t43 * t50;
-                let t68 = t43 * t56;
-                let t69 = ::piola::quotient::share_above(l1, l2, epsilon);
-                let t70 = t3 * t69;
-                let t71 = t10 * t70;
-                let t72 = -t71;
-                let t73 = R::splat(1.0) / epsilon;
-                let t74 = ::piola::quotient::share_below(l1, l2, epsilon);
-                let t75 = t73 * t73;
-                let t76 = (-t74).mul_add(t75, t72);
-                let t77 = lambda * t76;
-                let t78 = t31.mul_add(t77, mu);
-                let t79 = (-mu).mul_add(t76, t78);
-                let t80 = ::piola::quotient::share_above(l1, l3, epsilon);
-                let t81 = t3 * t80;
-                let t82 = t17 * t81;
-                let t83 = -t82;
-                let t84 = ::piola::quotient::share_below(l1, l3, epsilon);
-                let t85 = (-t75).mul_add(t84, t83);
-                let t86 = lambda * t85;
-                let t87 = t31.mul_add(t86, mu);
-                let t88 = (-mu).mul_add(t85, t87);
-                let t89 = ::piola::quotient::share_above(l2, l3, epsilon);
-                let t90 = t10 * t89;
-                let t91 = t17 * t90;
-                let t92 = -t91;
-                let t93 = ::piola::quotient::share_below(l2, l3, epsilon);
-                let t94 = (-t75).mul_add(t93, t92);
-                let t95 = lambda * t94;
-                let t96 = t31.mul_add(t95, mu);
-                let t97 = (-mu).mul_add(t94, t96);
-                let t98 = t34 + t39;
+                let t48 = lambda * t32;
+                let t49 = t32.mul_add(t48, mu);
+                let t50 = mu - t33;
+                let t51 = t3 * t50;
+                let t52 = t3.mul_add(t51, t49);
+                let t53 = lambda * t38;
+                let t54 = t38.mul_add(t53, mu);
+                let t55 = t10 * t50;
+                let t56 = t10.mul_add(t55, t54);
+                let t57 = lambda * t43;
+                let t58 = t43.mul_add(t57, mu);
+                let t59 = t17 * t50;
+                let t60 = t17.mul_add(t59, t58);
+                let t61 = t38 * t48;
+                let t62 = t43 * t48;
+                let t63 = t43 * t53;
+                let t64 = ::piola::quotient::share_above(l1, l2, epsilon);
+                let t65 = t3 * t64;
+                let t66 = t10 * t65;
+                let t67 = -t66;
+                let t68 = R::splat(1.0) / epsilon;
+                let t69 = ::piola::quotient::share_below(l1, l2, epsilon);
+                let t70 = t68 * t68;
+                let t71 = (-t69).mul_add(t70, t67);
+                let t72 = t33.mul_add(t71, mu);
+                let t73 = (-mu).mul_add(t71, t72);
+                let t74 = ::piola::quotient::share_above(l1, l3, epsilon);
+                let t75 = t3 * t74;
+                let t76 = t17 * t75;
+                let t77 = -t76;
+                let t78 = ::piola::quotient::share_below(l1, l3, epsilon);
+                let t79 = (-t70).mul_add(t78, t77);
+                let t80 = t33.mul_add(t79, mu);
+                let t81 = (-mu).mul_add(t79, t80);
+                let t82 = ::piola::quotient::share_above(l2, l3, epsilon);
+                let t83 = t10 * t82;
+                let t84 = t17 * t83;
+                let t85 = -t84;
+                let t86 = ::piola::quotient::share_below(l2, l3, epsilon);
+                let t87 = (-t70).mul_add(t86, t85);
+                let t88 = t33.mul_add(t87, mu);
+                let t89 = (-mu).mul_add(t87, t88);
+                let t90 = t34 + t39;
+                let t91 = t90 - t36;
+                let t92 = t91 - t41;
+                let t93 = l1 + l2;
+                let t94 = ::piola::quotient::pole_floor([l1, l2, l3]);
+                let t95 = t93.max(t94);
+                let t96 = t92 / t95;
+                let t97 = mu + t96;
+                let t98 = t34 + t44;
                 let t99 = t98 - t36;
-                let t100 = t99 - t41;
-                let t101 = l1 + l2;
-                let t102 = ::piola::quotient::pole_floor([l1, l2, l3]);
-                let t103 = t101.max(t102);
-                let t104 = t100 / t103;
-                let t105 = mu + t104;
-                let t106 = t34 + t44;
-                let t107 = t106 - t36;
-                let t108 = t107 - t46;
-                let t109 = l1 + l3;
-                let t110 = t109.max(t102);
-                let t111 = t108 / t110;
-                let t112 = mu + t111;
-                let t113 = t39 + t44;
-                let t114 = t113 - t41;
-                let t115 = t114 - t46;
-                let t116 = l2 + l3;
-                let t117 = t116.max(t102);
-                let t118 = t115 / t117;
-                let t119 = mu + t118;
+                let t100 = t99 - t46;
+                let t101 = l1 + l3;
+                let t102 = t101.max(t94);
+                let t103 = t100 / t102;
+                let t104 = mu + t103;
+                let t105 = t39 + t44;
+                let t106 = t105 - t41;
+                let t107 = t106 - t46;
+                let t108 = l2 + l3;
+                let t109 = t108.max(t94);
+                let t110 = t107 / t109;
+                let t111 = mu + t110;
                 ::piola::material::Blocks {
                     gradient: [t37, t42, t47],
-                    hessian: [t53, t59, t65, t66, t67, t68],
-                    flip: [t79, t88, t97],
-                    twist: [t105, t112, t119],
+                    hessian: [t52, t56, t60, t61, t62, t63],
+                    flip: [t73, t81, t89],
+                    twist: [t97, t104, t111],
                 }
             }
         }
@@ -700,11 +669,11 @@ impl ::piola::material::Varying for NeoHookean {
         let t0 = I1 - R::splat(3.0);
         let t1 = mu * t0;
         let t2 = t1 * R::splat(0.5);
+        let t3 = J.ln();
         let lambda = ::piola::material::Parameters::read::<
             R,
         >(materials, |material| material.lambda);
-        let t3 = J.ln();
-        let t4 = lambda * t3;
+        let t4 = t3 * lambda;
         let t5 = t3 * t4;
         let t6 = R::splat(0.5).mul_add(t5, t2);
         let t7 = (-mu).mul_add(t3, t6);
@@ -727,11 +696,10 @@ impl ::piola::material::Varying for NeoHookean {
             R,
         >(materials, |material| material.lambda);
         let t1 = J.ln();
-        let t2 = R::splat(1.0) / J;
-        let t3 = lambda * t1;
+        let t2 = lambda.mul_add(t1, -mu);
+        let t3 = R::splat(1.0) / J;
         let t4 = t2 * t3;
-        let t5 = (-mu).mul_add(t2, t4);
-        [t0, R::splat(0.0), t5]
+        [t0, R::splat(0.0), t4]
     }
     #[inline(always)]
     #[allow(non_snake_case)]

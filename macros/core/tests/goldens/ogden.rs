@@ -43,10 +43,10 @@
 /// |---|---|
 /// | energy | 13 + 11 N (N ÷, 4 ln, 3 N pow) |
 /// | gradient | 26 + 11 N (3 ÷, 3 ln, 3 N pow) |
-/// | energy, gradient and Hessian | 65 + 31 N (3 + N ÷, 4 ln, 3 N pow) |
+/// | energy, gradient and Hessian | 62 + 25 N (3 + N ÷, 4 ln, 3 N pow) |
 /// | flip | 29 + 14 N (3 ÷, 3 ln, 3 N pow, 3 + 3 N Δ) |
 /// | twist | 38 + 11 N (6 ÷, 3 ln, 3 N pow) |
-/// | blocks | 85 + 30 N (6 ÷, 3 ln, 3 N pow, 3 + 3 N Δ) |
+/// | blocks | 85 + 27 N (6 ÷, 3 ln, 3 N pow, 3 + 3 N Δ) |
 /// | blocks, continued | 131 + 60 N (7 + N ÷, 4 ln, 4 N pow, 9 + 3 N Δ) |
 ///
 /// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
@@ -553,7 +553,7 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
             let t14 = alpha - R::splat(1.0);
             let t15 = R::power(t1, t14);
             let t16 = t3.power_quotient([t15, R::splat(1.0)], t14);
-            let t17 = mu * strains[0];
+            let t17 = strains[0] * mu;
             let t18 = t16 * t17;
             let t19 = R::power(t5, t14);
             let t20 = t6.power_quotient([t19, R::splat(1.0)], t14);
@@ -578,8 +578,8 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
         let t31 = l3.mul_add(t30, t29);
         let t32 = kappa * t31;
         let t33 = t28 + t32;
-        let t34 = l1 * l2;
-        let t35 = l3.mul_add(t34, -R::splat(1.0));
+        let t34 = l2 * l3;
+        let t35 = l1.mul_add(t34, -R::splat(1.0));
         let t36 = strains[2] * kappa;
         let t37 = t35 * t36;
         let t38 = t33 + t37;
@@ -639,10 +639,10 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 let t2 = l3.logarithm();
                 let t3 = R::splat(1.0) / l1;
                 let t4 = R::splat(1.0) / l2;
-                let t5 = R::splat(1.0) / l3;
-                let t6 = ::piola::quotient::Pair::new([l1, l2], [t3, t4], [t0, t1]);
-                let t7 = ::piola::quotient::Pair::new([l1, l3], [t3, t5], [t0, t2]);
-                let t8 = ::piola::quotient::Pair::new([l2, l3], [t4, t5], [t1, t2]);
+                let t5 = ::piola::quotient::Pair::new([l1, l2], [t3, t4], [t0, t1]);
+                let t6 = R::splat(1.0) / l3;
+                let t7 = ::piola::quotient::Pair::new([l1, l3], [t3, t6], [t0, t2]);
+                let t8 = ::piola::quotient::Pair::new([l2, l3], [t4, t6], [t1, t2]);
                 let mut t9 = R::splat(0.0);
                 let mut t10 = R::splat(0.0);
                 let mut t11 = R::splat(0.0);
@@ -667,98 +667,95 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                     let t23 = mu * t22;
                     let t24 = R::power(t2, t19);
                     let t25 = mu * t24;
-                    let t26 = t20 * t3;
-                    let t27 = mu * t19;
-                    let t28 = t26 * t27;
-                    let t29 = t22 * t4;
-                    let t30 = t27 * t29;
-                    let t31 = t24 * t5;
-                    let t32 = t27 * t31;
-                    let t33 = t6.power_quotient([t20, t22], t19);
-                    let t34 = mu * t33;
-                    let t35 = t7.power_quotient([t20, t24], t19);
-                    let t36 = mu * t35;
-                    let t37 = t8.power_quotient([t22, t24], t19);
-                    let t38 = mu * t37;
+                    let t26 = mu * t19;
+                    let t27 = t20 * t26;
+                    let t28 = t22 * t26;
+                    let t29 = t24 * t26;
+                    let t30 = t5.power_quotient([t20, t22], t19);
+                    let t31 = mu * t30;
+                    let t32 = t7.power_quotient([t20, t24], t19);
+                    let t33 = mu * t32;
+                    let t34 = t8.power_quotient([t22, t24], t19);
+                    let t35 = mu * t34;
                     t9 = t9 + t21;
                     t10 = t10 + mu;
                     t11 = t11 + t23;
                     t12 = t12 + t25;
-                    t13 = t13 + t28;
-                    t14 = t14 + t30;
-                    t15 = t15 + t32;
-                    t16 = t16 + t34;
-                    t17 = t17 + t36;
-                    t18 = t18 + t38;
+                    t13 = t13 + t27;
+                    t14 = t14 + t28;
+                    t15 = t15 + t29;
+                    t16 = t16 + t31;
+                    t17 = t17 + t33;
+                    t18 = t18 + t35;
                 }
                 let kappa = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.kappa);
-                let t39 = l1 * l2;
-                let t40 = l3.mul_add(t39, -R::splat(1.0));
-                let t41 = l2 * kappa;
-                let t42 = l3 * t41;
-                let t43 = t40.mul_add(t42, t9);
-                let t44 = t3 * t10;
-                let t45 = t43 - t44;
-                let t46 = l1 * kappa;
-                let t47 = l3 * t46;
-                let t48 = t40.mul_add(t47, t11);
-                let t49 = t4 * t10;
-                let t50 = t48 - t49;
-                let t51 = l2 * t46;
-                let t52 = t40.mul_add(t51, t12);
-                let t53 = t5 * t10;
-                let t54 = t52 - t53;
-                let t55 = t3.mul_add(t44, t13);
-                let t56 = l2 * t41;
-                let t57 = l3 * t56;
-                let t58 = l3.mul_add(t57, t55);
-                let t59 = t4.mul_add(t49, t14);
-                let t60 = l1 * t46;
-                let t61 = l3 * t60;
-                let t62 = l3.mul_add(t61, t59);
-                let t63 = t5.mul_add(t53, t15);
-                let t64 = l2 * t60;
-                let t65 = l2.mul_add(t64, t63);
-                let t66 = l3 * kappa;
-                let t67 = t40 * t66;
-                let t68 = l3 * t51;
-                let t69 = l3.mul_add(t68, t67);
-                let t70 = t40 * t41;
-                let t71 = l2 * t51;
-                let t72 = l3.mul_add(t71, t70);
-                let t73 = t40 * t46;
-                let t74 = l3.mul_add(t64, t73);
-                let t75 = t4 * t44;
-                let t76 = t16 + t75;
-                let t77 = t76 - t67;
-                let t78 = t5 * t44;
-                let t79 = t17 + t78;
+                let t36 = l1 * l2;
+                let t37 = l3.mul_add(t36, -R::splat(1.0));
+                let t38 = l2 * kappa;
+                let t39 = l3 * t38;
+                let t40 = t37.mul_add(t39, t9);
+                let t41 = t3 * t10;
+                let t42 = t40 - t41;
+                let t43 = l1 * kappa;
+                let t44 = l3 * t43;
+                let t45 = t37.mul_add(t44, t11);
+                let t46 = t4 * t10;
+                let t47 = t45 - t46;
+                let t48 = l2 * t43;
+                let t49 = t37.mul_add(t48, t12);
+                let t50 = t6 * t10;
+                let t51 = t49 - t50;
+                let t52 = t3 * t41;
+                let t53 = l2 * t39;
+                let t54 = l3.mul_add(t53, t52);
+                let t55 = t3.mul_add(t13, t54);
+                let t56 = t4 * t46;
+                let t57 = l1 * t44;
+                let t58 = l3.mul_add(t57, t56);
+                let t59 = t4.mul_add(t14, t58);
+                let t60 = t6 * t50;
+                let t61 = l1 * t48;
+                let t62 = l2.mul_add(t61, t60);
+                let t63 = t6.mul_add(t15, t62);
+                let t64 = l3 * kappa;
+                let t65 = t37 * t64;
+                let t66 = l3 * t48;
+                let t67 = l3.mul_add(t66, t65);
+                let t68 = t37 * t38;
+                let t69 = l2.mul_add(t66, t68);
+                let t70 = t37 * t43;
+                let t71 = l1.mul_add(t66, t70);
+                let t72 = t4 * t41;
+                let t73 = t16 + t72;
+                let t74 = t73 - t65;
+                let t75 = t6 * t41;
+                let t76 = t17 + t75;
+                let t77 = t76 - t68;
+                let t78 = t6 * t46;
+                let t79 = t18 + t78;
                 let t80 = t79 - t70;
-                let t81 = t5 * t49;
-                let t82 = t18 + t81;
-                let t83 = t82 - t73;
-                let t84 = t9 + t11;
-                let t85 = l1 + l2;
-                let t86 = R::splat(1.0) / t85;
-                let t87 = t84.mul_add(t86, t67);
-                let t88 = t87 - t75;
-                let t89 = t9 + t12;
-                let t90 = l1 + l3;
-                let t91 = R::splat(1.0) / t90;
-                let t92 = t89.mul_add(t91, t70);
-                let t93 = t92 - t78;
-                let t94 = t11 + t12;
-                let t95 = l2 + l3;
-                let t96 = R::splat(1.0) / t95;
-                let t97 = t94.mul_add(t96, t73);
-                let t98 = t97 - t81;
+                let t81 = t9 + t11;
+                let t82 = l1 + l2;
+                let t83 = R::splat(1.0) / t82;
+                let t84 = t81.mul_add(t83, t65);
+                let t85 = t84 - t72;
+                let t86 = t9 + t12;
+                let t87 = l1 + l3;
+                let t88 = R::splat(1.0) / t87;
+                let t89 = t86.mul_add(t88, t68);
+                let t90 = t89 - t75;
+                let t91 = t11 + t12;
+                let t92 = l2 + l3;
+                let t93 = R::splat(1.0) / t92;
+                let t94 = t91.mul_add(t93, t70);
+                let t95 = t94 - t78;
                 ::piola::material::Blocks {
-                    gradient: [t45, t50, t54],
-                    hessian: [t58, t62, t65, t69, t72, t74],
-                    flip: [t77, t80, t83],
-                    twist: [t88, t93, t98],
+                    gradient: [t42, t47, t51],
+                    hessian: [t55, t59, t63, t67, t69, t71],
+                    flip: [t74, t77, t80],
+                    twist: [t85, t90, t95],
                 }
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
@@ -825,9 +822,9 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                     let t52 = t50.mul_add(t51, t49);
                     let t53 = t40 * t52;
                     let t54 = mu * t33;
-                    let t55 = t36 * t54;
-                    let t56 = t44 * t54;
-                    let t57 = t50 * t54;
+                    let t55 = t34 * t54;
+                    let t56 = t42 * t54;
+                    let t57 = t48 * t54;
                     let t58 = t13.power_quotient([t34, t42], t33);
                     let t59 = alpha * t12;
                     let t60 = t58 * t59;
@@ -882,30 +879,30 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 let t95 = (-t11).mul_add(t94, t11);
                 let t96 = t23 * t95;
                 let t97 = t93 - t96;
-                let t98 = l2 * t78;
+                let t98 = l2 * t79;
                 let t99 = l3 * t98;
-                let t100 = l3.mul_add(t99, t26);
-                let t101 = t3 * t23;
-                let t102 = t3.mul_add(t101, t100);
-                let t103 = l1 * t85;
+                let t100 = t3 * t23;
+                let t101 = t3.mul_add(t100, t99);
+                let t102 = t3.mul_add(t26, t101);
+                let t103 = l1 * t86;
                 let t104 = l3 * t103;
-                let t105 = l3.mul_add(t104, t27);
-                let t106 = t7 * t23;
-                let t107 = t7.mul_add(t106, t105);
-                let t108 = l2 * t103;
-                let t109 = l2.mul_add(t108, t28);
+                let t105 = t7 * t23;
+                let t106 = t7.mul_add(t105, t104);
+                let t107 = t7.mul_add(t27, t106);
+                let t108 = l1 * t92;
+                let t109 = l2 * t108;
                 let t110 = t11 * t23;
                 let t111 = t11.mul_add(t110, t109);
-                let t112 = l3 * kappa;
-                let t113 = t77 * t112;
-                let t114 = l3 * t92;
-                let t115 = l3.mul_add(t114, t113);
-                let t116 = t77 * t78;
-                let t117 = l2 * t92;
-                let t118 = l3.mul_add(t117, t116);
+                let t112 = t11.mul_add(t28, t111);
+                let t113 = l3 * kappa;
+                let t114 = t77 * t113;
+                let t115 = l3 * t92;
+                let t116 = l3.mul_add(t115, t114);
+                let t117 = t77 * t78;
+                let t118 = l2.mul_add(t115, t117);
                 let t119 = t77 * t85;
-                let t120 = l3.mul_add(t108, t119);
-                let t121 = t29 - t113;
+                let t120 = l1.mul_add(t115, t119);
+                let t121 = t29 - t114;
                 let t122 = t3 * t12;
                 let t123 = t7 * t122;
                 let t124 = -t123;
@@ -913,7 +910,7 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 let t126 = t125 * t125;
                 let t127 = (-t15).mul_add(t126, t124);
                 let t128 = (-t23).mul_add(t127, t121);
-                let t129 = t30 - t116;
+                let t129 = t30 - t117;
                 let t130 = t3 * t16;
                 let t131 = t11 * t130;
                 let t132 = -t131;
@@ -932,14 +929,14 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 let t145 = ::piola::quotient::pole_floor([l1, l2, l3]);
                 let t146 = t144.max(t145);
                 let t147 = t143 / t146;
-                let t148 = t113 + t147;
+                let t148 = t114 + t147;
                 let t149 = t22 + t25;
                 let t150 = t149 - t83;
                 let t151 = t150 - t96;
                 let t152 = l1 + l3;
                 let t153 = t152.max(t145);
                 let t154 = t151 / t153;
-                let t155 = t116 + t154;
+                let t155 = t117 + t154;
                 let t156 = t24 + t25;
                 let t157 = t156 - t90;
                 let t158 = t157 - t96;
@@ -949,7 +946,7 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 let t162 = t119 + t161;
                 ::piola::material::Blocks {
                     gradient: [t84, t91, t97],
-                    hessian: [t102, t107, t111, t115, t118, t120],
+                    hessian: [t102, t107, t112, t116, t118, t120],
                     flip: [t128, t134, t140],
                     twist: [t148, t155, t162],
                 }

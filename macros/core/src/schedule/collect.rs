@@ -1,0 +1,93 @@
+//! Common factors before the sums of what they multiply.
+//!
+//! ```text
+//! 2μ/x² − 2μ ln x/x² + λ/x² − λ ln J/x² = (2μ − 2μ ln x + λ − λ ln J)/x²
+//! ```
+//!
+//! Only powers of stretches are taken out, and only of terms that are of degree zero without them: what is then added stays
+//! within the range of the numbers wherever parameters and logarithms do.
+
+use std::collections::HashMap;
+
+use super::degrees::Degrees;
+use crate::expr::{Exponent, Graph, Id, Node};
+use crate::rational::Rational;
+
+/// The roots with common factors taken out.
+pub(super) fn collect(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
+    let (mut degrees, mut memo) = (Degrees::default(), HashMap::new());
+    roots.iter().map(|&root| rewrite(graph, &mut degrees, root, &mut memo)).collect()
+}
+
+fn rewrite(graph: &mut Graph, degrees: &mut Degrees, id: Id, memo: &mut HashMap<Id, Id>) -> Id {
+    if let Some(&done) = memo.get(&id) {
+        return done;
+    }
+    let mut result = graph.map_children(id, &mut |graph, child| rewrite(graph, degrees, child, memo));
+    if let Node::Linear { constant, terms } = graph.node(result).clone() {
+        result = collected(graph, degrees, constant, &terms);
+    }
+    memo.insert(id, result);
+    result
+}
+
+/// A sum whose terms share factors.
+fn collected(graph: &mut Graph, degrees: &mut Degrees, constant: Rational, terms: &[(Id, Rational)]) -> Id {
+    // In the order of the terms, so that the result is always the same.
+    let mut groups: Vec<(Id, Vec<(Id, Rational)>)> = Vec::new();
+    let one = graph.integer(1);
+    for &(term, c) in terms {
+        let (monomial, rest) = split(graph, term);
+        let is_bounded = degrees.of(graph, rest) == [0.0; 2];
+        let (monomial, rest) = if is_bounded && monomial != one { (monomial, rest) } else { (term, one) };
+        match groups.iter_mut().find(|group| group.0 == monomial) {
+            Some((_, rests)) => rests.push((rest, c)),
+            None => groups.push((monomial, vec![(rest, c)])),
+        }
+    }
+    let terms: Vec<_> = groups
+        .into_iter()
+        .map(|(monomial, rests)| match rests[..] {
+            [(rest, c)] => (graph.mul(monomial, rest), c),
+            _ => {
+                let sum = flat(graph, &rests);
+                (graph.mul(monomial, sum), Rational::ONE)
+            }
+        })
+        .collect();
+    graph.linear(constant, &terms)
+}
+
+/// A sum of sums as one.
+fn flat(graph: &mut Graph, terms: &[(Id, Rational)]) -> Id {
+    let mut constant = Rational::ZERO;
+    let mut all: Vec<(Id, Rational)> = Vec::new();
+    for &(term, c) in terms {
+        let inner = match graph.node(term) {
+            Node::Linear { constant, terms } => Some((*constant, terms.clone())),
+            _ => None,
+        };
+        let scaled = inner.and_then(|(inner_constant, inner)| {
+            let inner: Option<Vec<_>> =
+                inner.into_iter().map(|(term, d)| Some((term, d.checked_mul(c)?))).collect();
+            Some((constant.checked_add(inner_constant.checked_mul(c)?)?, inner?))
+        });
+        match scaled {
+            Some((sum, inner)) => {
+                constant = sum;
+                all.extend(inner);
+            }
+            None => all.push((term, c)),
+        }
+    }
+    graph.linear(constant, &all)
+}
+
+/// The powers of stretches that are factors of a term, and the other factors.
+fn split(graph: &mut Graph, term: Id) -> (Id, Id) {
+    let (_, factors) = graph.factors(term);
+    let is_stretch =
+        |&(base, _): &(Id, Exponent)| matches!(graph.node(base), Node::Stretch(_) | Node::Above(_));
+    let (powers, others): (Vec<_>, Vec<_>) = factors.into_iter().partition(is_stretch);
+    (graph.product(&powers), graph.product(&others))
+}

@@ -1,0 +1,67 @@
+//! How expressions grow when all stretches are scaled by t: the exponent n of t^n.
+
+use std::collections::HashMap;
+
+use crate::expr::{Exponent, Graph, Id, Node};
+
+/// For t → 0 and for t → ∞.
+pub(super) type Degree = [f64; 2];
+
+/// Degrees of expressions, each found once.
+#[derive(Default)]
+pub(super) struct Degrees {
+    memo: HashMap<Id, Degree>,
+}
+
+impl Degrees {
+    /// Of a node.
+    pub(super) fn of(&mut self, graph: &Graph, id: Id) -> Degree {
+        if let Some(&done) = self.memo.get(&id) {
+            return done;
+        }
+        let result = self.rule(graph, id);
+        self.memo.insert(id, result);
+        result
+    }
+
+    fn rule(&mut self, graph: &Graph, id: Id) -> Degree {
+        match graph.node(id) {
+            Node::Stretch(_) => [1.0, 1.0],
+            Node::Linear { constant, terms } => {
+                let start = if constant.is_zero() { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0; 2] };
+                let degrees = terms.iter().fold(start, |[low, high], &(term, _)| {
+                    let [term_low, term_high] = self.of(graph, term);
+                    [low.min(term_low), high.max(term_high)]
+                });
+                if degrees[0] <= degrees[1] { degrees } else { [0.0; 2] }
+            }
+            Node::Product(factors) => factors
+                .iter()
+                .map(|&(base, exponent)| power(self.of(graph, base), exponent))
+                .fold([0.0; 2], sum),
+            Node::Sum(_, body) => self.of(graph, *body),
+            Node::LnQuotient(a, _) => power(self.of(graph, *a), Exponent::integer(-1)),
+            Node::PowerQuotient(a, _, exponent) => {
+                let [a, power] = [Exponent::integer(1), *exponent].map(|e| power(self.of(graph, *a), e));
+                [power[0] - a[0], power[1] - a[1]]
+            }
+            Node::PoleQuotient(a, b) => {
+                let [a, b] = [*a, *b].map(|id| self.of(graph, id));
+                [a[0] - b[0], a[1] - b[1]]
+            }
+            // max(λ, ε) and powers of it.
+            Node::Above(_) => [0.0, 1.0],
+            // Logarithms, exponentials, parameters, and what of a stretch is bounded.
+            _ => [0.0; 2],
+        }
+    }
+}
+
+/// A real exponent is unknown here and counts by its rational part.
+pub(super) fn power(degrees: Degree, exponent: Exponent) -> Degree {
+    degrees.map(|degree| degree * exponent.rational.to_f64())
+}
+
+pub(super) fn sum(a: Degree, b: Degree) -> Degree {
+    [a[0] + b[0], a[1] + b[1]]
+}

@@ -1,0 +1,83 @@
+//! Whole powers that every term of a sum over a list shares, taken out of it.
+//!
+//! ```text
+//! Σₚ μₚ (αₚ − 1) x^(αₚ−2) = x⁻¹ Σₚ (αₚ − 1) (μₚ x^(αₚ−1))
+//! ```
+//!
+//! Of the powers x^(αₚ+k) only one is computed; the others are it times a power of x, which is the same for all p and then is
+//! multiplied once, not for every entry. What is left in the sum is what other sums have computed already.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::powers::{Powers, Way};
+use crate::expr::{Exponent, Graph, Id, Node};
+use crate::rational::Rational;
+use crate::volume::rewrite;
+
+/// Bases with the whole exponents to which they are factors.
+type Shifts = BTreeMap<Id, i64>;
+
+/// The roots with shared powers before their sums.
+pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<Id> {
+    let rule = |graph: &mut Graph, id: Id| {
+        let Node::Sum(length, body) = *graph.node(id) else { return None };
+        let (shifts, rest) = split(graph, powers, body);
+        let sum = graph.sum(length, rest);
+        Some(times(graph, sum, &shifts))
+    };
+    let mut memo = HashMap::new();
+    roots.iter().map(|&root| rewrite(graph, root, &mut memo, &rule)).collect()
+}
+
+/// The shifts of all terms and what is left without them.
+fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
+    match graph.node(id).clone() {
+        Node::Product(factors) => {
+            let (mut shifts, mut left) = (Shifts::new(), Vec::new());
+            for (base, exponent) in factors {
+                if exponent == Exponent::ONE {
+                    let (inner, rest) = split(graph, powers, base);
+                    inner.into_iter().for_each(|(base, n)| *shifts.entry(base).or_default() += n);
+                    left.push((rest, Exponent::ONE));
+                    continue;
+                }
+                let shift = match powers.way(base, exponent) {
+                    Way::Real(computed) => exponent.rational.checked_add(computed.negated()),
+                    Way::Root(_) => None,
+                };
+                match shift.and_then(Rational::as_integer) {
+                    Some(n) if n != 0 && exponent.real.is_some() => {
+                        *shifts.entry(base).or_default() += n;
+                        let rational = exponent.rational.checked_add(Rational::integer(-n));
+                        left.push((
+                            base,
+                            Exponent { rational: rational.unwrap_or(exponent.rational), ..exponent },
+                        ));
+                    }
+                    _ => left.push((base, exponent)),
+                }
+            }
+            (shifts, graph.product(&left))
+        }
+        Node::Linear { constant, terms } if constant.is_zero() => {
+            let split: Vec<_> = terms.iter().map(|&(term, c)| (split(graph, powers, term), c)).collect();
+            let mut shared = split.first().map(|((shifts, _), _)| shifts.clone()).unwrap_or_default();
+            shared.retain(|base, n| split.iter().all(|((shifts, _), _)| shifts.get(base) == Some(n)));
+            let terms: Vec<_> = split
+                .into_iter()
+                .map(|((mut shifts, rest), c)| {
+                    shifts.retain(|base, _| !shared.contains_key(base));
+                    (times(graph, rest, &shifts), c)
+                })
+                .collect();
+            (shared, graph.linear(Rational::ZERO, &terms))
+        }
+        _ => (Shifts::new(), id),
+    }
+}
+
+fn times(graph: &mut Graph, id: Id, shifts: &Shifts) -> Id {
+    let mut factors = vec![(id, Exponent::ONE)];
+    factors.extend(shifts.iter().map(|(&base, &n)| (base, Exponent::integer(n))));
+    graph.product(&factors)
+}
