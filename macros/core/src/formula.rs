@@ -13,8 +13,18 @@ pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     let squares = stretches.map(|stretch| graph.powi(stretch, 2));
     let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
     let volume = graph.product_of(&stretches);
-    let invariants = [("I1", squares.to_vec()), ("I2", pairs.to_vec())];
-    Printer { graph, declaration, volume, invariants, budget: Cell::new(LONGEST) }.print(id, Context::Sum)
+    let names = ["λ₁", "λ₂", "λ₃"];
+    let (volume, invariants) = (Some(volume), vec![("I1", squares.to_vec()), ("I2", pairs.to_vec())]);
+    Printer { graph, declaration, names, volume, invariants, budget: Cell::new(LONGEST) }
+        .print(id, Context::Sum)
+}
+
+/// The same of a node in which the three stretches stand for I1, I2 and J.
+#[must_use]
+pub fn formula_by_invariants(graph: &Graph, declaration: &Declaration, id: Id) -> String {
+    let names = ["I1", "I2", "J"];
+    Printer { graph, declaration, names, volume: None, invariants: Vec::new(), budget: Cell::new(LONGEST) }
+        .print(id, Context::Sum)
 }
 
 /// Nodes after which a formula is cut off: a graph can be exponentially smaller than what it stands for.
@@ -31,21 +41,25 @@ enum Context {
 struct Printer<'a> {
     graph: &'a Graph,
     declaration: &'a Declaration,
-    volume: Id,
-    invariants: [(&'static str, Vec<Id>); 2],
+    /// What the three stretches are called.
+    names: [&'static str; 3],
+    /// J.
+    volume: Option<Id>,
+    /// Sums that have a name, by their terms.
+    invariants: Vec<(&'static str, Vec<Id>)>,
     /// Nodes that may still be printed.
     budget: Cell<usize>,
 }
 
 impl Printer<'_> {
     fn print(&self, id: Id, context: Context) -> String {
-        if id == self.volume {
+        if Some(id) == self.volume {
             return "J".to_owned();
         }
         let Some(rest) = self.budget.get().checked_sub(1) else { return "…".to_owned() };
         self.budget.set(rest);
         match self.graph.node(id) {
-            Node::Stretch(i) => format!("λ{}", subscript(i + 1)),
+            Node::Stretch(i) => self.names[*i].to_owned(),
             Node::Strain(i) => format!("(λ{} − 1)", subscript(i + 1)),
             Node::Parameter(k) => symbol(&self.declaration.parameters[*k].name.to_string()),
             Node::Entry(k) => format!("{}ₚ", symbol(&self.declaration.parameters[*k].name.to_string())),

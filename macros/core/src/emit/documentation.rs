@@ -2,7 +2,7 @@
 //! operations each result takes.
 
 use crate::count::{LEGEND, counts, table};
-use crate::formula::formula;
+use crate::formula::{formula, formula_by_invariants};
 use crate::model::Model;
 use crate::parse::Declaration;
 
@@ -70,19 +70,34 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
         ("D⁻₁₂", plain.flip[0]),
         ("D⁺₁₂", plain.twist[0]),
     ];
-    let lines = by_stretches.into_iter().filter_map(|(name, id)| {
-        let text = formula(&mut model.graph, declaration, id);
-        (text.chars().count() <= LONGEST).then(|| format!("{name} = {text}\n"))
-    });
-    let lines: String = lines.collect();
-    if lines.is_empty() {
-        return lines;
+    let by_stretches = by_stretches.map(|(name, id)| (name, formula(&mut model.graph, declaration, id)));
+    let by_stretches = lines(&by_stretches);
+    let mut sections = Vec::new();
+    if !by_stretches.is_empty() {
+        sections.push(format!(
+            "**Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\\[x, y\\] \
+             is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than {LONGEST} \
+             characters are left out:\n\n```text\n{by_stretches}```"
+        ));
     }
-    format!(
-        "**Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\\[x, y\\] is \
-         (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than {LONGEST} characters \
-         are left out:\n\n```text\n{lines}```"
-    )
+    if let Some(invariants) = &model.invariants {
+        let names = ["∂ψ/∂I1", "∂ψ/∂I2", "∂ψ/∂J"].into_iter().zip(invariants.gradient);
+        let by_invariants =
+            names.map(|(name, id)| (name, formula_by_invariants(&model.graph, declaration, id)));
+        let by_invariants = lines(&by_invariants.collect::<Vec<_>>());
+        if !by_invariants.is_empty() {
+            sections.push(format!(
+                "**By the invariants**, from which the stress needs no stretches:\n\n```text\n{by_invariants}```"
+            ));
+        }
+    }
+    sections.join("\n\n")
+}
+
+/// Those of the formulas that somebody would read.
+fn lines(formulas: &[(&str, String)]) -> String {
+    let short = formulas.iter().filter(|(_, text)| text.chars().count() <= LONGEST);
+    short.map(|(name, text)| format!("{name} = {text}\n")).collect()
 }
 
 /// What each result costs.
@@ -119,6 +134,8 @@ mod tests {
             "ψ₁₂ = 0",
             "D⁻₁₂ = μ + μ/(λ₁ λ₂)",
             "D⁺₁₂ = μ − μ/(λ₁ λ₂)",
+            "∂ψ/∂I1 = 1/2 μ",
+            "∂ψ/∂J = −μ/J",
             "| energy | 11 (1 ln) |",
         ] {
             assert!(lines.contains(&line), "{line}\n{documentation}");

@@ -34,6 +34,14 @@
 /// D⁺₁₂ = μ/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₃ − μ/(λ₁ λ₂)
 /// ```
 ///
+/// **By the invariants**, from which the stress needs no stretches:
+///
+/// ```text
+/// ∂ψ/∂I1 = 1/2 μ/(−(I1 − 3)/jm + 1)
+/// ∂ψ/∂I2 = 0
+/// ∂ψ/∂J = κ (J − 1) − μ/J
+/// ```
+///
 /// **Operations**, of each result by itself:
 ///
 /// | result | operations |

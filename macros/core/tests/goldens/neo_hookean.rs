@@ -32,6 +32,14 @@
 /// D⁺₁₂ = μ + λ ln J/(λ₁ λ₂) − μ/(λ₁ λ₂)
 /// ```
 ///
+/// **By the invariants**, from which the stress needs no stretches:
+///
+/// ```text
+/// ∂ψ/∂I1 = 1/2 μ
+/// ∂ψ/∂I2 = 0
+/// ∂ψ/∂J = λ ln J/J − μ/J
+/// ```
+///
 /// **Operations**, of each result by itself:
 ///
 /// | result | operations |
