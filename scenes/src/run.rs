@@ -33,7 +33,7 @@ const NO_FORCE: f64 = 1e-11;
 pub struct Output {
     /// The folder for surfaces, a picture and the summary.
     pub folder: PathBuf,
-    /// Whether the tetrahedra are written with [fields](crate::fields), too.
+    /// Whether the tetrahedra are written with [`crate::fields`], too.
     pub vtu: bool,
 }
 

@@ -42,7 +42,7 @@ pub struct Written<'a> {
     pub nodes: Nodes,
     /// The energy as written.
     pub energy: Id,
-    /// Expressions that are positive inside the domain, J apart, in the order of [`bounds`].
+    /// Expressions that are positive inside the domain, J apart, in the order of `bounds`.
     pub bounds: &'a [Id],
     /// Expressions of parameters that are positive.
     pub admissible: &'a [Id],
