@@ -72,7 +72,7 @@ pub struct Standing {
     /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None` where nothing
     /// is free.
     pub smallest_eigenvalue: Option<f64>,
-    /// No eigenvalue near it is farther from it than this, 1/s².
+    /// An exact eigenvalue is no farther from it than this, 1/s².
     pub eigenvalue_error: Option<f64>,
     /// How many elements are inside out.
     pub inverted: usize,

@@ -47,7 +47,7 @@ pub enum Act {
     Material {
         /// As in the catalogue.
         name: String,
-        /// Whether it gets the small-strain shear modulus that the body has, in place of its typical one.
+        /// Whether it gets the small-strain moduli that the body has, in place of its typical ones.
         as_stiff: bool,
     },
     /// Gives a parameter of the material another value.

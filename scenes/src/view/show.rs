@@ -19,7 +19,6 @@ use super::session::Session;
 use crate::energy;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::measure::distance_from_rest;
 
 /// One look at the body.
 #[derive(Clone, Debug)]
@@ -125,7 +124,7 @@ pub(super) fn figures(session: &Session, tally: &Tally) -> Utf8Bytes {
         newton_iterations: tally.newton_iterations,
         min_det_f: measure::min_det_f(&mesh.positions, positions, &mesh.tets),
         inverted: measure::inverted(&mesh.positions, positions, &mesh.tets),
-        from_rest: distance_from_rest(mesh, positions, play.simulation().pinned().len()),
+        from_rest: measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
         elastic_energy: tally.energies.elastic,
         kinetic_energy: tally.energies.kinetic,
         pulls: session.pulls().map(|(_, held)| (held.vertex, held.target)).collect(),
