@@ -14,6 +14,7 @@ pub mod diagnostics;
 pub mod diff;
 pub mod divided;
 pub mod emit;
+pub mod expand;
 pub mod expr;
 pub mod extension;
 pub mod fallback;

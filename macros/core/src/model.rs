@@ -5,6 +5,7 @@ use syn::{BinOp, Expr};
 use crate::check::{self, Written};
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
+use crate::expand::expand;
 use crate::expr::{Graph, Id};
 use crate::extension;
 use crate::increment::{Increments, at_rest};
@@ -154,6 +155,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
     let invariants = by_invariants(declaration, &mut graph);
     check::fractions(&graph, &written, diagnostics);
+    let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     Some(Model { graph, energy, plain, at_strains, extended, invariants, bounds, volume, moduli, samples })
 }
 
