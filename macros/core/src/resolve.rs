@@ -13,6 +13,7 @@ use crate::spelling::taken;
 use sums::Index;
 
 mod calls;
+mod literature;
 mod names;
 mod sums;
 

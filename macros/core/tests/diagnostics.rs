@@ -112,7 +112,14 @@ fn names() {
     check_added("m[p]", "m[p]", "entries are only read inside a sum: `sum(|p| m[p])`");
     check_added("l1[p]", "l1", "`l1` is not a list");
     check_added("N", "N", "`N` is the length of lists");
-    check_added("sum(|p| m[p] * p)", "p", "only selects entries");
+    check_added(
+        "sum(|p| m[p] * p)",
+        "p",
+        "selects entries, as in `m[p]`: give the numbers that it stands for as a list",
+    );
+    check_added("I3", "I3", "write `J.powi(2)`");
+    check_added("I1_bar", "I1_bar", "write `I1b`");
+    check_added("E", "E", "the Green strain has eigenvalues");
     check_added("std::f64::consts::PI", "std::f64::consts::PI", "write constants as numbers");
     check_added("f64::INFINITY", "f64::INFINITY", "the numbers of an energy are finite");
     check_body(&format!("let unused = 1.0; {GOOD}"), &[("unused", "`unused` is not used")]);
@@ -125,7 +132,10 @@ fn names() {
 fn calls_and_operators() {
     check_added("J.log()", "log", "write `.ln()`");
     check_added("J.pow(2)", "pow", "write `.powi(2)`");
-    check_added("J.sinh()", "sinh", "there are `.powi(2)`, `.powf(alpha)`");
+    check_added("J.gamma()", "gamma", "there are `.powi(2)`, `.powf(alpha)`");
+    check_added("J.sinh()", "sinh", "write `(x.exp() - (-x).exp()) / 2.0`");
+    check_added("J.atan()", "atan", "give it as a parameter, `f: piola::Spline`");
+    check_added("tr(J)", "tr", "write `I1` for the trace of C");
     check_added("J.abs()", "abs", "`abs` has a kink");
     check_added("J.ln(2.0)", "ln", "`ln` takes no argument");
     check_added("J.powi()", "powi", "one argument, the exponent");

@@ -2,7 +2,7 @@
 
 use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
-use super::{Resolver, Scope};
+use super::{Resolver, Scope, literature};
 use crate::expr::{Exponent, Id, Node};
 use crate::literals::is_number;
 use crate::rational::Rational;
@@ -70,16 +70,16 @@ impl Resolver<'_> {
 
     fn unknown_function(&mut self, method: &Ident) -> Id {
         let name = method.to_string();
-        let hint = match name.as_str() {
-            "pow" => "write `.powi(2)` or `.powf(alpha)`".to_owned(),
-            "log" | "log10" | "log2" => "write `.ln()`".to_owned(),
-            kinked if KINKED.contains(&kinked) => {
-                let message = format!(
-                    "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power"
-                );
-                return self.mistake(method, &message);
-            }
-            _ => match nearest(&name, METHODS.map(|(known, _)| known)).and_then(form) {
+        if KINKED.contains(&name.as_str()) {
+            let message = format!(
+                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power"
+            );
+            return self.mistake(method, &message);
+        }
+        let near = || nearest(&name, METHODS.map(|(known, _)| known)).and_then(form);
+        let hint = match literature::function(&name) {
+            Some(hint) => hint.to_owned(),
+            None => match near() {
                 Some(form) => format!("did you mean `{form}`?"),
                 None => format!("there are {}", list(&METHODS.map(|(_, form)| form))),
             },

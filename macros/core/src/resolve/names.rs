@@ -2,7 +2,7 @@
 
 use syn::{Ident, Path};
 
-use super::{Resolver, Scope};
+use super::{Resolver, Scope, literature};
 use crate::expr::{Exponent, Id, Node};
 use crate::parse::{Kind, WORDS};
 use crate::rational::Rational;
@@ -51,22 +51,34 @@ impl Resolver<'_> {
             return word;
         }
         if self.index.as_ref().is_some_and(|index| index.name == *name) {
-            return self.mistake(name, &format!("the index `{text}` only selects entries: `mu[{text}]`"));
+            return self.mistake(name, &self.index_as_number(&text));
         }
         if self.declaration.generics.contains(name) {
             return self
                 .mistake(name, &format!("`{text}` is the length of lists: a number needs a parameter"));
         }
         let known = self.known_names();
-        let hint = match nearest(&text, known.iter().map(String::as_str)) {
-            Some(near) => {
+        let hint = match (literature::name(&text), nearest(&text, known.iter().map(String::as_str))) {
+            (Some(hint), _) if self.scope != Scope::Parameters => hint.to_owned(),
+            (_, Some(near)) => {
                 // Who meant this has used it.
                 self.used.insert(near.to_owned());
                 format!("did you mean `{near}`?")
             }
-            None => format!("known are {}", list(&known)),
+            (_, None) => format!("known are {}", list(&known)),
         };
         self.mistake(name, &format!("unknown name `{text}`: {hint}"))
+    }
+
+    /// What to say of the index of a sum that stands where a number should.
+    fn index_as_number(&self, index: &str) -> String {
+        let parameters = &self.declaration.parameters;
+        let list = parameters.iter().find(|parameter| matches!(parameter.kind, Kind::List(_)));
+        let list = list.map_or("mu".to_owned(), |parameter| parameter.name.to_string());
+        format!(
+            "the index `{index}` only selects entries, as in `{list}[{index}]`: \
+             give the numbers that it stands for as a list of their own"
+        )
     }
 
     /// A mistake of a condition on parameters.

@@ -1,0 +1,40 @@
+//! What papers write and a declaration writes in another way.
+
+/// How a declaration writes what papers call by this name.
+pub(super) fn name(name: &str) -> Option<&'static str> {
+    let plain: String = name.chars().filter(|&c| c != '_').collect();
+    Some(match plain.as_str() {
+        "I3" | "III" | "IIIC" => "write `J.powi(2)`",
+        "I1bar" | "Ibar1" | "I1iso" => "write `I1b`",
+        "I2bar" | "Ibar2" | "I2iso" => "write `I2b`",
+        "trC" | "IC" => "write `I1`",
+        "IIC" => "write `I2`, or `I1.powi(2) - 2.0 * I2` for C : C",
+        "detF" => "write `J`",
+        "lnJ" | "logJ" => "write `J.ln()`",
+        "C" | "B" | "b" | "E" | "F" | "U" | "S" => {
+            "an energy is written in the stretches or in `I1`, `I2`, `J`; the Green strain has eigenvalues \
+             `(l1.powi(2) - 1.0) / 2.0` and so on"
+        }
+        "PI" | "pi" => "write the number, `3.141592653589793`",
+        _ => return None,
+    })
+}
+
+/// How a declaration writes what papers call by this function.
+pub(super) fn function(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "pow" => "write `.powi(2)` or `.powf(alpha)`",
+        "log" | "log10" | "log2" => "write `.ln()`",
+        "exp2" | "exp_m1" => "write `.exp()`",
+        "ln_1p" => "write `(1.0 + x).ln()`",
+        "cosh" => "write `(x.exp() + (-x).exp()) / 2.0`",
+        "sinh" => "write `(x.exp() - (-x).exp()) / 2.0`",
+        "tanh" => "write `1.0 - 2.0 / ((2.0 * x).exp() + 1.0)`",
+        "tr" | "trace" => "write `I1` for the trace of C",
+        "det" => "write `J` for the determinant of F",
+        "sin" | "cos" | "tan" | "asin" | "acos" | "atan" | "erf" | "asinh" | "acosh" | "atanh" => {
+            "give it as a parameter, `f: piola::Spline`, and write `f(x)`"
+        }
+        _ => return None,
+    })
+}
