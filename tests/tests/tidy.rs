@@ -48,6 +48,7 @@ fn imports_point_one_way() {
     forbid("macros/core/src", &["nalgebra", "piola_materials", "faer"]);
     forbid("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
     forbid("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]);
+    forbid("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
     forbid("scenes/src", &["piola_tests", "piola_codegen"]);
     // Inside the runtime: lanes and material below point, point below system, system below step.
     forbid(
@@ -62,8 +63,16 @@ fn imports_point_one_way() {
 /// Vector instructions are unsafe, and at home in `lanes`; there every block says why it is sound.
 #[test]
 fn unsafe_code_stays_in_the_lanes_and_says_why() {
-    let folders =
-        ["macros", "runtime", "materials", "scenes", "tests/src", "tests/examples", "tests/benches"];
+    let folders = [
+        "macros",
+        "runtime",
+        "laboratory",
+        "materials",
+        "scenes",
+        "tests/src",
+        "tests/examples",
+        "tests/benches",
+    ];
     for (path, text) in folders.into_iter().flat_map(sources) {
         let lines: Vec<&str> = text.lines().collect();
         for (number, line) in lines.iter().enumerate() {
