@@ -19,8 +19,10 @@ use std::fmt;
 
 use crate::lanes::{Mask, Real};
 
+mod fittable;
 mod varying;
 
+pub use fittable::Fittable;
 pub use varying::{Each, Mixed, Parameters, Uniform, Varying};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
