@@ -21,7 +21,7 @@ impl Entry {
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let entry = piola_materials::find("stable_neo_hookean").ok_or("not in the catalogue")?;
-    /// let values = entry.matching(Moduli::from_young_poisson(1e6, 0.45))?;
+    /// let values = entry.matching(Moduli::from_young_poisson(1e6, 0.45)?)?;
     /// let moduli = entry.moduli(&[&values[0], &values[1]], Inversion::Refuse)?;
     /// assert!((moduli.young() / 1e6 - 1.0).abs() < 1e-14);
     /// assert!((moduli.poisson() - 0.45).abs() < 1e-14);

@@ -150,13 +150,19 @@ pub struct Moduli {
 }
 
 impl Moduli {
-    /// From Young's modulus E, Pa, and Poisson's ratio ν.
-    #[must_use]
-    pub fn from_young_poisson(young: f64, poisson: f64) -> Self {
-        Self {
+    /// From Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)).
+    ///
+    /// # Errors
+    /// Unless E > 0 and −1 < ν < 1/2, both finite.
+    pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, Inadmissible> {
+        let is_elastic = young > 0.0 && young.is_finite() && poisson > -1.0 && poisson < 0.5;
+        if !is_elastic {
+            return Err(Inadmissible::YoungPoisson { young, poisson });
+        }
+        Ok(Self {
             mu: young / (2.0 * (1.0 + poisson)),
             lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
-        }
+        })
     }
 
     /// Bulk modulus K = λ + 2μ/3, Pa.
@@ -250,6 +256,13 @@ pub enum Inadmissible {
         /// The moduli that follow from the parameters.
         moduli: Moduli,
     },
+    /// Young's modulus is not positive, or Poisson's ratio outside −1 < ν < 1/2.
+    YoungPoisson {
+        /// Young's modulus, Pa.
+        young: f64,
+        /// Poisson's ratio.
+        poisson: f64,
+    },
     /// The rest state carries stress, which functions given as parameters do not cancel.
     StressedRest {
         /// ψ1(1, 1, 1), Pa.
@@ -266,6 +279,11 @@ pub enum Inadmissible {
         material: &'static str,
         /// Why, as its declaration says.
         reason: Option<&'static str>,
+    },
+    /// The material does not know the derivatives of its stress by its parameters.
+    NotFittable {
+        /// Name of the material.
+        material: &'static str,
     },
     /// The extension would not restore an inverted point.
     DoesNotRestore {
@@ -295,6 +313,11 @@ impl fmt::Display for Inadmissible {
                 moduli.mu,
                 moduli.bulk()
             ),
+            Self::YoungPoisson { young, poisson } => write!(
+                f,
+                "Young's modulus is {young} Pa and Poisson's ratio {poisson}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
+                 what hardly changes its volume"
+            ),
             Self::StressedRest { stress } => write!(
                 f,
                 "the rest state would carry a stress of {stress} Pa; let the derivatives of the functions cancel at 1"
@@ -307,6 +330,10 @@ impl fmt::Display for Inadmissible {
                 reason.map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
                 write!(f, "; use `Inversion::Refuse`")
             }
+            Self::NotFittable { material } => write!(
+                f,
+                "{material} has no derivatives of its stress by its parameters; declare it with `fit` and numbers as parameters"
+            ),
             Self::DoesNotRestore { condition, given } => write!(
                 f,
                 "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {given}; \

@@ -23,7 +23,12 @@ pub const EXTENSION: f64 = 0.1;
 /// Small-strain moduli of most bodies here: E = 1 MPa, ν = 0.45.
 #[must_use]
 pub fn soft() -> Moduli {
-    Moduli::from_young_poisson(1e6, 0.45)
+    const YOUNG: f64 = 1e6;
+    const POISSON: f64 = 0.45;
+    Moduli {
+        mu: YOUNG / (2.0 * (1.0 + POISSON)),
+        lambda: YOUNG * POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON)),
+    }
 }
 
 /// Ogden's three exponents \[Ogden72\] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
@@ -336,6 +341,11 @@ mod tests {
         admissible: &[],
         moduli: ["mu", "kappa"],
     };
+
+    #[test]
+    fn most_bodies_are_as_stiff_as_said() {
+        assert_eq!(Moduli::from_young_poisson(1e6, 0.45), Ok(soft()));
+    }
 
     #[test]
     fn values_come_in_the_order_of_the_declaration() {

@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// A cube at rest that is held at one face.
 fn hanging(cells: usize) -> Result<Simulation, Box<dyn Error>> {
     let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
-    let moduli = Moduli::from_young_poisson(1e6, 0.45);
+    let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
     let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
     let face = Bounds { min: [-1.0; 3], max: [1e-9, 2.0, 2.0] };
     let pins = Pins::in_box(&mesh, face)?;

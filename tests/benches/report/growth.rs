@@ -160,7 +160,7 @@ impl Series {
 
     fn simulation(&self, cells: usize) -> Result<Simulation, Box<dyn std::error::Error>> {
         let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
-        let moduli = Moduli::from_young_poisson(1e6, 0.45);
+        let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
         let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
         let (min, max) = ([-1.0; 3], [1e-9, 2.0, 2.0]);
         let pins = Pins::in_box(&mesh, Bounds { min, max })?;

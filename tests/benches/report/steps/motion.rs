@@ -150,7 +150,7 @@ fn free(mesh: &TetMesh, scene: &Scene, newton: NewtonSettings) -> Result<Flight,
 
 /// What flies free, as stiff as the bodies of the scenes.
 pub(super) fn free_material() -> Result<StableNeoHookean, Inadmissible> {
-    let moduli = Moduli::from_young_poisson(1e6, 0.45);
+    let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
     StableNeoHookean::new(moduli.mu, moduli.lambda)
 }
 
