@@ -60,7 +60,7 @@ impl Written<'_> {
 /// Points of the domain at which the energy and its derivatives are finite.
 pub fn samples(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) -> Vec<Point> {
     let &Written { declaration, energy, positive, .. } = written;
-    let gradient = Differentiator::default().derivative(graph, energy, 0);
+    let gradient = Differentiator::default().by_stretch(graph, energy, 0);
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut found = Vec::new();
     let mut excludes_rest = None;
@@ -160,7 +160,7 @@ pub fn rest(
     samples: &[Point],
     diagnostics: &mut Diagnostics,
 ) {
-    let first = |graph: &mut Graph, part| Differentiator::default().derivative(graph, part, 0);
+    let first = |graph: &mut Graph, part| Differentiator::default().by_stretch(graph, part, 0);
     let is_finite = |graph: &Graph, derivative| {
         samples.iter().all(|point| evaluate(graph, derivative, &at_rest(point)).value.is_finite())
     };

@@ -1,75 +1,101 @@
-//! Partial derivatives with respect to a stretch.
+//! Partial derivatives.
+//!
+//! The variable is any node that is not made of others, a stretch, a parameter or the current entry of a list, or a whole sum
+//! over lists: everything else is constant. Entries are those of the sum around them, so an entry outside a sum is no
+//! variable of what stands inside one: see [`crate::by_parameters`].
 
 use std::collections::HashMap;
 
-use crate::expr::{Exponent, Graph, Id, Node, Stretch};
+use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::rational::Rational;
 
 /// Derivatives, each computed once.
 #[derive(Debug, Default)]
 pub struct Differentiator {
-    memo: HashMap<(Id, Stretch), Id>,
+    memo: HashMap<(Id, Id), Id>,
 }
 
 impl Differentiator {
-    /// ∂e/∂λi.
-    pub fn derivative(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
-        if let Some(&done) = self.memo.get(&(e, i)) {
+    /// ∂e/∂v.
+    pub fn derivative(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
+        if let Some(&done) = self.memo.get(&(e, v)) {
             return done;
         }
-        let result = self.rule(graph, e, i);
-        self.memo.insert((e, i), result);
+        let result = if e == v { graph.integer(1) } else { self.rule(graph, e, v) };
+        self.memo.insert((e, v), result);
         result
     }
 
-    fn rule(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
+    /// ∂e/∂λi.
+    pub fn by_stretch(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
+        let stretch = graph.stretch(i);
+        self.derivative(graph, e, stretch)
+    }
+
+    fn rule(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
         match graph.node(e).clone() {
-            Node::Stretch(j) => graph.integer(i64::from(i == j)),
             Node::Linear { terms, .. } => {
                 let terms: Vec<_> =
-                    terms.into_iter().map(|(term, c)| (self.derivative(graph, term, i), c)).collect();
+                    terms.into_iter().map(|(term, c)| (self.derivative(graph, term, v), c)).collect();
                 graph.linear(Rational::ZERO, &terms)
             }
-            // (Π bᵢ^eᵢ)′ = Σ eᵢ bᵢ^(eᵢ−1) bᵢ′ Π bⱼ^eⱼ. For other than whole exponents bᵢ^eᵢ is kept and divided by bᵢ,
-            // which cancels against bᵢ′ where that is a product.
+            // (Π bᵢ^eᵢ)′ = Σ (eᵢ bᵢ^(eᵢ−1) bᵢ′ + bᵢ^eᵢ ln bᵢ eᵢ′) Π bⱼ^eⱼ. For other than whole exponents bᵢ^eᵢ is kept and
+            // divided by bᵢ, which cancels against bᵢ′ where that is a product.
             Node::Product(factors) => {
                 let mut terms = Vec::new();
                 for (k, &(base, exponent)) in factors.iter().enumerate() {
-                    let inner = self.derivative(graph, base, i);
-                    if graph.is_zero(inner) {
-                        continue;
+                    let inner = self.derivative(graph, base, v);
+                    if !graph.is_zero(inner) {
+                        let mut term = factors.clone();
+                        match exponent.as_integer() {
+                            Some(n) => term[k].1 = Exponent::integer(n - 1),
+                            None => term.push((base, Exponent::integer(-1))),
+                        }
+                        term.extend([
+                            (graph.exponent_value(exponent), Exponent::ONE),
+                            (inner, Exponent::ONE),
+                        ]);
+                        terms.push(graph.product(&term));
                     }
-                    let mut term = factors.clone();
-                    match exponent.as_integer() {
-                        Some(n) => term[k].1 = Exponent::integer(n - 1),
-                        None => term.push((base, Exponent::integer(-1))),
+                    if let Some(real) = exponent.real {
+                        let slope = self.derivative(graph, real, v);
+                        if !graph.is_zero(slope) {
+                            let ln = ln_beside_power(graph, base);
+                            terms.push(graph.product_of(&[e, ln, slope]));
+                        }
                     }
-                    term.extend([(graph.exponent_value(exponent), Exponent::ONE), (inner, Exponent::ONE)]);
-                    terms.push(graph.product(&term));
                 }
                 graph.sum_of(&terms)
             }
             Node::Ln(a) => {
-                let inner = self.derivative(graph, a, i);
+                let inner = self.derivative(graph, a, v);
                 graph.div(inner, a)
             }
             Node::Exp(a) => {
-                let inner = self.derivative(graph, a, i);
+                let inner = self.derivative(graph, a, v);
                 graph.mul(e, inner)
             }
             Node::Function(f, order, a) => {
-                let inner = self.derivative(graph, a, i);
+                let inner = self.derivative(graph, a, v);
                 let outer = graph.leaf(Node::Function(f, order + 1, a));
                 graph.mul(outer, inner)
             }
+            // An entry in the body is another than one outside.
+            Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
             Node::Sum(length, body) => {
-                let inner = self.derivative(graph, body, i);
+                let inner = self.derivative(graph, body, v);
                 graph.sum(length, inner)
             }
-            Node::Extended(function, order, j) if i == j => {
-                graph.leaf(Node::Extended(function, order + 1, j))
-            }
-            Node::Extended(..)
+            Node::Extended(function, order, i) => match *graph.node(v) {
+                Node::Stretch(j) if i == j => graph.leaf(Node::Extended(function, order + 1, i)),
+                Node::Stretch(_) => graph.integer(0),
+                // Extended powers are not differentiated by their exponents; NaN would not go unnoticed.
+                _ if matches!(function, Extended::Power(Exponent { real: Some(_), .. })) => {
+                    graph.leaf(Node::Float(f64::NAN.to_bits()))
+                }
+                _ => graph.integer(0),
+            },
+            Node::Stretch(_)
             | Node::Parameter(_)
             | Node::Entry(_)
             | Node::Float(_)
@@ -90,6 +116,17 @@ impl Differentiator {
     }
 }
 
+/// ln b as the factor of b^r. A sum may vanish, as I1 − 3 does at rest: there b^r ln b is 0 for r > 0, not 0 · (−∞).
+fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
+    if !matches!(graph.node(base), Node::Linear { .. }) {
+        return graph.ln(base);
+    }
+    let smallest = graph.leaf(Node::Float(f64::MIN_POSITIVE.to_bits()));
+    let above = graph.sub(base, smallest);
+    let positive = graph.leaf(Node::WhereNegative(above, smallest, base));
+    graph.ln(positive)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,7 +137,7 @@ mod tests {
     #[test]
     fn every_rule_is_the_slope_of_its_function() {
         for (name, mut graph, e) in expressions() {
-            let derivative = Differentiator::default().derivative(&mut graph, e, 1);
+            let derivative = Differentiator::default().by_stretch(&mut graph, e, 1);
             let at = |y: f64| Point { stretches: [1.3, y, 0.6], ..Point::default() };
             let value = |id, y| {
                 let Value { value, .. } = evaluate(&graph, id, &at(y));

@@ -9,14 +9,17 @@ use crate::model::Model;
 use crate::parse::{Declaration, documentation};
 use constructor::constructor;
 use declared::declared;
+use fittable::fittable;
 use material::material;
 
 mod constructor;
 mod declared;
 mod documentation;
+mod fittable;
 mod invariants;
 mod material;
 mod writer;
+mod young_poisson;
 
 /// The whole expansion.
 #[must_use]
@@ -24,10 +27,11 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let texts = Texts::of(declaration, &mut model);
     let documentation = documentation::documentation(declaration, &mut model, &texts);
     let structure = structure(declaration, &documentation);
-    let constructor = constructor(declaration);
+    let constructor = constructor(declaration, &model);
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &mut model, &texts);
-    quote!(#structure #constructor #material #declared)
+    let fittable = fittable(declaration, &mut model);
+    quote!(#structure #constructor #material #declared #fittable)
 }
 
 /// What documentation and description say.

@@ -134,22 +134,7 @@ impl Printer<'_> {
             let inner = self.print(term, if c == Rational::ONE { Context::Sum } else { Context::Product });
             parts.push((c.is_negative(), multiple(c, inner)));
         }
-        // Σ first reads better than − first.
-        parts.sort_by_key(|&(is_negative, _)| is_negative);
-        if !constant.is_zero() || parts.is_empty() {
-            parts.push((constant.is_negative(), magnitude(constant)));
-        }
-        let is_sum = parts.len() > 1 || parts[0].0;
-        let mut text = String::new();
-        for (k, (is_negative, part)) in parts.into_iter().enumerate() {
-            text.push_str(match (k, is_negative) {
-                (0, false) => "",
-                (0, true) => "−",
-                (_, false) => " + ",
-                (_, true) => " − ",
-            });
-            text.push_str(&part);
-        }
+        let (is_sum, text) = signed(parts, constant);
         let is_fraction = !is_sum && text.contains('/');
         parenthesise(text, is_sum && context > Context::Sum || is_fraction && context >= Context::Power)
     }
@@ -217,6 +202,36 @@ impl Printer<'_> {
             }
         }
     }
+}
+
+/// Σ coefficient · name + constant.
+#[must_use]
+pub fn combination(terms: &[(&str, Rational)], constant: Rational) -> String {
+    let terms = terms.iter().filter(|(_, coefficient)| !coefficient.is_zero());
+    let parts = terms.map(|&(name, c)| (c.is_negative(), multiple(c, name.to_owned()))).collect();
+    let (_, text) = signed(parts, constant);
+    text
+}
+
+/// Terms, each with whether it is subtracted, and a constant: whether that is more than one term without sign, and its text.
+fn signed(mut parts: Vec<(bool, String)>, constant: Rational) -> (bool, String) {
+    // Σ first reads better than − first.
+    parts.sort_by_key(|&(is_negative, _)| is_negative);
+    if !constant.is_zero() || parts.is_empty() {
+        parts.push((constant.is_negative(), magnitude(constant)));
+    }
+    let is_sum = parts.len() > 1 || parts[0].0;
+    let mut text = String::new();
+    for (k, (is_negative, part)) in parts.into_iter().enumerate() {
+        text.push_str(match (k, is_negative) {
+            (0, false) => "",
+            (0, true) => "−",
+            (_, false) => " + ",
+            (_, true) => " − ",
+        });
+        text.push_str(&part);
+    }
+    (is_sum, text)
 }
 
 fn parenthesise(text: String, needed: bool) -> String {

@@ -39,7 +39,7 @@ pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<ByI
     }
     let mut d = Differentiator::default();
     let gradient = [0, 1, 2].map(|k| {
-        let derivative = d.derivative(graph, energy, k);
+        let derivative = d.by_stretch(graph, energy, k);
         simplify(graph, derivative)
     });
     Some(ByInvariants { energy, gradient, bounds })

@@ -3,10 +3,12 @@
 //! `parse` reads the form of a declaration; `model` understands, checks and differentiates it; `emit` writes Rust. The
 //! energy travels as a hash-consed expression graph (`expr`), is differentiated once and twice (`diff`), divided into
 //! flip and twist quotients that never cancel (`quotient`), continued beyond its domain (`extension`), freed from
-//! implied cancellation (`simplify`), read once more by invariants where it can (`invariants`), and ordered into operations and loops (`schedule`).
+//! implied cancellation (`simplify`), read once more by invariants where it can (`invariants`), differentiated by its parameters
+//! where that is asked for (`by_parameters`), and ordered into operations and loops (`schedule`).
 //!
 //! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
 
+pub mod by_parameters;
 pub mod check;
 pub mod count;
 mod culprit;
@@ -34,6 +36,7 @@ mod spelling;
 #[cfg(test)]
 mod testing;
 pub mod volume;
+pub mod young_poisson;
 
 use proc_macro2::TokenStream;
 

@@ -2,6 +2,7 @@
 
 use syn::{BinOp, Expr};
 
+use crate::by_parameters::by_parameters;
 use crate::check::{self, Written};
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
@@ -17,6 +18,7 @@ use crate::rational::Rational;
 use crate::resolve::Resolver;
 use crate::simplify::simplify;
 use crate::volume::{Purpose, separate};
+use crate::young_poisson::{YoungPoisson, young_poisson};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -42,6 +44,10 @@ pub struct Model {
     pub volume: Volume,
     /// Small-strain μ and λ.
     pub moduli: [Id; 2],
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, where asked for.
+    pub by_parameters: Option<Vec<[Id; 3]>>,
+    /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
+    pub from_young_poisson: Option<YoungPoisson>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
 }
@@ -114,6 +120,13 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
              `extend`",
         );
     }
+    if options.fit && declaration.has_functions() {
+        diagnostics.error(
+            options.words.iter().find(|word| *word == "fit"),
+            "`fit` derives the stress by parameters that are numbers, and a function is none: remove `fit`, or write numbers in its \
+             place",
+        );
+    }
     if !diagnostics.is_clean() {
         return None;
     }
@@ -154,9 +167,24 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         check::stiffness(&graph, &written, moduli, &samples, diagnostics);
     }
     let invariants = by_invariants(declaration, &mut graph);
+    let by_parameters = options.fit.then(|| by_parameters(&mut graph, declaration, plain.gradient));
     check::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
-    Some(Model { graph, energy, plain, at_strains, extended, invariants, bounds, volume, moduli, samples })
+    let from_young_poisson = young_poisson(&mut graph, declaration, moduli);
+    Some(Model {
+        graph,
+        energy,
+        plain,
+        at_strains,
+        extended,
+        invariants,
+        bounds,
+        volume,
+        moduli,
+        by_parameters,
+        from_young_poisson,
+        samples,
+    })
 }
 
 /// The conditions of the domain but those on the sign of the last stretch.
@@ -167,12 +195,12 @@ pub(crate) fn bounds(declaration: &Declaration) -> impl Iterator<Item = &Expr> {
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
     let mut d = Differentiator::default();
     let gradient = [0, 1, 2].map(|i| {
-        let derivative = d.derivative(graph, energy, i);
+        let derivative = d.by_stretch(graph, energy, i);
         simplify(graph, derivative)
     });
     let second = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     let hessian = second.map(|(i, j)| {
-        let derivative = d.derivative(graph, gradient[i], j);
+        let derivative = d.by_stretch(graph, gradient[i], j);
         simplify(graph, derivative)
     });
     let mut quotients = Quotients::new(samples);

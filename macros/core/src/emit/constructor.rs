@@ -1,26 +1,31 @@
-//! How a material comes to be: `new`, which checks its parameters, what chooses the way of inversion, and what reads the
+//! How a material comes to be: `new`, which checks its parameters, what finds some of them from a stiffness, what chooses the way of inversion, and what reads the
 //! parameters back.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::Expr;
 
+use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics};
 use crate::literals::typed;
-use crate::model::indexed_lists;
+use crate::model::{Model, indexed_lists};
 use crate::parse::{Declaration, Parameter, identifiers};
 
 /// The inherent methods.
-pub(super) fn constructor(declaration: &Declaration) -> TokenStream {
+pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let new = new(declaration);
+    let determined = model.from_young_poisson.as_ref();
+    let from_young_poisson = determined.map(|determined| from_young_poisson(declaration, determined));
     let conditions = declaration.options.extend.as_ref();
     let with_inversion = conditions.map(|conditions| with_inversion(declaration, conditions));
     let getters = declaration.parameters.iter().map(|parameter| getter(declaration, parameter));
     quote! {
         impl #bounds #name #arguments {
             #new
+
+            #from_young_poisson
 
             #with_inversion
 

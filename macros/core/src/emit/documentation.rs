@@ -20,6 +20,7 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
         format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
         format!("**Small strain**: μ = {shear}, λ = {lame}."),
         derivatives(declaration, model),
+        by_parameters(declaration),
         operations(declaration, model),
     ];
     let sections: Vec<_> = sections.into_iter().filter(|section| !section.is_empty()).collect();
@@ -92,6 +93,12 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
         }
     }
     sections.join("\n\n")
+}
+
+/// What the word `fit` gives.
+fn by_parameters(declaration: &Declaration) -> String {
+    let text = "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.";
+    if declaration.options.fit { text.to_owned() } else { String::new() }
 }
 
 /// Those of the formulas that somebody would read.

@@ -15,7 +15,8 @@ pub(super) struct Writer<'a> {
     variables: [Ident; 3],
     /// Before the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
-    index: Ident,
+    /// The index of sums.
+    pub(super) index: Ident,
     /// The threshold of the extension.
     pub(super) threshold: Ident,
     /// The principal strains.
@@ -251,7 +252,7 @@ impl<'a> Writer<'a> {
 }
 
 /// The first of the names that the declaration has not taken.
-fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident {
+pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident {
     let is_taken = |name: &Ident| {
         declaration.stretches.contains(name) || declaration.parameters.iter().any(|other| other.name == *name)
     };

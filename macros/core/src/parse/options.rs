@@ -21,17 +21,20 @@ pub struct Options {
     pub refuse: Option<LitStr>,
     /// The rest state is meant to carry stress.
     pub prestressed: bool,
+    /// Derivatives by the parameters are asked for.
+    pub fit: bool,
     /// The names of the arguments as written.
     pub words: Vec<Ident>,
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 5] = [
+const FORMS: [(&str, &str); 6] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
     ("prestressed", "prestressed"),
+    ("fit", "fit"),
 ];
 
 impl Options {
@@ -62,6 +65,7 @@ impl Options {
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
             ("prestressed", Meta::Path(_)) => self.prestressed = true,
+            ("fit", Meta::Path(_)) => self.fit = true,
             (text, _) => {
                 return diagnostics.error(name, unknown(text));
             }

@@ -9,8 +9,9 @@ use crate::diagnostics::Diagnostics;
 use crate::spelling::taken;
 
 /// Methods and fields of every material, which a parameter's own method would hide.
-const METHODS: [&str; 16] = [
+const METHODS: [&str; 19] = [
     "new",
+    "from_young_poisson",
     "inversion",
     "with_inversion",
     "energy",
@@ -24,7 +25,9 @@ const METHODS: [&str; 16] = [
     "has_pole",
     "ends_at_zero_volume",
     "from_values",
+    "values",
     "moduli",
+    "gradient_by_parameters",
     "clone",
 ];
 

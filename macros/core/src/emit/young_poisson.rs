@@ -1,0 +1,85 @@
+//! The constructor from Young's modulus and Poisson's ratio.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::doc;
+use super::writer::free_name;
+use crate::formula::combination;
+use crate::parse::Declaration;
+use crate::rational::Rational;
+use crate::young_poisson::{Determined, YoungPoisson};
+
+/// `from_young_poisson`, with the parameters that are not determined in the order of the declaration.
+pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPoisson) -> TokenStream {
+    let Declaration { visibility, parameters, .. } = declaration;
+    let [young, poisson, moduli] =
+        [["young", "young_modulus"], ["poisson", "poisson_ratio"], ["moduli", "small_strain_moduli"]]
+            .map(|candidates| free_name(declaration, &candidates));
+    let others: Vec<_> =
+        (0..parameters.len()).filter(|&k| determined.of(k).is_none()).map(|k| &parameters[k]).collect();
+    let names = others.iter().map(|parameter| &parameter.name);
+    let types = others.iter().map(|parameter| declaration.parameter_type(parameter));
+    let solved = determined.0.map(|one| {
+        let name = &parameters[one.parameter].name;
+        let value = value(&one, &quote!(#moduli));
+        quote!(let #name = #value;)
+    });
+    let all = parameters.iter().map(|parameter| &parameter.name);
+    let formulas = determined.0.map(|one| {
+        let Determined { parameter, mu, lambda, constant } = one;
+        format!("`{}` = {}", parameters[parameter].name, combination(&[("μ", mu), ("λ", lambda)], constant))
+    });
+    let described = [
+        format!("* `{young}`: Young's modulus E > 0, Pa."),
+        format!("* `{poisson}`: Poisson's ratio, −1 < ν < 1/2."),
+    ];
+    let described = described
+        .into_iter()
+        .chain(others.iter().map(|parameter| format!("* `{}`: {}", parameter.name, parameter.doc)));
+    let documentation = doc(&format!(
+        "The material with this stiffness at small strain.\n\n{}\n\nWith μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)), {} and {}.\n\n\
+         # Errors\nWhere E or ν is outside its range, or what follows from them is not admissible.",
+        described.collect::<Vec<_>>().join("\n"),
+        formulas[0],
+        formulas[1],
+    ));
+    quote! {
+        #documentation
+        #[allow(clippy::too_many_arguments)]
+        #visibility fn from_young_poisson(
+            #young: f64,
+            #poisson: f64,
+            #(#names: #types),*
+        ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            let #moduli = ::piola::material::Moduli::from_young_poisson(#young, #poisson)?;
+            #(#solved)*
+            Self::new(#(#all),*)
+        }
+    }
+}
+
+/// The parameter as an expression in `moduli`.
+fn value(determined: &Determined, moduli: &TokenStream) -> TokenStream {
+    let Determined { mu, lambda, constant, .. } = *determined;
+    let modulus = |coefficient: Rational, modulus: TokenStream| {
+        (!coefficient.is_zero()).then(|| {
+            if coefficient == Rational::ONE {
+                modulus
+            } else {
+                let coefficient = number(coefficient);
+                quote!(#coefficient * #modulus)
+            }
+        })
+    };
+    let constant = (!constant.is_zero()).then(|| number(constant));
+    let terms = [modulus(mu, quote!(#moduli.mu)), modulus(lambda, quote!(#moduli.lambda)), constant];
+    let terms = terms.into_iter().flatten();
+    quote!(#(#terms)+*)
+}
+
+/// A fraction: exact where it is a number of type `f64`, else rounded once.
+fn number(value: Rational) -> TokenStream {
+    let magnitude = Literal::f64_unsuffixed(value.to_f64().abs());
+    if value.is_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) }
+}
