@@ -14,7 +14,8 @@ use piola::material;
 #[material(
     domain(J > 0.0, I1b < 3.0 * n),
     admissible(mu > 0.0, n > 1.0, kappa > 0.0),
-    refuse("the chains lock at I1b = 3n, which a flattened element exceeds before it inverts")
+    refuse("the chains lock at I1b = 3n, which a flattened element exceeds before it inverts"),
+    fit
 )]
 pub fn AnssariBenamBucchi(
     [l1, l2, l3]: [f64; 3],

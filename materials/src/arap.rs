@@ -11,7 +11,7 @@ use piola::material;
 /// λ2 + λ3 = 0, and the twist quotient has a pole there.
 ///
 /// Typical: `mu = 1.0`, since energies of maps have no unit.
-#[material(admissible(mu > 0.0))]
+#[material(admissible(mu > 0.0), fit)]
 pub fn Arap(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -11,7 +11,7 @@ use piola::material;
 /// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 ///
 /// Typical: `mu = 3.3e5, lambda_m = 5.2, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(mu > 0.0, lambda_m > 0.0, kappa > 0.0), extend)]
+#[material(domain(J > 0.0), admissible(mu > 0.0, lambda_m > 0.0, kappa > 0.0), extend, fit)]
 pub fn ArrudaBoyce(
     [l1, l2, l3]: [f64; 3],
     /// Modulus μ of the source, Pa.

@@ -17,7 +17,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0),
-    extend((1.0 - f) * (beta - 1.0) >= 0.0)
+    extend((1.0 - f) * (beta - 1.0) >= 0.0),
+    fit
 )]
 pub fn BlatzKo(
     [l1, l2, l3]: [f64; 3],

@@ -13,7 +13,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(a >= 0.0, b >= 0.0, c >= 0.0, kappa > 0.0),
-    refuse("√I2 has a kink where two stretches vanish")
+    refuse("√I2 has a kink where two stretches vanish"),
+    fit
 )]
 pub fn Carroll(
     [l1, l2, l3]: [f64; 3],

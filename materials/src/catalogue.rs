@@ -2,7 +2,7 @@
 
 use piola::Inversion;
 use piola::batch::Energy;
-use piola::material::{Declared, Description, Inadmissible, Moduli};
+use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
 
 use crate::{
     AnssariBenamBucchi, Arap, ArrudaBoyce, BlatzKo, Carroll, CiarletGeymonat, CiarletNeoHookean,
@@ -34,9 +34,19 @@ pub trait Visitor {
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output;
 }
 
-/// Energies without lists, and energies whose lists have one of these lengths; each with its typical parameters.
+/// What can be done with a material whose derivatives by its parameters are known.
+pub trait FittableVisitor {
+    /// What comes of it.
+    type Output;
+
+    /// Meets the material, its type static from here on.
+    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output;
+}
+
+/// Energies without lists, and energies whose lists have one of these lengths; each with its typical parameters. What is declared
+/// `without fit` does not know its derivatives by these.
 macro_rules! catalogue {
-    ($($name:literal => $Material:ident $(<$($length:literal)|+>)? [$([$($typical:expr),+]),+]),+ $(,)?) => {
+    ($($name:literal => $Material:ident $(<$($length:literal)|+>)? $(without $fit:ident)? [$([$($typical:expr),+]),+]),+ $(,)?) => {
         /// All energies.
         pub static CATALOGUE: &[Entry] = &[
             $(Entry {
@@ -61,13 +71,37 @@ macro_rules! catalogue {
             ) -> Result<V::Output, Inadmissible> {
                 match self.name {
                     $($name => catalogue!(@visit values, inversion, visitor, $Material $($($length)+)?),)+
-                    _ => Err(Inadmissible::Shape { expected: format!("`{}` is not in the catalogue", self.name) }),
+                    _ => Err(self.stranger()),
+                }
+            }
+
+            /// Builds the material and shows it to the visitor, together with its derivatives by the parameters.
+            ///
+            /// `values` has one slice for each parameter of the description, in its order.
+            ///
+            /// # Errors
+            /// As [`Entry::visit`], and [`Inadmissible::NotFittable`] where a parameter is a function.
+            pub fn visit_fittable<V: FittableVisitor>(
+                &self,
+                values: &[&[f64]],
+                inversion: Inversion,
+                visitor: V,
+            ) -> Result<V::Output, Inadmissible> {
+                match self.name {
+                    $($name => catalogue!(
+                        @visit_fittable [$($fit)?] values, inversion, visitor, $Material $($($length)+)?
+                    ),)+
+                    _ => Err(self.stranger()),
                 }
             }
         }
     };
     (@description $Material:ident) => { <$Material as Declared>::DESCRIPTION };
     (@description $Material:ident $first:literal $($length:literal)*) => { <$Material<$first> as Declared>::DESCRIPTION };
+    (@visit_fittable [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
+        Err(Inadmissible::NotFittable { material: <$Material as Declared>::DESCRIPTION.name })
+    };
+    (@visit_fittable [] $($rest:tt)+) => { catalogue!(@visit $($rest)+) };
     (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
         $Material::from_values($values, $inversion).map(|material| $visitor.visit(material))
     };
@@ -112,7 +146,7 @@ catalogue! {
     "rotated_linear" => RotatedLinear [[3.4e5], [3.1e6]],
     "stable_neo_hookean" => StableNeoHookean [[4.5e3], [1.4e5]],
     "storakers" => Storakers<1 | 2 | 3> [[2.2e5], [2.0], [0.5]],
-    "stretch_spline" => StretchSpline [
+    "stretch_spline" => StretchSpline without fit [
         [0.25, -3.6e5, 0.5, -1.8e5, 1.0, 0.0, 2.0, 1.2e5, 3.0, 2.0e5, 5.0, 8.0e5],
         [0.1, -2.0e4, 1.0, 0.0, 4.0, 3.0e4],
         [0.1, -4.0e6, 0.5, -1.5e6, 1.0, 0.0, 2.0, 2.5e6]
@@ -140,6 +174,11 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
+    /// Entries are public, and so can be made of anything.
+    fn stranger(&self) -> Inadmissible {
+        Inadmissible::Shape { expected: format!("`{}` is not in the catalogue", self.name) }
+    }
+
     /// The material for the elements of a body: dispatched once for each block of them.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use piola::material;
 /// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 ///
 /// Typical: `c1 = 1.8e5, c2 = 3.4e3, a = 5e6`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(c1 >= 0.0, c2 >= 0.0, a >= 0.0), extend)]
+#[material(domain(J > 0.0), admissible(c1 >= 0.0, c2 >= 0.0, a >= 0.0), extend, fit)]
 pub fn CiarletGeymonat(
     [l1, l2, l3]: [f64; 3],
     /// Modulus of I1, Pa.

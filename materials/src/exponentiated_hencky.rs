@@ -15,7 +15,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, k > 0.0, kappa > 0.0, k_hat > 0.0),
-    refuse("the exponential of an extended logarithm leaves the range of the numbers just below the threshold")
+    refuse("the exponential of an extended logarithm leaves the range of the numbers just below the threshold"),
+    fit
 )]
 pub fn ExponentiatedHencky(
     [l1, l2, l3]: [f64; 3],

@@ -15,7 +15,8 @@ use piola::material;
 #[material(
     domain(J > 0.0, delta * delta * (I1b - 3.0) < 1.0),
     admissible(gc >= 0.0, ge >= 0.0, beta > 0.0, kappa > 0.0),
-    refuse("the chains lock at δ² (I1b − 3) = 1, which a flattened element exceeds before it inverts")
+    refuse("the chains lock at δ² (I1b − 3) = 1, which a flattened element exceeds before it inverts"),
+    fit
 )]
 pub fn ExtendedTube(
     [l1, l2, l3]: [f64; 3],

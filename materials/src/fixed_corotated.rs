@@ -11,7 +11,7 @@ use piola::material;
 ///
 /// Typical: `mu = 5.8e4, lambda = 3.9e4`, snow, E = 140 kPa and ν = 0.2 of Stomakhin, Schroeder, Chai, Teran,
 /// Selle, *A material point method for snow simulation*, 2013.
-#[material(admissible(mu > 0.0))]
+#[material(admissible(mu > 0.0), fit)]
 pub fn FixedCorotated(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -11,7 +11,7 @@ use piola::material;
 /// these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0, the second stays.
 ///
 /// Typical: `mu = 3.3e5, jm = 108.0, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0, I1 - 3.0 < jm), admissible(mu > 0.0, jm > 0.0), extend(kappa >= 0.0))]
+#[material(domain(J > 0.0, I1 - 3.0 < jm), admissible(mu > 0.0, jm > 0.0), extend(kappa >= 0.0), fit)]
 pub fn Gent(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

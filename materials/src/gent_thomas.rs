@@ -14,7 +14,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(c1 >= 0.0, c2 >= 0.0, kappa > 0.0),
-    refuse("ln I2 is singular where two stretches vanish")
+    refuse("ln I2 is singular where two stretches vanish"),
+    fit
 )]
 pub fn GentThomas(
     [l1, l2, l3]: [f64; 3],

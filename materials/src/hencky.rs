@@ -12,7 +12,7 @@ use piola::material;
 ///
 /// Typical: `mu = 1.36e5, lambda = 2.04e5`, sand, E = 354 kPa and ν = 0.3 of Klár et al., *Drucker–Prager elastoplasticity
 /// for sand animation*, 2016.
-#[material(domain(J > 0.0), admissible(mu > 0.0), extend)]
+#[material(domain(J > 0.0), admissible(mu > 0.0), extend, fit)]
 pub fn Hencky(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

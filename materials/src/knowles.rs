@@ -16,7 +16,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, b > 0.0, n > 0.0, kappa > 0.0),
-    extend(3.0 * b < n)
+    extend(3.0 * b < n),
+    fit
 )]
 pub fn Knowles(
     [l1, l2, l3]: [f64; 3],

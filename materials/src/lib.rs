@@ -109,7 +109,7 @@ pub use arap::Arap;
 pub use arruda_boyce::ArrudaBoyce;
 pub use blatz_ko::BlatzKo;
 pub use carroll::Carroll;
-pub use catalogue::{CATALOGUE, Entry, Visitor, find};
+pub use catalogue::{CATALOGUE, Entry, FittableVisitor, Visitor, find};
 pub use ciarlet_geymonat::CiarletGeymonat;
 pub use ciarlet_neo_hookean::CiarletNeoHookean;
 pub use exponentiated_hencky::ExponentiatedHencky;

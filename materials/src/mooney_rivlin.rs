@@ -13,7 +13,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(c10 >= 0.0, c01 >= 0.0, kappa > 0.0),
-    refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open")
+    refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open"),
+    fit
 )]
 pub fn MooneyRivlin(
     [l1, l2, l3]: [f64; 3],

@@ -11,7 +11,7 @@ use piola::material;
 /// with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
 ///
 /// Typical: `c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(c10 >= 0.0, c01 >= 0.0), extend(kappa >= 0.0))]
+#[material(domain(J > 0.0), admissible(c10 >= 0.0, c01 >= 0.0), extend(kappa >= 0.0), fit)]
 pub fn MooneyRivlinCoupled(
     [l1, l2, l3]: [f64; 3],
     /// Modulus C10, Pa.

@@ -14,7 +14,7 @@ use piola::material;
 ///
 /// Typical: `mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7`, natural rubber, the three terms of the
 /// source.
-#[material(domain(J > 0.0), admissible(alpha[p] != 0.0), extend(mu[p] * alpha[p] > 0.0, kappa >= 0.0))]
+#[material(domain(J > 0.0), admissible(alpha[p] != 0.0), extend(mu[p] * alpha[p] > 0.0, kappa >= 0.0), fit)]
 pub fn Ogden<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /// Moduli μₚ, Pa.

@@ -11,7 +11,7 @@ use piola::material;
 /// λ2 + λ3 = 0, and the twist quotient has a pole there.
 ///
 /// Typical: `mu = 3.4e5, lambda = 3.1e6`, the order of soft rubber, E = 1 MPa and ν = 0.45.
-#[material(admissible(mu > 0.0))]
+#[material(admissible(mu > 0.0), fit)]
 pub fn RotatedLinear(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -10,7 +10,7 @@ use piola::material;
 /// inversion no more than compression: P vanishes at F = 0, and an inside-out body is at rest.
 ///
 /// Typical: `mu = 8.1e10, lambda = 1.2e11`, steel, E = 210 GPa and ν = 0.3 of EN 1993-1-1, §3.2.6.
-#[material(admissible(mu > 0.0))]
+#[material(admissible(mu > 0.0), fit)]
 pub fn StVenantKirchhoff(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -17,7 +17,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(alpha[p] != 0.0, beta[p] != 0.0),
-    extend(mu[p] > 0.0, alpha[p] >= 2.0, beta[p] > 0.0)
+    extend(mu[p] > 0.0, alpha[p] >= 2.0, beta[p] > 0.0),
+    fit
 )]
 pub fn Storakers<const N: usize>(
     [l1, l2, l3]: [f64; 3],

@@ -11,7 +11,7 @@ use piola::material;
 /// [`Inversion::Extend`](piola::Inversion::Extend) opens.
 ///
 /// Typical: `mu = 1.0`, since energies of maps have no unit.
-#[material(domain(J != 0.0), admissible(mu > 0.0), extend)]
+#[material(domain(J != 0.0), admissible(mu > 0.0), extend, fit)]
 pub fn SymmetricDirichlet(
     [l1, l2, l3]: [f64; 3],
     /// Modulus μ, Pa: half the small-strain shear modulus.

@@ -11,7 +11,7 @@ use piola::material;
 /// Defined for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
 ///
 /// Typical: `mu = 3.9e5, lambda = 2e7`, natural rubber fitted to \[Treloar 1944\] up to twice the rest length.
-#[material(domain(J > 0.0), admissible(mu > 0.0), extend(lambda >= 0.0))]
+#[material(domain(J > 0.0), admissible(mu > 0.0), extend(lambda >= 0.0), fit)]
 pub fn ValanisLandel(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -11,7 +11,7 @@ use piola::material;
 /// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
 ///
 /// Typical: `mu = 4.0e5, kappa = 2e7`, natural rubber fitted to \[Treloar 1944\] up to twice the rest length.
-#[material(domain(J > 0.0), admissible(mu > 0.0), extend(kappa >= 0.0))]
+#[material(domain(J > 0.0), admissible(mu > 0.0), extend(kappa >= 0.0), fit)]
 pub fn Varga(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

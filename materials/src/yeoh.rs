@@ -12,7 +12,8 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(c1 > 0.0, kappa > 0.0),
-    refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open")
+    refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open"),
+    fit
 )]
 pub fn Yeoh(
     [l1, l2, l3]: [f64; 3],

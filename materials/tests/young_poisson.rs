@@ -1,0 +1,65 @@
+//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked.
+
+use piola::material::{Declared, Inadmissible, Moduli};
+use piola_materials::{
+    CiarletNeoHookean, ExponentiatedHencky, FixedCorotated, Hencky, IsochoricNeoHookean, Knowles, NeoHookean,
+    RotatedLinear, StVenantKirchhoff, StableNeoHookean, ValanisLandel, Varga, Yeoh,
+};
+
+/// Poisson's ratios from that of cork to that of rubber.
+const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
+
+/// E = μ (3λ + 2μ)/(λ + μ) and 1 − 2ν = μ/(λ + μ) of the material, against what was asked.
+///
+/// A parameter and the modulus that follows from it have six roundings each; λ may be a difference of parameters no more than
+/// 3 (λ + μ) in size, so that both moduli err by 20 u (λ + μ). E changes by at most three times as much as μ and λ (1 − 2ν)²,
+/// so both err by 100 u of E and of one.
+#[track_caller]
+fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, Inadmissible>) -> Result<(), Inadmissible> {
+    let name = M::DESCRIPTION.name;
+    let tolerance = 100.0 * f64::EPSILON;
+    for young in [1.0, 3.7e5, 2.1e11] {
+        for poisson in RATIOS {
+            let Moduli { mu, lambda } = match build(young, poisson) {
+                // Some ask more of their parameters.
+                Err(Inadmissible::Violated { .. }) if poisson == 0.0 => continue,
+                material => material?.moduli(),
+            };
+            let moduli = Moduli { mu, lambda };
+            assert!(
+                (moduli.young() / young - 1.0).abs() <= tolerance,
+                "{name}: E is {}, not {young}, with ν = {poisson}",
+                moduli.young()
+            );
+            assert!(
+                (moduli.poisson() - poisson).abs() <= tolerance,
+                "{name}: ν is {}, not {poisson}",
+                moduli.poisson()
+            );
+        }
+    }
+    for (young, poisson) in
+        [(0.0, 0.3), (-1.0, 0.3), (1.0, 0.5), (1.0, -1.0), (f64::NAN, 0.3), (1.0, f64::NAN)]
+    {
+        let refused = build(young, poisson).err();
+        assert!(matches!(refused, Some(Inadmissible::YoungPoisson { .. })), "{name}: {refused:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn materials_are_as_stiff_as_asked() -> Result<(), Inadmissible> {
+    check(CiarletNeoHookean::from_young_poisson)?;
+    check(|young, poisson| ExponentiatedHencky::from_young_poisson(young, poisson, 0.25, 0.125))?;
+    check(FixedCorotated::from_young_poisson)?;
+    check(Hencky::from_young_poisson)?;
+    check(IsochoricNeoHookean::from_young_poisson)?;
+    check(|young, poisson| Knowles::from_young_poisson(young, poisson, 0.024, 2.0))?;
+    check(NeoHookean::from_young_poisson)?;
+    check(RotatedLinear::from_young_poisson)?;
+    check(StVenantKirchhoff::from_young_poisson)?;
+    check(StableNeoHookean::from_young_poisson)?;
+    check(ValanisLandel::from_young_poisson)?;
+    check(Varga::from_young_poisson)?;
+    check(|young, poisson| Yeoh::from_young_poisson(young, poisson, -1.46e3, 40.4))
+}
