@@ -1,4 +1,13 @@
 //! A material on the bench: what a testing machine would say of an energy before any body is made of it.
 //!
-//! The crate knows materials only through the traits of [`piola::material`], so that an energy of one's own is as welcome
-//! as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously.
+//! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free sides solved;
+//! * [`data`]: measured curves, and how well an energy agrees with them.
+//!
+//! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an energy of one's
+//! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously.
+
+pub mod curve;
+pub mod data;
+mod specimen;
+
+pub use specimen::Specimen;

@@ -1,0 +1,307 @@
+//! Test curves: what a testing machine reads from a homogeneous specimen.
+//!
+//! The axes of a test are the one along which it pulls, the one across in the plane, and the thickness. A machine sets
+//! one number, the *control*, and reads one stress:
+//!
+//! | mode | control | stretches | stress |
+//! |---|---|---|---|
+//! | uniaxial | λ | λ, t, t | ψ1 |
+//! | equibiaxial | λ | λ, λ, t | ψ1 |
+//! | pure shear (planar tension) | λ | λ, 1, t | ψ1 |
+//! | simple shear | γ | ℓ, 1/ℓ, 1 with ℓ − 1/ℓ = γ | P12 = (ℓ² ψ1 − ψ2) / (ℓ² + 1) |
+//! | volumetric | J | ∛J, ∛J, ∛J | ∂ψ/∂J = Σ ψi / (3 ∛J²), the mean Cauchy stress: minus the pressure |
+//!
+//! ψi are along these axes here, and all but the last are nominal stresses: force by area at rest, Pa. The stretch t of
+//! the sides is such that nothing pulls at them, ψ3 = 0, or, where the [volume is kept](Volume::Kept), such that J = 1:
+//! the incompressible solid, in which a pressure that does no work frees the sides and the stress is ψ1 − ψ3 t/λ.
+//!
+//! Nothing is formed that cancels at rest, so that the stress is as accurate at the smallest strains as
+//! [`gradient_at_strains`](piola::Material::gradient_at_strains) is.
+
+mod lateral;
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::specimen::{self, Specimen};
+use lateral::Side;
+
+/// What the machine does to the specimen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Mode {
+    /// Pulled or pressed along one axis, free across.
+    Uniaxial,
+    /// Pulled or pressed along two axes alike, free through the thickness.
+    Equibiaxial,
+    /// Pulled along one axis, held across, free through the thickness: planar tension.
+    PureShear,
+    /// Sheared between parallel plates that keep their distance.
+    SimpleShear,
+    /// Pulled or pressed from all sides alike.
+    Volumetric,
+}
+
+impl Mode {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Uniaxial, Self::Equibiaxial, Self::PureShear, Self::SimpleShear, Self::Volumetric];
+
+    /// As in files and on the command line, such as `pure_shear`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniaxial => "uniaxial",
+            Self::Equibiaxial => "equibiaxial",
+            Self::PureShear => "pure_shear",
+            Self::SimpleShear => "simple_shear",
+            Self::Volumetric => "volumetric",
+        }
+    }
+
+    /// The control at rest: λ = 1, γ = 0, J = 1.
+    #[must_use]
+    pub fn rest(self) -> f64 {
+        match self {
+            Self::SimpleShear => 0.0,
+            _ => 1.0,
+        }
+    }
+
+    /// Whether a specimen can be brought there: γ is any finite number, λ and J are positive ones.
+    #[must_use]
+    pub fn allows(self, control: f64) -> bool {
+        control.is_finite() && (self == Self::SimpleShear || control > 0.0)
+    }
+
+    /// The principal strains when the machine's stretch is 1 + `along` and that of free sides 1 + `side`.
+    fn strains(self, along: f64, side: f64) -> [f64; 3] {
+        match self {
+            Self::Equibiaxial => [along, along, side],
+            Self::PureShear => [along, 0.0, side],
+            _ => [along, side, side],
+        }
+    }
+
+    /// The strain of free sides that keeps the volume.
+    fn isochoric(self, along: f64) -> f64 {
+        let power = match self {
+            Self::Equibiaxial => -2.0,
+            Self::PureShear => -1.0,
+            _ => -0.5,
+        };
+        (power * along.ln_1p()).exp_m1()
+    }
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Mode {
+    type Err = UnknownMode;
+
+    /// In any case, with spaces or `-` for `_`; `planar` and `planar_tension` are pure shear.
+    fn from_str(text: &str) -> Result<Self, UnknownMode> {
+        let name = text.trim().to_lowercase().replace([' ', '-'], "_");
+        let name = if matches!(name.as_str(), "planar" | "planar_tension") { "pure_shear" } else { &name };
+        let mode = Self::ALL.into_iter().find(|mode| mode.name() == name);
+        mode.ok_or_else(|| UnknownMode(text.trim().into()))
+    }
+}
+
+/// A name that is no [`Mode`]'s.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownMode(
+    /// The name as given.
+    pub String,
+);
+
+impl fmt::Display for UnknownMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", ");
+        write!(f, "`{}` is no test; write one of {known}", self.0)
+    }
+}
+
+impl std::error::Error for UnknownMode {}
+
+/// What becomes of the volume of a specimen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Volume {
+    /// What the energy says: free sides carry no stress.
+    #[default]
+    Free,
+    /// It is kept, whatever the energy says of changes of volume: the incompressible solid.
+    Kept,
+}
+
+/// A point of a test curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// What the machine has set: λ, γ or J.
+    pub control: f64,
+    /// Principal stretches: along, across in the plane, through the thickness. Of simple shear the greatest, the least, and 1.
+    pub stretches: [f64; 3],
+    /// The stress it reads, Pa.
+    pub stress: f64,
+    /// What the stress is made of: Σ weights · (ψ1, ψ2, ψ3).
+    ///
+    /// Where the sides are free, the weights contain how these give way, so that for whatever the energy depends on, the
+    /// derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the implicit function theorem.
+    pub weights: [f64; 3],
+}
+
+impl Response {
+    /// J = λ1 λ2 λ3, the volume by that at rest.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.stretches.iter().product()
+    }
+}
+
+/// Why a test curve has no point there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoResponse {
+    /// No specimen can be brought there.
+    Control {
+        /// What the machine does.
+        mode: Mode,
+        /// What it should set.
+        control: f64,
+    },
+    /// The deformation is outside the domain of the energy, or its stress is no number.
+    OutsideDomain,
+    /// No stretch of the sides between a thousandth and a thousand times that of constant volume frees them of stress.
+    NoEquilibrium,
+    /// A volume that is kept cannot be changed by a volumetric test.
+    VolumeKept,
+}
+
+impl fmt::Display for NoResponse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Control { mode: Mode::SimpleShear, control } => {
+                write!(f, "the shear is {control}; it must be finite")
+            }
+            Self::Control { mode: Mode::Volumetric, control } => {
+                write!(f, "the volume ratio J is {control}; it must be positive and finite")
+            }
+            Self::Control { control, .. } => {
+                write!(f, "the stretch is {control}; it must be positive and finite")
+            }
+            Self::OutsideDomain => f.write_str("outside the domain of the energy"),
+            Self::NoEquilibrium => f.write_str("no lateral stretch frees the sides of stress"),
+            Self::VolumeKept => {
+                f.write_str("a volumetric test changes the volume; leave it free, or leave the test out")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoResponse {}
+
+/// The points of a test curve, one for each control.
+///
+/// ```
+/// use piola_laboratory::curve::{Mode, Volume, curve};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let rubber = piola_materials::NeoHookean::new(1e6, 5e6)?;
+/// let points = curve(&rubber, Mode::Uniaxial, Volume::Kept, &[1.0, 2.0, -1.0]);
+/// // P = μ (λ − 1/λ²)
+/// assert_eq!(points[1]?.stress, 1.75e6);
+/// assert!(points[2].is_err());
+/// # Ok(())
+/// # }
+/// ```
+pub fn curve(
+    specimen: &dyn Specimen,
+    mode: Mode,
+    volume: Volume,
+    controls: &[f64],
+) -> Vec<Result<Response, NoResponse>> {
+    controls.iter().map(|&control| respond(specimen, mode, volume, control)).collect()
+}
+
+/// One point of a test curve.
+///
+/// # Errors
+/// Where there is none.
+pub fn respond(
+    specimen: &dyn Specimen,
+    mode: Mode,
+    volume: Volume,
+    control: f64,
+) -> Result<Response, NoResponse> {
+    if !mode.allows(control) {
+        return Err(NoResponse::Control { mode, control });
+    }
+    let (strains, weights) = match (mode, volume) {
+        (Mode::SimpleShear, _) => simple_shear(control),
+        (Mode::Volumetric, Volume::Free) => volumetric(control),
+        (Mode::Volumetric, Volume::Kept) => return Err(NoResponse::VolumeKept),
+        (_, Volume::Kept) => kept(mode, control),
+        (_, Volume::Free) => free(specimen, mode, control)?,
+    };
+    let gradient = specimen::gradient(specimen, strains).ok_or(NoResponse::OutsideDomain)?;
+    // Where the sides are free, this takes away to first order what is left of their stress.
+    let stress: f64 = (0..3).map(|axis| weights[axis] * gradient[axis]).sum();
+    match stress.is_finite() {
+        true => Ok(Response { control, stretches: specimen::stretches(strains), stress, weights }),
+        false => Err(NoResponse::OutsideDomain),
+    }
+}
+
+type StrainsAndWeights = ([f64; 3], [f64; 3]);
+
+/// By dℓ/dγ = ℓ²/(ℓ² + 1) and d(1/ℓ)/dγ = −1/(ℓ² + 1).
+fn simple_shear(shear: f64) -> StrainsAndWeights {
+    let half = 0.5 * shear.abs();
+    // ℓ − 1 = γ/2 + √(1 + γ²/4) − 1
+    let along = half + half * (half / (1.0 + half.hypot(1.0)));
+    let across = -along / (1.0 + along);
+    // 1/(ℓ² + 1), the square out of the way of overflow
+    let share = 1.0 / (1.0 + along);
+    let weight = share * share / (1.0 + share * share);
+    ([along, across, 0.0], [(1.0 - weight).copysign(shear), -weight.copysign(shear), 0.0])
+}
+
+/// By dλi/dJ = 1/(3 ∛J²).
+fn volumetric(volume: f64) -> StrainsAndWeights {
+    let strain = ((volume - 1.0).ln_1p() / 3.0).exp_m1();
+    let weight = 1.0 / (3.0 * volume.cbrt().powi(2));
+    ([strain; 3], [weight; 3])
+}
+
+/// By the pressure that frees the sides, which adds −p J/λi to each ψi.
+fn kept(mode: Mode, stretch: f64) -> StrainsAndWeights {
+    let along = stretch - 1.0;
+    let side = mode.isochoric(along);
+    (mode.strains(along, side), [1.0, 0.0, -(1.0 + side) / stretch])
+}
+
+/// By the stretch of the sides at which ψ3 = 0: dψ1 = ∂ψ1 − (∂ψ1/∂t) (∂ψ3/∂t)⁻¹ ∂ψ3.
+fn free(specimen: &dyn Specimen, mode: Mode, stretch: f64) -> Result<StrainsAndWeights, NoResponse> {
+    let along = stretch - 1.0;
+    // ∂ψ1/∂t and ∂ψ3/∂t, where the sides of one or of two axes are free.
+    let slopes = |strains: [f64; 3]| {
+        let hessian = specimen::hessian(specimen, strains);
+        [0, 2].map(|axis| {
+            let across = if mode == Mode::Uniaxial { hessian[axis][1] } else { 0.0 };
+            hessian[axis][2] + across
+        })
+    };
+    let stress_of_sides = |side: f64| {
+        let strains = mode.strains(along, side);
+        let [.., stress] = specimen::gradient(specimen, strains)?;
+        let [_, slope] = slopes(strains);
+        Some(Side { stress, slope })
+    };
+    let side = lateral::release(stress_of_sides, mode.isochoric(along)).ok_or(NoResponse::NoEquilibrium)?;
+    let strains = mode.strains(along, side);
+    let [along_slope, slope] = slopes(strains);
+    Ok((strains, [1.0, 0.0, -along_slope / slope]))
+}

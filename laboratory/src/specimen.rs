@@ -1,0 +1,81 @@
+//! What a bench needs to know of a material, with the type of the material out of sight.
+
+use piola::Material;
+use piola::lanes::Mask;
+
+/// A piece of any material, along whose principal axes forces are read.
+///
+/// Every [`Material`] is one. Stretches are λ1 ≥ λ2 ≥ λ3 > 0.
+pub trait Specimen: Send + Sync {
+    /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa: [`Material::gradient_at_strains`].
+    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3];
+
+    /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23, Pa.
+    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6];
+
+    /// Whether the energy is defined there: [`Material::admits`].
+    fn admits(&self, stretches: [f64; 3]) -> bool;
+}
+
+impl<M: Material> Specimen for M {
+    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3] {
+        Material::gradient_at_strains(self, strains)
+    }
+
+    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6] {
+        self.blocks(stretches).hessian
+    }
+
+    fn admits(&self, stretches: [f64; 3]) -> bool {
+        Material::admits(self, stretches).any()
+    }
+}
+
+/// Three numbers along the axes of a test, and the order in which a material wants them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ordered {
+    /// From the greatest to the least.
+    pub(crate) numbers: [f64; 3],
+    /// The axis that each of them belongs to.
+    axes: [usize; 3],
+}
+
+impl Ordered {
+    pub(crate) fn new(along_axes: [f64; 3]) -> Self {
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&i, &j| along_axes[j].total_cmp(&along_axes[i]));
+        Self { numbers: axes.map(|axis| along_axes[axis]), axes }
+    }
+
+    /// What belongs to the ordered numbers, along the axes of the test.
+    pub(crate) fn back<T: Copy + Default>(&self, ordered: [T; 3]) -> [T; 3] {
+        let mut along_axes = [T::default(); 3];
+        for (axis, number) in self.axes.into_iter().zip(ordered) {
+            along_axes[axis] = number;
+        }
+        along_axes
+    }
+}
+
+/// The stretches 1 + si.
+pub(crate) fn stretches(strains: [f64; 3]) -> [f64; 3] {
+    strains.map(|strain| 1.0 + strain)
+}
+
+/// ψ1, ψ2, ψ3 along the axes of a test, Pa; `None` outside the domain and where they are no numbers.
+pub(crate) fn gradient(specimen: &dyn Specimen, strains: [f64; 3]) -> Option<[f64; 3]> {
+    let ordered = Ordered::new(strains);
+    if !strains.iter().all(|strain| strain.is_finite()) || !specimen.admits(stretches(ordered.numbers)) {
+        return None;
+    }
+    let gradient = specimen.gradient_at_strains(ordered.numbers);
+    gradient.iter().all(|stress| stress.is_finite()).then(|| ordered.back(gradient))
+}
+
+/// ψij along the axes of a test, 3×3, Pa.
+pub(crate) fn hessian(specimen: &dyn Specimen, strains: [f64; 3]) -> [[f64; 3]; 3] {
+    let ordered = Ordered::new(strains);
+    let [h11, h22, h33, h12, h13, h23] = specimen.hessian(stretches(ordered.numbers));
+    let rows = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]];
+    ordered.back(rows.map(|row| ordered.back(row)))
+}
