@@ -1,14 +1,24 @@
-//! What every [`Material`] promises, as checks that a crate declaring one can run in its own tests.
+//! What every [`Material`] promises, as tests that a crate declaring one has in one line.
 //!
 //! ```
-//! # use piola::contract::{Settings, Violation, check};
-//! # fn promise(material: &impl piola::Material) -> Result<(), Violation> {
-//! check(material, &Settings::default())?;
-//! # Ok(())
-//! # }
+//! use piola::{Inversion, material};
+//!
+//! /// Rubber.
+//! #[material(domain(J > 0.0), extend)]
+//! pub fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+//! }
+//!
+//! piola::contract!(rubber: Rubber::new(1e6, 5e6)?);
+//! piola::contract!(
+//!     extended_rubber: Rubber::new(1e6, 5e6)?.with_inversion(Inversion::Extend { epsilon: 0.1 })?,
+//!     range: (0.2, 4.0),
+//! );
+//! # fn main() {}
 //! ```
 //!
-//! The rules, each also a function of its own:
+//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`. The same as a
+//! function is [`check`], and each rule is one of its own:
 //!
 //! | rule | what must hold |
 //! |---|---|
@@ -18,13 +28,20 @@
 //! | [`symmetric_tangent`] | A : (dP/dF) B = B : (dP/dF) A |
 //! | [`stress_slope`] | difference quotients of ψ approach P as h² |
 //! | [`tangent_slope`] | difference quotients of P approach dP/dF as h² |
+//! | [`dual_numbers`] | ψ of dual numbers gives the gradient, the gradient of dual numbers the Hessian, to rounding |
 //! | [`quotients`] | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
+//! | [`strains`] | the gradient at strains s is that at stretches 1 + s |
+//! | [`invariants`] | ψ and its gradient by I1, I2, J, where there are such, are those by stretches |
 //! | [`extension`] | P and dP/dF are exact beside the threshold, across it and deep below, where ψ drives inverted material back |
 //! | [`moduli`] | the small-strain moduli that a declaration states are those of its Hessian |
+//! | [`single_precision`] | `f32` gives what `f64` does, to the rounding of `f32` |
+//! | [`lanes`] | every lane of every back end gives what a scalar does, whatever its neighbours |
 //!
-//! A check returns what it found or the first [`Violation`]; nothing is printed, nothing panics. Samples are
-//! reproducible: they follow from [`Settings::seed`]. Points that the material does not admit are left out, and a
-//! check that could not compare anything says so.
+//! A material is anything that implements [`Material`], by the macro or by hand; of what it has not, an extension or
+//! invariants, nothing is asked. A check returns what it found or the first [`Violation`]; nothing is printed, nothing
+//! panics but the tests of [`contract!`](crate::contract!). Samples are reproducible: they follow from
+//! [`Settings::seed`]. Points that the material does not admit are left out, and a check that could not compare anything
+//! says so.
 //!
 //! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the tangent
 //! times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign or factor
@@ -34,19 +51,41 @@
 
 use std::fmt;
 
-use crate::material::{Blocks, Declared, Material};
+use crate::material::{Blocks, Inversion, Material};
 
+mod derivatives;
+mod dual;
 mod evaluation;
 mod frames;
+mod invariants;
 mod inverted;
+mod judge;
+mod lanes;
+mod numbers;
+mod one_line;
 mod pairs;
+mod precisions;
+mod rest;
+mod rule;
 mod samples;
 mod slopes;
+mod strains;
+mod violation;
 
+pub use derivatives::dual_numbers;
 pub use frames::{isotropy, objectivity, symmetric_tangent};
+pub use invariants::invariants;
 pub use inverted::extension;
+pub use lanes::lanes;
 pub use pairs::quotients;
+pub use precisions::single_precision;
+pub use rest::{moduli, rest};
+pub use rule::Rule;
 pub use slopes::{stress_slope, tangent_slope};
+pub use strains::strains;
+pub use violation::{Violation, Violations};
+
+use judge::Judge;
 
 /// Which points are checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,115 +96,15 @@ pub struct Settings {
     pub seed: u64,
     /// Stretches are drawn between these, 0 < smallest < 1 < largest.
     pub range: (f64, f64),
-    /// The `epsilon` of [`Inversion::Extend`](crate::Inversion::Extend), where the material was built with it.
-    pub threshold: Option<f64>,
     /// Whether the material claims that F = I is free of stress.
     pub stress_free_at_rest: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { points: 64, seed: 1, range: (0.4, 2.5), threshold: None, stress_free_at_rest: true }
+        Self { points: 64, seed: 1, range: (0.4, 2.5), stress_free_at_rest: true }
     }
 }
-
-/// A rule of the contract.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Rule {
-    /// See [`rest`].
-    Rest,
-    /// See [`objectivity`].
-    Objectivity,
-    /// See [`isotropy`].
-    Isotropy,
-    /// See [`symmetric_tangent`].
-    SymmetricTangent,
-    /// See [`stress_slope`].
-    StressSlope,
-    /// See [`tangent_slope`].
-    TangentSlope,
-    /// See [`quotients`].
-    Quotients,
-    /// See [`extension`].
-    Extension,
-    /// See [`moduli`].
-    Moduli,
-}
-
-impl fmt::Display for Rule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Rest => "rest",
-            Self::Objectivity => "objectivity",
-            Self::Isotropy => "isotropy",
-            Self::SymmetricTangent => "symmetric tangent",
-            Self::StressSlope => "slope of the energy",
-            Self::TangentSlope => "slope of the stress",
-            Self::Quotients => "quotients",
-            Self::Extension => "extension",
-            Self::Moduli => "moduli",
-        })
-    }
-}
-
-/// A broken promise.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Violation {
-    /// Two values that must agree don't.
-    Differs {
-        /// The rule.
-        rule: Rule,
-        /// What was compared, such as `flip of stretches 1 and 2`.
-        component: String,
-        /// Where.
-        stretches: [f64; 3],
-        /// The material's value.
-        found: f64,
-        /// What the rule demands.
-        expected: f64,
-        /// The difference that rounding explains.
-        tolerance: f64,
-    },
-    /// A value that must be positive, or negative, isn't.
-    WrongSign {
-        /// The rule.
-        rule: Rule,
-        /// What was looked at.
-        component: String,
-        /// Where.
-        stretches: [f64; 3],
-        /// The material's value.
-        found: f64,
-    },
-    /// The material admits none of the sampled points.
-    NothingToCheck {
-        /// The rule.
-        rule: Rule,
-    },
-}
-
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Differs { rule, component, stretches: [l1, l2, l3], found, expected, tolerance } => write!(
-                f,
-                "{rule}: the {component} at stretches ({l1}, {l2}, {l3}) is {found:e} and should be {expected:e}; \
-                 rounding explains a difference of {tolerance:.0e}"
-            ),
-            Self::WrongSign { rule, component, stretches: [l1, l2, l3], found } => write!(
-                f,
-                "{rule}: the {component} at stretches ({l1}, {l2}, {l3}) is {found:e}, which has the wrong sign"
-            ),
-            Self::NothingToCheck { rule } => {
-                write!(f, "{rule}: the material admits none of the sampled stretches; widen `range`")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Violation {}
 
 /// What a kept rule was judged on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,6 +117,13 @@ pub struct Finding {
     pub worst: f64,
 }
 
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { rule, comparisons, worst } = self;
+        write!(f, "{rule}: {comparisons} comparisons, the worst at {worst:.2} of what rounding explains")
+    }
+}
+
 /// Findings, one for each rule that applies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -185,68 +131,60 @@ pub struct Report {
     pub findings: Vec<Finding>,
 }
 
-/// Checks every rule that needs no more than the [`Material`], the extension only where [`Settings::threshold`] is
-/// given.
+/// Checks every rule that applies to the material.
+///
+/// ```
+/// # fn promise(material: &impl piola::Material) -> Result<(), piola::contract::Violations> {
+/// use piola::contract::{Settings, check};
+///
+/// let report = check(material, &Settings { points: 16, ..Settings::default() })?;
+/// assert!(report.findings.iter().all(|finding| finding.worst <= 1.0));
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
-/// The first violation.
-pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Violation> {
-    let mut findings = vec![
-        rest(material, settings)?,
-        objectivity(material, settings)?,
-        isotropy(material, settings)?,
-        symmetric_tangent(material, settings)?,
-        stress_slope(material, settings)?,
-        tangent_slope(material, settings)?,
-        quotients(material, settings)?,
-    ];
-    if let Some(epsilon) = settings.threshold {
-        findings.push(extension(material, settings, epsilon)?);
-    }
-    Ok(Report { findings })
-}
-
-/// At F = I: no stress (where claimed), twists of zero, flips of ψ11 − ψ12 = 2μ > 0.
-///
-/// # Errors
-/// The first violation.
-pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Rest);
-    let stretches = [1.0; 3];
-    let blocks = material.blocks(stretches);
-    let tolerance = 64.0 * UNIT * stiffness(&blocks);
-    for k in 0..3 {
-        if settings.stress_free_at_rest {
-            judge.compare(|| gradient_name(k), stretches, blocks.gradient[k], 0.0, tolerance)?;
-            judge.compare(|| pair_name("twist", k), stretches, blocks.twist[k], 0.0, tolerance)?;
+/// The first violation of each rule that is broken.
+pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Violations> {
+    let mut findings = Vec::new();
+    let mut violations = Vec::new();
+    for verdict in Rule::ALL.into_iter().filter_map(|rule| check_rule(rule, material, settings)) {
+        match verdict {
+            Ok(finding) => findings.push(finding),
+            Err(violation) => violations.push(violation),
         }
-        let shear = blocks.hessian[0] - blocks.hessian[3];
-        judge.compare(|| pair_name("flip", k), stretches, blocks.flip[k], shear, tolerance)?;
-        judge.positive(|| pair_name("flip", k), stretches, blocks.flip[k])?;
     }
-    judge.finding()
+    if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
 }
 
-/// The stated small-strain moduli are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
-///
-/// # Errors
-/// The first violation.
-pub fn moduli(material: &impl Declared) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Moduli);
-    let stretches = [1.0; 3];
-    let blocks = material.blocks(stretches);
-    let stated = material.moduli();
-    let tolerance = 64.0 * UNIT * stiffness(&blocks);
-    let shear = 0.5 * (blocks.hessian[0] - blocks.hessian[3]);
-    judge.compare(|| "shear modulus".into(), stretches, stated.mu, shear, tolerance)?;
-    judge.compare(
-        || "first Lamé parameter".into(),
-        stretches,
-        stated.lambda,
-        blocks.hessian[3],
-        tolerance,
-    )?;
-    judge.finding()
+/// Checks one rule; nothing where the material has not what the rule is about: an extension, invariants, stated moduli.
+pub fn check_rule<M: Material>(
+    rule: Rule,
+    material: &M,
+    settings: &Settings,
+) -> Option<Result<Finding, Violation>> {
+    let applies = match rule {
+        Rule::Extension => material.inversion() != Inversion::Refuse,
+        Rule::Invariants => M::HAS_INVARIANTS,
+        Rule::Moduli => material.stated_moduli().is_some(),
+        _ => true,
+    };
+    applies.then(|| match rule {
+        Rule::Rest => rest(material, settings),
+        Rule::Objectivity => objectivity(material, settings),
+        Rule::Isotropy => isotropy(material, settings),
+        Rule::SymmetricTangent => symmetric_tangent(material, settings),
+        Rule::StressSlope => stress_slope(material, settings),
+        Rule::TangentSlope => tangent_slope(material, settings),
+        Rule::DualNumbers => dual_numbers(material, settings),
+        Rule::Quotients => quotients(material, settings),
+        Rule::Strains => strains(material, settings),
+        Rule::Invariants => invariants(material, settings),
+        Rule::Extension => extension(material, settings),
+        Rule::Moduli => moduli(material),
+        Rule::SinglePrecision => single_precision(material, settings),
+        Rule::Lanes => lanes(material, settings),
+    })
 }
 
 /// u of `f64`, in which the contract is judged.
@@ -267,64 +205,16 @@ fn gradient_name(k: usize) -> String {
     format!("derivative of the energy by stretch {}", k + 1)
 }
 
+fn hessian_name(entry: usize) -> String {
+    match derivatives::ENTRIES[entry] {
+        (i, j) if i == j => format!("second derivative of the energy by stretch {}", i + 1),
+        (i, j) => format!("second derivative of the energy by stretches {} and {}", i + 1, j + 1),
+    }
+}
+
 fn pair_name(quotient: &str, pair: usize) -> String {
     let (i, j) = crate::material::PAIRS[pair];
     format!("{quotient} of stretches {} and {}", i + 1, j + 1)
-}
-
-/// Counts comparisons and stops at the first that fails.
-struct Judge {
-    rule: Rule,
-    comparisons: usize,
-    worst: f64,
-}
-
-impl Judge {
-    fn new(rule: Rule) -> Self {
-        Self { rule, comparisons: 0, worst: 0.0 }
-    }
-
-    fn compare(
-        &mut self,
-        component: impl FnOnce() -> String,
-        stretches: [f64; 3],
-        found: f64,
-        expected: f64,
-        tolerance: f64,
-    ) -> Result<(), Violation> {
-        let difference = (found - expected).abs();
-        self.comparisons += 1;
-        // A NaN on either side is no agreement.
-        if difference <= tolerance {
-            if difference > 0.0 {
-                self.worst = self.worst.max(difference / tolerance);
-            }
-            return Ok(());
-        }
-        let (rule, component) = (self.rule, component());
-        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance })
-    }
-
-    fn positive(
-        &mut self,
-        component: impl FnOnce() -> String,
-        stretches: [f64; 3],
-        found: f64,
-    ) -> Result<(), Violation> {
-        self.comparisons += 1;
-        if found > 0.0 {
-            return Ok(());
-        }
-        Err(Violation::WrongSign { rule: self.rule, component: component(), stretches, found })
-    }
-
-    fn finding(self) -> Result<Finding, Violation> {
-        let Self { rule, comparisons, worst } = self;
-        if comparisons == 0 {
-            return Err(Violation::NothingToCheck { rule });
-        }
-        Ok(Finding { rule, comparisons, worst })
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! The point and the contract must be testable without the code generator, and against something it has not written.
 
 use crate::lanes::{Mask, Real};
-use crate::material::{Blocks, Material, PAIRS};
+use crate::material::{Blocks, Inversion, Material, PAIRS};
 use crate::quotient::{Pair, pole_floor};
 
 const MU: f64 = 1.0;
@@ -213,6 +213,10 @@ impl Material for ExtendedNeoHookean {
 
     fn ends_at_zero_volume(&self) -> bool {
         false
+    }
+
+    fn inversion(&self) -> Inversion {
+        Inversion::Extend { epsilon: self.epsilon }
     }
 }
 

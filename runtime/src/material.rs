@@ -111,6 +111,17 @@ pub trait Material: Send + Sync {
 
     /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact determinant.
     fn ends_at_zero_volume(&self) -> bool;
+
+    /// What the material does outside its domain.
+    fn inversion(&self) -> Inversion {
+        Inversion::Refuse
+    }
+
+    /// Small-strain moduli, where they are known from elsewhere than the Hessian at rest, as those of a declaration are; for
+    /// comparison with it by the [`contract`](crate::contract).
+    fn stated_moduli(&self) -> Option<Moduli> {
+        None
+    }
 }
 
 /// What a material with a domain does outside it.
@@ -150,6 +161,13 @@ pub struct Moduli {
 }
 
 impl Moduli {
+    /// Those of the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
+    #[must_use]
+    pub fn at_rest(material: &impl Material) -> Self {
+        let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
+        Self { mu: 0.5 * (h11 - h12), lambda: h12 }
+    }
+
     /// From Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)).
     ///
     /// # Errors

@@ -162,9 +162,6 @@ fn inert_type(function: &Function) -> TokenStream {
             ) -> AnyReal::Mask {
                 #unreachable
             }
-            fn inversion(&self) -> ::piola::Inversion {
-                #unreachable
-            }
         }
 
         #[allow(unused_variables)]

@@ -2,13 +2,13 @@
 
 use super::slopes::{Approach, energy_at, stress_at};
 use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
-use crate::material::Material;
+use crate::material::{Inversion, Material};
 use crate::random::Random;
 
 /// How far beyond det F = 0 the extension is looked at: λ3 is minus this.
 const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 
-/// For a material built with `Inversion::Extend { epsilon }`:
+/// For a material whose [`inversion`](Material::inversion) is `Inversion::Extend { epsilon }`:
 ///
 /// * it admits an inverted point where it admits its mirror image;
 /// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the threshold, be
@@ -19,9 +19,10 @@ const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 /// Depths beyond the [`range`](Settings::range) are left out.
 ///
 /// # Errors
-/// The first violation.
-pub fn extension(material: &impl Material, settings: &Settings, epsilon: f64) -> Result<Finding, Violation> {
+/// The first violation; [`Violation::NothingToCheck`] of a material that refuses.
+pub fn extension(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Extension);
+    let Inversion::Extend { epsilon } = material.inversion() else { return judge.finding() };
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {

@@ -82,7 +82,8 @@ fn close(
         });
         let blocks = material.blocks(stored);
         let tolerance = tolerance(&blocks) + inexact;
-        judge.compare(|| pair_name("flip", pair), stored, blocks.flip[pair], expected, tolerance)?;
+        let name = || format!("{}, which are {gap:e} of their mean apart", pair_name("flip", pair));
+        judge.compare(name, stored, blocks.flip[pair], expected, tolerance)?;
     }
     Ok(())
 }
@@ -108,7 +109,8 @@ fn opposite(
     });
     let blocks = material.blocks(stored);
     let tolerance = tolerance(&blocks) + inexact;
-    judge.compare(|| pair_name("twist", 2), stored, blocks.twist[2], expected, tolerance)
+    let name = || format!("{}, which are opposite but for {gap:e} of stretch 2", pair_name("twist", 2));
+    judge.compare(name, stored, blocks.twist[2], expected, tolerance)
 }
 
 /// Second derivatives are known to some u times the largest of them, and to as much again from the stretches'

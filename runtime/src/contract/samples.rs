@@ -1,7 +1,7 @@
 //! Where the contract looks: stretches in descending order, of which the material admits all.
 
 use super::{Finding, Judge, Rule, Settings, Violation};
-use crate::material::Material;
+use crate::material::{Inversion, Material};
 use crate::random::Random;
 
 /// Judges a rule at every sample, with random numbers to draw further choices from.
@@ -13,7 +13,7 @@ pub(super) fn at_samples(
 ) -> Result<Finding, Violation> {
     let mut judge = Judge::new(rule);
     let mut random = Random::new(settings.seed);
-    for stretches in stretches(material, settings, &mut random) {
+    for stretches in samples(material, settings, &mut random) {
         look(&mut judge, stretches, &mut random)?;
     }
     judge.finding()
@@ -22,8 +22,12 @@ pub(super) fn at_samples(
 /// Random descending stretches within the range, plus inverted ones, as far as the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-fn stretches(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+pub(super) fn samples(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
+    let threshold = match material.inversion() {
+        Inversion::Refuse => None,
+        Inversion::Extend { epsilon } => Some(epsilon),
+    };
     (0..settings.points)
         .map(|k| {
             let mut l: [f64; 3] = std::array::from_fn(|_| random.uniform(low.ln(), high.ln()).exp());
@@ -35,8 +39,11 @@ fn stretches(material: &impl Material, settings: &Settings, random: &mut Random)
             l
         })
         .filter(|&l| material.admits(l))
-        .filter(|l| {
-            settings.threshold.is_none_or(|epsilon| l.iter().all(|l| (l - epsilon).abs() > 1.0 / 32.0))
-        })
+        .filter(|l| threshold.is_none_or(|epsilon| l.iter().all(|l| (l - epsilon).abs() > 1.0 / 32.0)))
         .collect()
+}
+
+/// The same stretches with λ1, and with λ3, a fraction of λ2 away from it: in descending order as well.
+pub(super) fn together([l1, l2, l3]: [f64; 3], gap: f64) -> [[f64; 3]; 2] {
+    [[l2 * (1.0 + gap), l2, l3], [l1, l2, l2 * (1.0 - gap)]]
 }

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
-use crate::lanes::Real;
-use crate::material::PAIRS;
+use crate::lanes::{Mask, Real};
+use crate::material::{Moduli, PAIRS};
 
 #[track_caller]
 fn check_passes(material: &impl Material, settings: &Settings) {
@@ -13,7 +13,7 @@ fn check_passes(material: &impl Material, settings: &Settings) {
                 assert!(finding.comparisons >= 12 && finding.worst <= 1.0, "{finding:?}");
             }
         }
-        Err(violation) => panic!("{violation}"),
+        Err(violations) => panic!("{violations}"),
     }
 }
 
@@ -24,8 +24,8 @@ fn right_materials_pass() {
         check_passes(&SaintVenantKirchhoff, &settings);
         check_passes(&NeoHookean, &settings);
         check_passes(&RotatedLinear, &settings);
+        check_passes(&ByInvariants { w2: -0.5 }, &settings);
         for epsilon in [0.1, 0.3, 0.7] {
-            let settings = Settings { threshold: Some(epsilon), ..settings.clone() };
             check_passes(&ExtendedNeoHookean { epsilon }, &settings);
         }
     }
@@ -37,12 +37,17 @@ enum Defect {
     PrestressOfOnePart,
     StressTooLargeByAMillionth,
     HessianTooLargeByAMillionth,
+    HessianTooLargeByABillionth,
     LimitBelowAGap,
     VanishingShearAtTheGap,
     NaiveTwist,
     PrefersFirstStretch,
     JumpingCurvature,
     AttractsCollapse,
+    LinearInStrains,
+    OverstatedShear,
+    ConstantOfSinglePrecision,
+    AnyLaneDecides,
 }
 
 struct Defective<M>(M, Defect);
@@ -72,11 +77,12 @@ impl<M: Material> Material for Defective<M> {
             Defect::StressTooLargeByAMillionth => {
                 blocks.gradient = gradient.map(|g| g * R::splat(1.0 + 1e-6))
             }
-            Defect::HessianTooLargeByAMillionth => {
+            Defect::HessianTooLargeByAMillionth | Defect::HessianTooLargeByABillionth => {
+                let share = if matches!(self.1, Defect::HessianTooLargeByAMillionth) { 1e-6 } else { 1e-9 };
                 // Not at rest, where the flip would give it away at once.
                 let strain = l[0] * l[1] * l[2] - R::splat(1.0);
                 blocks.hessian =
-                    blocks.hessian.map(|h| h * (R::splat(1.0) + R::splat(1e-6) * strain * strain));
+                    blocks.hessian.map(|h| h * (R::splat(1.0) + R::splat(share) * strain * strain));
             }
             Defect::LimitBelowAGap | Defect::VanishingShearAtTheGap => {
                 for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
@@ -111,8 +117,31 @@ impl<M: Material> Material for Defective<M> {
                     blocks.twist[pair] = blocks.twist[pair] + over(other + l[2]);
                 }
             }
+            Defect::ConstantOfSinglePrecision => {
+                if R::UNIT_ROUNDOFF > 1e-10 {
+                    blocks.twist = blocks.twist.map(|twist| twist * R::splat(1.0 + 1e-4));
+                }
+            }
+            Defect::AnyLaneDecides => {
+                // By less than any other rule could tell.
+                if l[2].less(R::splat(0.6)).any() {
+                    blocks.hessian[0] = h11 * R::splat(1.0 + 4.0 * UNIT);
+                }
+            }
+            Defect::LinearInStrains | Defect::OverstatedShear => {}
         }
         blocks
+    }
+
+    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
+        match self.1 {
+            Defect::LinearInStrains => {
+                let Moduli { mu, lambda } = Moduli::at_rest(&self.0);
+                let pressure = R::splat(lambda) * (s[0] + s[1] + s[2]);
+                s.map(|s| R::splat(2.0 * mu) * s + pressure)
+            }
+            _ => self.gradient(s.map(|s| R::splat(1.0) + s)),
+        }
     }
 
     fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
@@ -125,6 +154,15 @@ impl<M: Material> Material for Defective<M> {
 
     fn ends_at_zero_volume(&self) -> bool {
         self.0.ends_at_zero_volume()
+    }
+
+    fn inversion(&self) -> Inversion {
+        self.0.inversion()
+    }
+
+    fn stated_moduli(&self) -> Option<Moduli> {
+        let Moduli { mu, lambda } = Moduli::at_rest(&self.0);
+        matches!(self.1, Defect::OverstatedShear).then_some(Moduli { mu: 1.001 * mu, lambda })
     }
 }
 
@@ -139,43 +177,116 @@ fn below<R: Real>(x: R) -> R {
     (x - R::splat(0.3)).min(R::splat(0.0))
 }
 
+/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −½.
+struct ByInvariants {
+    w2: f64,
+}
+
+impl Material for ByInvariants {
+    const HAS_INVARIANTS: bool = true;
+
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        SaintVenantKirchhoff.energy(l)
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        SaintVenantKirchhoff.gradient(l)
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        SaintVenantKirchhoff.blocks(l)
+    }
+
+    /// With μ = 1 and λ = 3/2: (I1² − 2 I2 − 2 I1 + 3)/4 + 3/16 (I1 − 3)².
+    fn energy_by_invariants<R: Real>(&self, [i1, i2, _]: [R; 3]) -> R {
+        let (two, three) = (R::splat(2.0), R::splat(3.0));
+        let trace = i1 - three;
+        (i1 * i1 - two * i2 - two * i1 + three) * R::splat(0.25) + R::splat(0.1875) * trace * trace
+    }
+
+    fn gradient_by_invariants<R: Real>(&self, [i1, _, _]: [R; 3]) -> [R; 3] {
+        let w1 = (i1 - R::splat(1.0)) * R::splat(0.5) + (i1 - R::splat(3.0)) * R::splat(0.375);
+        [w1, R::splat(self.w2), R::splat(0.0)]
+    }
+
+    fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn has_pole(&self) -> bool {
+        false
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
 #[track_caller]
-fn check_names(
-    material: impl Material,
-    defect: Defect,
-    threshold: Option<f64>,
-    expected: Rule,
-    component: &str,
-) {
-    let settings = Settings { threshold, ..Settings::default() };
-    let violation = check(&Defective(material, defect), &settings).expect_err("a defect went unnoticed");
-    let (Violation::Differs { rule, component: found, .. }
-    | Violation::WrongSign { rule, component: found, .. }) = &violation
-    else {
-        panic!("{violation}");
-    };
-    assert_eq!(*rule, expected, "{violation}");
-    assert!(found.contains(component), "{violation}");
+fn check_names(material: &impl Material, expected: Rule, component: &str) {
+    let violations = check(material, &Settings::default()).expect_err("a defect went unnoticed");
+    let named = violations.0.iter().any(|violation| {
+        let (Violation::Differs { rule, component: found, .. }
+        | Violation::WrongSign { rule, component: found, .. }) = violation
+        else {
+            return false;
+        };
+        *rule == expected && found.contains(component)
+    });
+    assert!(named, "{violations}");
+}
+
+/// As [`check_names`], and no other rule sees it.
+#[track_caller]
+fn check_names_alone(material: &impl Material, expected: Rule, component: &str) {
+    check_names(material, expected, component);
+    let violations = check(material, &Settings::default()).expect_err("a defect went unnoticed");
+    assert_eq!(violations.0.len(), 1, "{violations}");
 }
 
 #[test]
 fn defects_are_named() {
-    let extended = || ExtendedNeoHookean { epsilon: 0.3 };
-    check_names(
-        NeoHookean,
-        Defect::PrestressOfOnePart,
-        None,
-        Rule::Rest,
-        "derivative of the energy by stretch 1",
+    let plain = |defect| Defective(NeoHookean, defect);
+    let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
+    check_names(&plain(Defect::PrestressOfOnePart), Rule::Rest, "derivative of the energy by stretch 1");
+    check_names(&plain(Defect::StressTooLargeByAMillionth), Rule::StressSlope, "energy");
+    check_names(&plain(Defect::HessianTooLargeByAMillionth), Rule::TangentSlope, "stress");
+    check_names(&plain(Defect::HessianTooLargeByABillionth), Rule::DualNumbers, "second derivative");
+    check_names(&plain(Defect::LimitBelowAGap), Rule::Quotients, "flip");
+    check_names(&plain(Defect::VanishingShearAtTheGap), Rule::Rest, "flip");
+    check_names(&Defective(SaintVenantKirchhoff, Defect::NaiveTwist), Rule::Quotients, "twist");
+    check_names(&plain(Defect::PrefersFirstStretch), Rule::Isotropy, "stretch 2");
+    check_names(&extended(Defect::JumpingCurvature), Rule::TangentSlope, "stress");
+    check_names(&extended(Defect::AttractsCollapse), Rule::Extension, "stretch 3");
+}
+
+#[test]
+fn defects_that_one_rule_sees_are_named_by_it() {
+    let plain = |defect| Defective(NeoHookean, defect);
+    check_names_alone(&plain(Defect::LinearInStrains), Rule::Strains, "from the strain");
+    check_names_alone(&plain(Defect::OverstatedShear), Rule::Moduli, "shear modulus");
+    check_names_alone(
+        &plain(Defect::ConstantOfSinglePrecision),
+        Rule::SinglePrecision,
+        "twist of stretches 1 and 2 in `f32`",
     );
-    check_names(NeoHookean, Defect::StressTooLargeByAMillionth, None, Rule::StressSlope, "energy");
-    check_names(NeoHookean, Defect::HessianTooLargeByAMillionth, None, Rule::TangentSlope, "stress");
-    check_names(NeoHookean, Defect::LimitBelowAGap, None, Rule::Quotients, "flip");
-    check_names(NeoHookean, Defect::VanishingShearAtTheGap, None, Rule::Rest, "flip");
-    check_names(SaintVenantKirchhoff, Defect::NaiveTwist, None, Rule::Quotients, "twist");
-    check_names(NeoHookean, Defect::PrefersFirstStretch, None, Rule::Isotropy, "stretch 2");
-    check_names(extended(), Defect::JumpingCurvature, Some(0.3), Rule::TangentSlope, "stress");
-    check_names(extended(), Defect::AttractsCollapse, Some(0.3), Rule::Extension, "stretch 3");
+    check_names_alone(
+        &plain(Defect::AnyLaneDecides),
+        Rule::Lanes,
+        "second derivative of the energy by stretch 1 on the portable back end",
+    );
+    check_names_alone(&ByInvariants { w2: 0.5 }, Rule::Invariants, "by invariants");
+}
+
+#[test]
+fn a_limit_below_a_gap_names_the_gap() {
+    let violation = quotients(&Defective(NeoHookean, Defect::LimitBelowAGap), &Settings::default());
+    let Err(Violation::Differs { component, .. }) = violation else { panic!("{violation:?}") };
+    assert_eq!(component, "flip of stretches 1 and 2, which are 1e-7 of their mean apart");
 }
 
 #[test]
@@ -188,8 +299,24 @@ fn a_material_that_admits_nothing_is_not_called_right() {
 }
 
 #[test]
-fn violations_read_as_sentences() {
-    let violation = Violation::Differs {
+fn what_a_material_has_not_is_not_asked_for() {
+    let rules = |material: &dyn Fn() -> Result<Report, Violations>| {
+        let report = material().unwrap_or_else(|violations| panic!("{violations}"));
+        report.findings.into_iter().map(|finding| finding.rule).collect::<Vec<_>>()
+    };
+    let settings = Settings { points: 8, ..Settings::default() };
+    let plain = rules(&|| check(&NeoHookean, &settings));
+    let without = [Rule::Extension, Rule::Invariants, Rule::Moduli];
+    assert!(without.iter().all(|rule| !plain.contains(rule)));
+    assert_eq!(plain.len(), Rule::ALL.len() - without.len());
+    assert!(rules(&|| check(&ExtendedNeoHookean { epsilon: 0.3 }, &settings)).contains(&Rule::Extension));
+    assert!(rules(&|| check(&ByInvariants { w2: -0.5 }, &settings)).contains(&Rule::Invariants));
+    assert_eq!(moduli(&NeoHookean), Err(Violation::NothingToCheck { rule: Rule::Moduli }));
+}
+
+#[test]
+fn violations_have_a_line_for_each_fact() {
+    let differs = Violation::Differs {
         rule: Rule::Quotients,
         component: pair_name("flip", 0),
         stretches: [1.5, 1.5, 0.5],
@@ -197,9 +324,35 @@ fn violations_read_as_sentences() {
         expected: 2.0,
         tolerance: 1e-14,
     };
+    let wrong_sign = Violation::WrongSign {
+        rule: Rule::Rest,
+        component: pair_name("flip", 2),
+        stretches: [1.0; 3],
+        found: -1e5,
+    };
     assert_eq!(
-        violation.to_string(),
-        "quotients: the flip of stretches 1 and 2 at stretches (1.5, 1.5, 0.5) is 0e0 and should be 2e0; \
-         rounding explains a difference of 1e-14"
+        Violations(vec![differs, wrong_sign]).to_string(),
+        "quotients: flips and twists keep their digits at every gap between stretches, zero included\n    \
+         component   flip of stretches 1 and 2\n    \
+         stretches   1.5, 1.5, 0.5\n    \
+         found       0e0\n    \
+         expected    2e0\n    \
+         difference  2.0e0, of which rounding explains 1.0e-14\n\
+         rest: F = I is free of stress, and shear is resisted there\n    \
+         component   flip of stretches 2 and 3\n    \
+         stretches   1, 1, 1\n    \
+         found       -1e5\n    \
+         expected    a positive number"
+    );
+}
+
+mod one_line {
+    use super::*;
+
+    crate::contract!(neo_hookean: NeoHookean);
+    crate::contract!(
+        extended: { ExtendedNeoHookean { epsilon: 0.25 } },
+        range: (0.3, 3.0),
+        points: 16,
     );
 }

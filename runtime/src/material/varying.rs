@@ -5,13 +5,13 @@
 
 use std::fmt;
 
-use super::{Blocks, Inversion, Material};
+use super::{Blocks, Material};
 use crate::lanes::{Mask, Real};
 
 /// A material whose parameters may differ from point to point: every declared one without functions as parameters.
 ///
 /// Each method is that of [`Material`] without the ending `_of`, for the materials of several points. All of them must have
-/// the same [`inversion`](Varying::inversion), threshold included, as [`Each`] makes sure: it decides which program runs.
+/// the same [`inversion`](Material::inversion), threshold included, as [`Each`] makes sure: it decides which program runs.
 ///
 /// ```
 /// use piola::lanes::{Lanes, Pair};
@@ -66,9 +66,6 @@ pub trait Varying: Material + Sized {
     fn admits_invariants_of<R: Real>(_: &impl Parameters<Self>, _: [R; 3]) -> R::Mask {
         R::Mask::splat(false)
     }
-
-    /// What the material does outside its domain.
-    fn inversion(&self) -> Inversion;
 }
 
 /// The parameters of the materials that the numbers of a [`Real`] belong to.
@@ -106,7 +103,7 @@ impl<'a, M: Varying> Each<'a, M> {
     /// All materials must do the same outside their domain.
     ///
     /// # Errors
-    /// Where there is none, or two differ in their [`Inversion`].
+    /// Where there is none, or two differ in their [`Inversion`](super::Inversion).
     pub fn new(materials: &'a [M]) -> Result<Self, Mixed> {
         let first = materials.first().ok_or(Mixed { material: 0 })?.inversion();
         match materials.iter().position(|material| material.inversion() != first) {
@@ -146,7 +143,7 @@ impl<M> Parameters<M> for Each<'_, M> {
 /// Why materials cannot be evaluated together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mixed {
-    /// The first one whose [`Inversion`] is not that of material 0; 0 where there is none at all.
+    /// The first one whose [`Inversion`](super::Inversion) is not that of material 0; 0 where there is none at all.
     pub material: usize,
 }
 

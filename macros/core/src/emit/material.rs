@@ -16,7 +16,7 @@ use crate::schedule::schedule;
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
-    let constants = constants(model);
+    let constants = constants(declaration, model);
     // What is not inlined into the function of a back end is not compiled for its instructions.
     if declaration.has_functions() {
         let own = Bodies::new(declaration, model, Writer::new(declaration));
@@ -39,10 +39,6 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     let computed = several.methods(&receiver, "_of");
     let by_invariants = invariants::methods(model, &several.writer, &receiver, "_of");
     let delegated = invariants::delegated(model);
-    let inversion = match declaration.options.extend {
-        Some(_) => quote!(self.inversion),
-        None => quote!(::piola::Inversion::Refuse),
-    };
     let uniform = quote!(&::piola::material::Uniform(self));
     let varying = quote!(<Self as ::piola::material::Varying>);
     quote! {
@@ -80,17 +76,13 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         impl #bounds ::piola::material::Varying for #name #arguments {
             #computed
             #by_invariants
-
-            #[inline]
-            fn inversion(&self) -> ::piola::Inversion {
-                #inversion
-            }
         }
     }
 }
 
-/// What a material says of itself without a point: whether it has a pole and where its domain ends.
-fn constants(model: &Model) -> TokenStream {
+/// What a material says of itself without a point: whether it has a pole, where its domain ends and what it does there, and its
+/// moduli.
+fn constants(declaration: &Declaration, model: &Model) -> TokenStream {
     let is_positive = model.volume == Volume::Positive;
     let plain_pole = model.plain.has_pole;
     let (has_pole, ends) = match &model.extended {
@@ -111,6 +103,14 @@ fn constants(model: &Model) -> TokenStream {
             (pole, if is_positive { refuses } else { quote!(false) })
         }
     };
+    let inversion = declaration.options.extend.as_ref().map(|_| {
+        quote! {
+            #[inline]
+            fn inversion(&self) -> ::piola::Inversion {
+                self.inversion
+            }
+        }
+    });
     quote! {
         #[inline]
         fn has_pole(&self) -> bool {
@@ -120,6 +120,12 @@ fn constants(model: &Model) -> TokenStream {
         #[inline]
         fn ends_at_zero_volume(&self) -> bool {
             #ends
+        }
+
+        #inversion
+
+        fn stated_moduli(&self) -> ::core::option::Option<::piola::material::Moduli> {
+            ::core::option::Option::Some(::piola::material::Declared::moduli(self))
         }
     }
 }

@@ -1,0 +1,47 @@
+//! The rule on invariants: what a material says by I1, I2 and J against what it says by stretches.
+
+use super::samples::at_samples;
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
+use crate::material::Material;
+
+/// Of a material with [`HAS_INVARIANTS`](Material::HAS_INVARIANTS), where it admits the invariants:
+///
+/// * the stretches are admitted too;
+/// * the energies agree;
+/// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
+///
+/// # Errors
+/// The first violation; [`Violation::NothingToCheck`] without invariants.
+pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Finding, Violation> {
+    if !M::HAS_INVARIANTS {
+        return Judge::new(Rule::Invariants).finding();
+    }
+    at_samples(Rule::Invariants, material, settings, |judge, stretches, _| {
+        let [a, b, c] = stretches.map(|l| l * l);
+        let invariants = [a + b + c, a * b + a * c + b * c, stretches.iter().product()];
+        if !material.admits_invariants(invariants) {
+            return Ok(());
+        }
+        let admitted = if material.admits(stretches) { 1.0 } else { -1.0 };
+        judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
+
+        let scale = stress_scale(&material.blocks(stretches), stretches);
+        let expected = material.energy(stretches);
+        let found = material.energy_by_invariants(invariants);
+        let tolerance = 100.0 * UNIT * (scale * stretches[0] + expected.abs());
+        judge.compare(|| "energy by invariants".into(), stretches, found, expected, tolerance)?;
+
+        let gradient = material.gradient(stretches);
+        let [w1, w2, wj] = material.gradient_by_invariants(invariants);
+        for i in 0..3 {
+            let [l, m, n] = [i, (i + 1) % 3, (i + 2) % 3].map(|k| stretches[k]);
+            let terms = [2.0 * l * w1, 2.0 * l * (m * m + n * n) * w2, m * n * wj];
+            let found = terms.iter().sum();
+            // The terms cancel near rest, and each has its own roundings.
+            let tolerance = 100.0 * UNIT * (scale + terms.iter().map(|term| term.abs()).sum::<f64>());
+            let name = || format!("{}, from those by invariants", gradient_name(i));
+            judge.compare(name, stretches, found, gradient[i], tolerance)?;
+        }
+        Ok(())
+    })
+}

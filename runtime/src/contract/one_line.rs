@@ -1,0 +1,133 @@
+//! The contract as tests of a user's own crate.
+
+/// A module of tests, one for each [`Rule`](crate::contract::Rule), for one material.
+///
+/// ```
+/// # /// Rubber.
+/// # #[piola::material(domain(J > 0.0), extend)]
+/// # pub fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+/// #     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// # }
+/// piola::contract!(rubber: Rubber::new(1e6, 5e6)?);
+/// # fn main() {}
+/// ```
+///
+/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and what fails says which component is wrong, at
+/// which stretches, and both values. After the name is the module's, and the expression is what the tests are about, of any
+/// type that implements [`Material`](crate::Material); it sees what the place of the macro sees and may use `?` on any error.
+///
+/// [`Settings`](crate::contract::Settings) other than the default ones follow by name:
+///
+/// ```
+/// # /// A stiff exponential.
+/// # #[piola::material]
+/// # pub fn Tissue([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ kappa: f64) -> f64 {
+/// #     mu / 2.0 * (I1b - 3.0).exp() + kappa / 2.0 * (J - 1.0).powi(2)
+/// # }
+/// piola::contract!(tissue: Tissue::new(1e4, 1e6)?, range: (0.7, 1.4), points: 32);
+/// # fn main() {}
+/// ```
+///
+/// A rule that does not apply, as that on extensions of a material that refuses inversion, is kept. What each was judged on is
+/// what `cargo test -- --show-output` shows.
+#[macro_export]
+macro_rules! contract {
+    ($name:ident: $material:expr $(, $setting:ident: $value:expr)* $(,)?) => {
+        #[allow(dead_code, unused_imports, clippy::needless_update, clippy::print_stdout)]
+        mod $name {
+            use super::*;
+
+            #[track_caller]
+            fn keep(rule: $crate::contract::Rule) {
+                match judge(rule) {
+                    ::core::result::Result::Ok(finding) => ::std::println!("{finding}"),
+                    ::core::result::Result::Err(error) => ::core::panic!("\n{error}\n"),
+                }
+            }
+
+            fn judge(
+                rule: $crate::contract::Rule,
+            ) -> ::core::result::Result<::std::string::String, ::std::boxed::Box<dyn ::std::error::Error>> {
+                let material = $material;
+                let settings = $crate::contract::Settings {
+                    $($setting: $value,)*
+                    ..::core::default::Default::default()
+                };
+                ::core::result::Result::Ok(match $crate::contract::check_rule(rule, &material, &settings) {
+                    ::core::option::Option::Some(verdict) => ::std::string::ToString::to_string(&verdict?),
+                    ::core::option::Option::None => ::std::format!("{rule}: does not apply"),
+                })
+            }
+
+            #[test]
+            fn rest() {
+                keep($crate::contract::Rule::Rest);
+            }
+
+            #[test]
+            fn objectivity() {
+                keep($crate::contract::Rule::Objectivity);
+            }
+
+            #[test]
+            fn isotropy() {
+                keep($crate::contract::Rule::Isotropy);
+            }
+
+            #[test]
+            fn symmetric_tangent() {
+                keep($crate::contract::Rule::SymmetricTangent);
+            }
+
+            #[test]
+            fn stress_slope() {
+                keep($crate::contract::Rule::StressSlope);
+            }
+
+            #[test]
+            fn tangent_slope() {
+                keep($crate::contract::Rule::TangentSlope);
+            }
+
+            #[test]
+            fn dual_numbers() {
+                keep($crate::contract::Rule::DualNumbers);
+            }
+
+            #[test]
+            fn quotients() {
+                keep($crate::contract::Rule::Quotients);
+            }
+
+            #[test]
+            fn strains() {
+                keep($crate::contract::Rule::Strains);
+            }
+
+            #[test]
+            fn invariants() {
+                keep($crate::contract::Rule::Invariants);
+            }
+
+            #[test]
+            fn extension() {
+                keep($crate::contract::Rule::Extension);
+            }
+
+            #[test]
+            fn moduli() {
+                keep($crate::contract::Rule::Moduli);
+            }
+
+            #[test]
+            fn single_precision() {
+                keep($crate::contract::Rule::SinglePrecision);
+            }
+
+            #[test]
+            fn lanes() {
+                keep($crate::contract::Rule::Lanes);
+            }
+        }
+    };
+}

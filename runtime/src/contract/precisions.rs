@@ -1,0 +1,39 @@
+//! The rule on formats: `f32` against `f64`, at stretches that both know.
+
+use super::numbers::{known, name, numbers};
+use super::samples::{at_samples, together};
+use super::{Finding, Judge, Rule, Settings, Violation};
+use crate::lanes::Real;
+use crate::material::Material;
+
+/// Energy, gradient, Hessian and quotients in `f32` are those in `f64`, but for roundings of `f32`: at the samples, and
+/// where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal.
+///
+/// # Errors
+/// The first violation.
+pub fn single_precision(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
+        compare(judge, material, stretches)?;
+        for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
+            for close in together(stretches, gap) {
+                compare(judge, material, close)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+fn compare(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+    let single = stretches.map(|l| l as f32);
+    let stretches = single.map(f64::from);
+    if !material.admits(stretches) || !material.admits(single) {
+        return Ok(());
+    }
+    let Some((expected, tolerances)) = known(material, stretches) else { return Ok(()) };
+    let found = numbers(material, single);
+    for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+        let tolerance = <f32 as Real>::UNIT_ROUNDOFF * tolerances[k];
+        judge.compare(|| format!("{} in `f32`", name(k)), stretches, found.into(), expected, tolerance)?;
+    }
+    Ok(())
+}

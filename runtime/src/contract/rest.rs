@@ -1,0 +1,40 @@
+//! Rules on F = I.
+
+use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
+use crate::material::{Material, Moduli};
+
+/// At F = I: no stress (where claimed), twists of zero, flips of ψ11 − ψ12 = 2μ > 0.
+///
+/// # Errors
+/// The first violation.
+pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Rest);
+    let stretches = [1.0; 3];
+    let blocks = material.blocks(stretches);
+    let tolerance = 64.0 * UNIT * stiffness(&blocks);
+    for k in 0..3 {
+        if settings.stress_free_at_rest {
+            judge.compare(|| gradient_name(k), stretches, blocks.gradient[k], 0.0, tolerance)?;
+            judge.compare(|| pair_name("twist", k), stretches, blocks.twist[k], 0.0, tolerance)?;
+        }
+        let shear = blocks.hessian[0] - blocks.hessian[3];
+        judge.compare(|| pair_name("flip", k), stretches, blocks.flip[k], shear, tolerance)?;
+        judge.positive(|| pair_name("flip", k), stretches, blocks.flip[k])?;
+    }
+    judge.finding()
+}
+
+/// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
+///
+/// # Errors
+/// The first violation; [`Violation::NothingToCheck`] where it states none.
+pub fn moduli(material: &impl Material) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Moduli);
+    let Some(stated) = material.stated_moduli() else { return judge.finding() };
+    let stretches = [1.0; 3];
+    let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
+    let found = Moduli::at_rest(material);
+    judge.compare(|| "shear modulus".into(), stretches, stated.mu, found.mu, tolerance)?;
+    judge.compare(|| "first Lamé parameter".into(), stretches, stated.lambda, found.lambda, tolerance)?;
+    judge.finding()
+}

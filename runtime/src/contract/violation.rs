@@ -1,0 +1,118 @@
+//! What a broken rule says: rule, component, stretches, both values.
+
+use std::error::Error;
+use std::fmt;
+
+use super::Rule;
+
+/// A broken promise.
+///
+/// As text it has a line for the rule and one for each of the facts:
+///
+/// ```text
+/// quotients: flips and twists keep their digits at every gap between stretches, zero included
+///     component   flip of stretches 1 and 2, which are 1e-9 of their mean apart
+///     stretches   1.5000000007500001, 1.49999999925, 0.5
+///     found       0e0
+///     expected    2e0
+///     difference  2e0, of which rounding explains 1e-14
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Violation {
+    /// Two values that must agree don't.
+    Differs {
+        /// The rule.
+        rule: Rule,
+        /// What was compared, such as `flip of stretches 1 and 2`.
+        component: String,
+        /// Where.
+        stretches: [f64; 3],
+        /// The material's value.
+        found: f64,
+        /// What the rule demands.
+        expected: f64,
+        /// The difference that rounding explains; zero where both must have the same bits.
+        tolerance: f64,
+    },
+    /// A value that must be positive, or negative, isn't.
+    WrongSign {
+        /// The rule.
+        rule: Rule,
+        /// What was looked at.
+        component: String,
+        /// Where.
+        stretches: [f64; 3],
+        /// The material's value.
+        found: f64,
+    },
+    /// The material admits none of the sampled points, or has nothing that the rule is about.
+    NothingToCheck {
+        /// The rule.
+        rule: Rule,
+    },
+}
+
+impl Violation {
+    /// The rule that is broken.
+    #[must_use]
+    pub fn rule(&self) -> Rule {
+        match self {
+            Self::Differs { rule, .. } | Self::WrongSign { rule, .. } | Self::NothingToCheck { rule } => {
+                *rule
+            }
+        }
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rule = self.rule();
+        writeln!(f, "{rule}: {}", rule.promise())?;
+        let where_and_what =
+            |f: &mut fmt::Formatter<'_>, component: &str, [l1, l2, l3]: [f64; 3], found: f64| {
+                writeln!(f, "    component   {component}")?;
+                writeln!(f, "    stretches   {l1}, {l2}, {l3}")?;
+                writeln!(f, "    found       {found:e}")
+            };
+        match self {
+            Self::Differs { component, stretches, found, expected, tolerance, .. } => {
+                where_and_what(f, component, *stretches, *found)?;
+                writeln!(f, "    expected    {expected:e}")?;
+                let difference = (found - expected).abs();
+                if *tolerance == 0.0 {
+                    write!(f, "    difference  {difference:.1e}, where both must have the same bits")
+                } else {
+                    write!(f, "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}")
+                }
+            }
+            Self::WrongSign { component, stretches, found, .. } => {
+                where_and_what(f, component, *stretches, *found)?;
+                write!(f, "    expected    a positive number")
+            }
+            Self::NothingToCheck { .. } => {
+                write!(f, "    the material admits none of the sampled stretches: choose another `range`")
+            }
+        }
+    }
+}
+
+impl Error for Violation {}
+
+/// All broken promises, at most one for each rule: the first that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violations(pub Vec<Violation>);
+
+impl fmt::Display for Violations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, violation) in self.0.iter().enumerate() {
+            if k > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{violation}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Error for Violations {}
