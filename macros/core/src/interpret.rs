@@ -179,6 +179,10 @@ impl Interpreter<'_> {
             _ if r.fract() == 0.0 => value.powi(r as i32),
             _ => value.powf(r),
         };
+        // What has cancelled altogether has no relative error.
+        if value == 0.0 {
+            return Value { value: power, magnitude: magnitude.powf(r) };
+        }
         Value { value: power, magnitude: power.abs() * (1.0 + (r * (magnitude / value.abs() - 1.0)).abs()) }
     }
 

@@ -58,6 +58,8 @@ fn check_signature(signature: &str, expected: &[(&str, &str)]) {
 #[test]
 fn a_good_energy_has_none() {
     check_body(GOOD, &[]);
+    // A power of what vanishes at rest is zero there, not unknown.
+    check_body(&format!("{GOOD} + mu * (I1b - 3.0).powf(2.5)"), &[]);
     check_arguments(
         "domain(J > 0.0), admissible(m[p] * m[p] > -1.0, mu.powi(2.0) * 3.0.sqrt() >= 0), extend(mu > 0.0)",
         &[],
@@ -238,6 +240,14 @@ fn arguments() {
     check_arguments("domain(J > 0.0, l1 != 2.0)", &[("l1 != 2.0", "only a volume can be left out")]);
     check_arguments("domein(J > 0.0), extend", &[("domein", "did you mean `domain(J > 0.0)`?")]);
     check_arguments("extend", &[("extend", "declare one of these")]);
+    check_arguments("domain(J > 0.0), fit(mu)", &[("fit", "`fit` is written `fit`")]);
+    check_arguments("domain(J > 0.0), fitt", &[("fitt", "did you mean `fit`?")]);
+    check_arguments("domain(J > 0.0), fit, fit", &[("fit", "`fit` is given twice")]);
+    check(
+        "fit",
+        "fn E([l1, l2, l3]: [f64; 3], f: Spline) -> f64 { f(l1) + f(l2) + f(l3) }",
+        &[("fit", "remove `fit`")],
+    );
     check_arguments("domain(J != 0.0), extend, refuse(\"no\")", &[("refuse", "either `extend` or `refuse`")]);
     check_arguments("domain(J > 0.0), refuse(no)", &[("no", "say in a string why")]);
     check_arguments("domain(J > 0.0), domein(mu > 0.0)", &[("domein", "did you mean `domain(J > 0.0)`?")]);

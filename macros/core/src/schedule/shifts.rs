@@ -42,8 +42,10 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                     continue;
                 }
                 let shift = match powers.way(base, exponent) {
-                    Way::Real(computed) => exponent.rational.checked_add(computed.negated()),
-                    Way::Root(_) => None,
+                    Way::Real(computed) if !varies(graph, base) => {
+                        exponent.rational.checked_add(computed.negated())
+                    }
+                    Way::Real(_) | Way::Root(_) => None,
                 };
                 match shift.and_then(Rational::as_integer) {
                     Some(n) if n != 0 && exponent.real.is_some() => {
@@ -74,6 +76,11 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
         }
         _ => (Shifts::new(), id),
     }
+}
+
+/// Whether it may differ from entry to entry: such a base stays in its sum.
+fn varies(graph: &Graph, id: Id) -> bool {
+    graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
 }
 
 fn times(graph: &mut Graph, id: Id, shifts: &Shifts) -> Id {
