@@ -20,7 +20,11 @@ use proc_macro::TokenStream;
 /// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: what `new` checks, beside finite numbers and a stable rest state;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these conditions;
 /// * `refuse("why")`: it cannot;
-/// * `prestressed`: stress at rest is intended.
+/// * `prestressed`: stress at rest is intended;
+/// * `fit`: it is `piola::material::Fittable` too, with the derivatives of its stress by its parameters.
+///
+/// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no other, the type
+/// also has `from_young_poisson(young, poisson, other parameters…)`.
 ///
 /// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is used.
 #[proc_macro_attribute]

@@ -170,6 +170,17 @@ impl Moduli {
 
     /// From Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)).
     ///
+    /// ```
+    /// use piola::material::Moduli;
+    ///
+    /// # fn main() -> Result<(), piola::material::Inadmissible> {
+    /// let steel = Moduli::from_young_poisson(2.1e11, 0.3)?;
+    /// assert!((steel.mu - 2.1e11 / 2.6).abs() < 1e-3);
+    /// assert!(Moduli::from_young_poisson(1e6, 0.5).is_err());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// Unless E > 0 and −1 < ν < 1/2, both finite.
     pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, Inadmissible> {

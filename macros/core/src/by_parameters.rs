@@ -49,3 +49,94 @@ fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, list: usize) -> Id
     }
     graph.sum_of(&terms)
 }
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::TokenStream;
+    use quote::quote;
+
+    use crate::interpret::{Point, evaluate};
+    use crate::understand;
+
+    /// Entry `place` of every list in place of entry 0, which stands for all outside sums.
+    fn with_first(point: &Point, place: usize) -> Point {
+        let mut point = point.clone();
+        point.parameters.iter_mut().filter(|list| list.len() > place).for_each(|list| list.swap(0, place));
+        point
+    }
+
+    /// The slope of finite differences by each number: their error must fall as h², or be no more than rounding.
+    #[track_caller]
+    fn check(body: TokenStream, parameters: &[&[f64]], stretches: [f64; 3]) {
+        let item = quote! {
+            fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
+        };
+        let (_, model) = understand(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
+        let point = Point {
+            stretches,
+            parameters: parameters.iter().map(|list| list.to_vec()).collect(),
+            lengths: vec![parameters[0].len()],
+            ..Point::default()
+        };
+        let by_parameters = model.by_parameters.expect("asked for");
+        for (list, derivatives) in by_parameters.into_iter().enumerate() {
+            for (place, stress) in
+                (0..parameters[list].len()).flat_map(|place| [0, 1, 2].map(|stress| (place, stress)))
+            {
+                let exact = evaluate(&model.graph, derivatives[stress], &with_first(&point, place)).value;
+                let at = |change: f64| {
+                    let mut point = point.clone();
+                    point.parameters[list][place] += change;
+                    evaluate(&model.graph, model.plain.gradient[stress], &point)
+                };
+                let error = |h: f64| ((at(h).value - at(-h).value) / (2.0 * h) - exact).abs();
+                let (coarse, fine) = (error(1e-2), error(1e-3));
+                let rounding = 100.0 * f64::EPSILON / 1e-3 * at(0.0).magnitude;
+                let is_slope = fine <= rounding || (80.0..120.0).contains(&(coarse / fine));
+                assert!(is_slope, "ψ{} by {list}, entry {place}: {coarse:e} then {fine:e}", stress + 1);
+            }
+        }
+    }
+
+    const LISTS: [&[f64]; 3] = [&[1.5, 0.7, 0.4], &[1.3, 3.0, -2.0], &[0.8]];
+    const STRETCHES: [f64; 3] = [1.7, 1.2, 0.6];
+
+    #[test]
+    fn entries_of_two_lists_in_one_sum() {
+        let ogden = quote! {
+            sum(|p| m[p] / a[p] * (x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p]) - 3.0)) - sum(|p| m[p]) * J.ln() * k
+        };
+        check(ogden.clone(), &LISTS, STRETCHES);
+        check(ogden, &LISTS, [1.0; 3]);
+    }
+
+    #[test]
+    fn sums_in_products_and_functions() {
+        let body = quote! {
+            let powers = sum(|p| m[p] * (x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p])));
+            powers * sum(|p| a[p] * a[p]) * (k * J).ln() + powers.powi(-2) + powers.sqrt()
+        };
+        check(body, &LISTS, STRETCHES);
+    }
+
+    #[test]
+    fn sums_in_the_terms_of_others() {
+        let body = quote! {
+            let total = sum(|p| m[p]);
+            let shares = sum(|p| m[p] / total * (I1 * a[p]).exp() * total.ln());
+            sum(|p| a[p] * shares.powi(2) * m[p]) + k * I1
+        };
+        check(body, &[&[0.5, 0.7], &[0.1, 0.2], &[0.8]], STRETCHES);
+    }
+
+    #[test]
+    fn parameters_in_exponents() {
+        let body = quote! {
+            let exponent = k * sum(|p| m[p]) - 1.0;
+            I1.powf(exponent) + sum(|p| (1.0 + m[p] * I1).powf(a[p] * k)) + 2.0.powf(k * k) * J.powf(k / 3.0)
+        };
+        check(body.clone(), &LISTS, STRETCHES);
+        check(body.clone(), &[&[1.0], &[0.0], &[1.0]], [1.0; 3]);
+        check(body, &[&[1.0], &[1.0], &[0.0]], STRETCHES);
+    }
+}

@@ -170,7 +170,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, declaration, plain.gradient));
     check::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
-    let from_young_poisson = young_poisson(&mut graph, declaration, moduli);
+    let from_young_poisson = young_poisson(&graph, declaration, moduli);
     Some(Model {
         graph,
         energy,

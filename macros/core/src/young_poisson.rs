@@ -7,11 +7,9 @@
 //! μ = a₁ p₁ + a₂ p₂ + a₀,   λ = b₁ p₁ + b₂ p₂ + b₀
 //! ```
 
-use crate::diff::Differentiator;
 use crate::expr::{Graph, Id, Node, Parameter};
 use crate::parse::Declaration;
 use crate::rational::Rational;
-use crate::simplify::simplify;
 
 /// The two parameters, in the order of the declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +38,7 @@ impl YoungPoisson {
 
 /// The parameters that follow from μ and λ, if they do. Moduli of a stressed rest state determine no response, and those with
 /// functions in them are known to the constructor alone.
-pub fn young_poisson(graph: &mut Graph, declaration: &Declaration, moduli: [Id; 2]) -> Option<YoungPoisson> {
+pub fn young_poisson(graph: &Graph, declaration: &Declaration, moduli: [Id; 2]) -> Option<YoungPoisson> {
     if declaration.options.prestressed || declaration.has_functions() {
         return None;
     }
@@ -74,19 +72,21 @@ fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<Parameter>> {
     Some(found)
 }
 
-/// The coefficients of both parameters and the rest, where all are fractions.
-fn affine(graph: &mut Graph, modulus: Id, parameters: [Parameter; 2]) -> Option<([Rational; 2], Rational)> {
-    let mut d = Differentiator::default();
-    let mut rest = modulus;
-    let mut coefficients = [Rational::ZERO; 2];
-    for (parameter, coefficient) in parameters.into_iter().zip(&mut coefficients) {
-        let parameter = graph.leaf(Node::Parameter(parameter));
-        let slope = d.derivative(graph, modulus, parameter);
-        let slope = simplify(graph, slope);
-        *coefficient = graph.as_constant(slope)?;
-        let share = graph.scale(parameter, *coefficient);
-        rest = graph.sub(rest, share);
+/// The coefficients of both parameters and what is added, where that is all.
+fn affine(graph: &Graph, modulus: Id, [p, q]: [Parameter; 2]) -> Option<([Rational; 2], Rational)> {
+    match graph.node(modulus) {
+        Node::Parameter(k) => {
+            let coefficient = |of| if of == *k { Rational::ONE } else { Rational::ZERO };
+            Some(([coefficient(p), coefficient(q)], Rational::ZERO))
+        }
+        Node::Linear { constant, terms } => {
+            let start = ([Rational::ZERO; 2], *constant);
+            terms.iter().try_fold(start, |([a, b], c), &(term, factor)| {
+                let ([inner_a, inner_b], inner_c) = affine(graph, term, [p, q])?;
+                let plus = |sum: Rational, inner: Rational| sum.checked_add(inner.checked_mul(factor)?);
+                Some(([plus(a, inner_a)?, plus(b, inner_b)?], plus(c, inner_c)?))
+            })
+        }
+        _ => None,
     }
-    let rest = simplify(graph, rest);
-    Some((coefficients, graph.as_constant(rest)?))
 }

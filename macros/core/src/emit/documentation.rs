@@ -126,7 +126,7 @@ mod tests {
             }
         };
         let (declaration, mut model) =
-            crate::understand(quote!(domain(J > 0.0), admissible(mu > 0.0), extend), item).unwrap();
+            crate::understand(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item).unwrap();
         let texts = super::Texts::of(&declaration, &mut model);
         let documentation = super::documentation(&declaration, &mut model, &texts);
         let lines: Vec<_> = documentation.lines().collect();
@@ -144,6 +144,7 @@ mod tests {
             "∂ψ/∂I1 = 1/2 μ",
             "∂ψ/∂J = −μ/J",
             "| energy | 11 (1 ln) |",
+            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.",
         ] {
             assert!(lines.contains(&line), "{line}\n{documentation}");
         }

@@ -53,11 +53,11 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
                 ::std::vec![#(#values),*]
             }
 
-            #[allow(unused_imports, unused_variables, clippy::all)]
+            #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
             fn gradient_by_parameters(&self, [#l1, #l2, #l3]: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
                 use ::piola::Real;
                 type R = f64;
-                let mut #derivatives: [::std::vec::Vec<[f64; 3]>; #count] = ::core::default::Default::default();
+                let mut #derivatives: [::std::vec::Vec<[f64; 3]>; #count] = [const { ::std::vec::Vec::new() }; #count];
                 #numbers
                 #(#lists)*
                 #derivatives.concat()

@@ -13,16 +13,15 @@ use crate::young_poisson::{Determined, YoungPoisson};
 /// `from_young_poisson`, with the parameters that are not determined in the order of the declaration.
 pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPoisson) -> TokenStream {
     let Declaration { visibility, parameters, .. } = declaration;
-    let [young, poisson, moduli] =
-        [["young", "young_modulus"], ["poisson", "poisson_ratio"], ["moduli", "small_strain_moduli"]]
-            .map(|candidates| free_name(declaration, &candidates));
+    let young = free_name(declaration, &["young", "young_modulus"]);
+    let poisson = free_name(declaration, &["poisson", "poisson_ratio"]);
     let others: Vec<_> =
         (0..parameters.len()).filter(|&k| determined.of(k).is_none()).map(|k| &parameters[k]).collect();
     let names = others.iter().map(|parameter| &parameter.name);
     let types = others.iter().map(|parameter| declaration.parameter_type(parameter));
     let solved = determined.0.map(|one| {
         let name = &parameters[one.parameter].name;
-        let value = value(&one, &quote!(#moduli));
+        let value = value(&one);
         quote!(let #name = #value;)
     });
     let all = parameters.iter().map(|parameter| &parameter.name);
@@ -52,7 +51,7 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
             #poisson: f64,
             #(#names: #types),*
         ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-            let #moduli = ::piola::material::Moduli::from_young_poisson(#young, #poisson)?;
+            let moduli = ::piola::material::Moduli::from_young_poisson(#young, #poisson)?;
             #(#solved)*
             Self::new(#(#all),*)
         }
@@ -60,7 +59,7 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
 }
 
 /// The parameter as an expression in `moduli`.
-fn value(determined: &Determined, moduli: &TokenStream) -> TokenStream {
+fn value(determined: &Determined) -> TokenStream {
     let Determined { mu, lambda, constant, .. } = *determined;
     let modulus = |coefficient: Rational, modulus: TokenStream| {
         (!coefficient.is_zero()).then(|| {
@@ -73,7 +72,7 @@ fn value(determined: &Determined, moduli: &TokenStream) -> TokenStream {
         })
     };
     let constant = (!constant.is_zero()).then(|| number(constant));
-    let terms = [modulus(mu, quote!(#moduli.mu)), modulus(lambda, quote!(#moduli.lambda)), constant];
+    let terms = [modulus(mu, quote!(moduli.mu)), modulus(lambda, quote!(moduli.lambda)), constant];
     let terms = terms.into_iter().flatten();
     quote!(#(#terms)+*)
 }

@@ -42,6 +42,8 @@
 /// ∂ψ/∂J = κ (J − 1) − μ/J
 /// ```
 ///
+/// **By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.
+///
 /// **Operations**, of each result by itself:
 ///
 /// | result | operations |
@@ -985,5 +987,61 @@ impl ::piola::material::Declared for Gent {
             mu: mu,
             lambda: t2,
         }
+    }
+}
+impl ::piola::material::Fittable for Gent {
+    fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+        ::std::vec![::std::vec![self.mu], ::std::vec![self.jm], ::std::vec![self.kappa]]
+    }
+    #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+    fn gradient_by_parameters(
+        &self,
+        [l1,
+        l2,
+        l3,
+        ]: [f64; 3],
+    ) -> ::std::vec::Vec<[f64; 3]> {
+        use ::piola::Real;
+        type R = f64;
+        let mut derivatives: [::std::vec::Vec<[f64; 3]>; 3] = [const {
+            ::std::vec::Vec::new()
+        }; 3];
+        let jm = R::splat(self.jm);
+        let t0 = R::splat(1.0) / jm;
+        let t1 = l1 * l1;
+        let t2 = l2.mul_add(l2, t1);
+        let t3 = l3.mul_add(l3, t2);
+        let t4 = t3 - R::splat(3.0);
+        let t5 = (-t0).mul_add(t4, R::splat(1.0));
+        let t6 = R::splat(1.0) / t5;
+        let t7 = R::splat(1.0) / l1;
+        let t8 = l1.mul_add(t6, -t7);
+        let t9 = R::splat(1.0) / l2;
+        let t10 = l2.mul_add(t6, -t9);
+        let t11 = R::splat(1.0) / l3;
+        let t12 = l3.mul_add(t6, -t11);
+        let mu = R::splat(self.mu);
+        let t13 = t0 * mu;
+        let t14 = t0 * t13;
+        let t15 = t4 * t14;
+        let t16 = t6 * t15;
+        let t17 = t6 * t16;
+        let t18 = l1 * t17;
+        let t19 = -t18;
+        let t20 = l2 * t17;
+        let t21 = -t20;
+        let t22 = l3 * t17;
+        let t23 = -t22;
+        let t24 = l1 * l2;
+        let t25 = l3.mul_add(t24, -R::splat(1.0));
+        let t26 = l2 * l3;
+        let t27 = t25 * t26;
+        let t28 = l1 * l3;
+        let t29 = t25 * t28;
+        let t30 = t24 * t25;
+        derivatives[0].push([t8, t10, t12]);
+        derivatives[1].push([t19, t21, t23]);
+        derivatives[2].push([t27, t29, t30]);
+        derivatives.concat()
     }
 }

@@ -40,6 +40,8 @@
 /// ∂ψ/∂J = λ ln J/J − μ/J
 /// ```
 ///
+/// **By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.
+///
 /// **Operations**, of each result by itself:
 ///
 /// | result | operations |
@@ -108,6 +110,25 @@ impl NeoHookean {
             });
         }
         Ok(material)
+    }
+    /// The material with this stiffness at small strain.
+    ///
+    /// * `young`: Young's modulus E > 0, Pa.
+    /// * `poisson`: Poisson's ratio, −1 < ν < 1/2.
+    ///
+    /// With μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)), `mu` = μ and `lambda` = λ.
+    ///
+    /// # Errors
+    /// Where E or ν is outside its range, or what follows from them is not admissible.
+    #[allow(clippy::too_many_arguments)]
+    pub fn from_young_poisson(
+        young: f64,
+        poisson: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        let moduli = ::piola::material::Moduli::from_young_poisson(young, poisson)?;
+        let mu = moduli.mu;
+        let lambda = moduli.lambda;
+        Self::new(mu, lambda)
     }
     /// The same material with another way to meet what lies outside its domain.
     ///
@@ -784,5 +805,37 @@ impl ::piola::material::Declared for NeoHookean {
             mu: mu,
             lambda: lambda,
         }
+    }
+}
+impl ::piola::material::Fittable for NeoHookean {
+    fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+        ::std::vec![::std::vec![self.mu], ::std::vec![self.lambda]]
+    }
+    #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+    fn gradient_by_parameters(
+        &self,
+        [l1,
+        l2,
+        l3,
+        ]: [f64; 3],
+    ) -> ::std::vec::Vec<[f64; 3]> {
+        use ::piola::Real;
+        type R = f64;
+        let mut derivatives: [::std::vec::Vec<[f64; 3]>; 2] = [const {
+            ::std::vec::Vec::new()
+        }; 2];
+        let t0 = R::splat(1.0) / l1;
+        let t1 = l1 - t0;
+        let t2 = R::splat(1.0) / l2;
+        let t3 = l2 - t2;
+        let t4 = R::splat(1.0) / l3;
+        let t5 = l3 - t4;
+        let t6 = ::piola::quotient::ln_product([l1, l2, l3]);
+        let t7 = t0 * t6;
+        let t8 = t2 * t6;
+        let t9 = t4 * t6;
+        derivatives[0].push([t1, t3, t5]);
+        derivatives[1].push([t7, t8, t9]);
+        derivatives.concat()
     }
 }

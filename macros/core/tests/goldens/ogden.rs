@@ -37,6 +37,8 @@
 /// D⁺₁₂ = κ (J − 1) λ₃ + (Σₚ μₚ λ₁^(αₚ − 1) + Σₚ μₚ λ₂^(αₚ − 1))/(λ₁ + λ₂) − (Σₚ μₚ)/(λ₁ λ₂)
 /// ```
 ///
+/// **By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.
+///
 /// **Operations**, of each result by itself:
 ///
 /// | result | operations |
@@ -1044,5 +1046,61 @@ impl<const N: usize> ::piola::material::Declared for Ogden<N> {
             mu: t2,
             lambda: kappa,
         }
+    }
+}
+impl<const N: usize> ::piola::material::Fittable for Ogden<N> {
+    fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+        ::std::vec![self.mu.to_vec(), self.alpha.to_vec(), ::std::vec![self.kappa]]
+    }
+    #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+    fn gradient_by_parameters(
+        &self,
+        [l1,
+        l2,
+        l3,
+        ]: [f64; 3],
+    ) -> ::std::vec::Vec<[f64; 3]> {
+        use ::piola::Real;
+        type R = f64;
+        let mut derivatives: [::std::vec::Vec<[f64; 3]>; 3] = [const {
+            ::std::vec::Vec::new()
+        }; 3];
+        let t0 = l2 * l1;
+        let t1 = l3.mul_add(t0, -R::splat(1.0));
+        let t2 = l2 * l3;
+        let t3 = t1 * t2;
+        let t4 = l3 * l1;
+        let t5 = t1 * t4;
+        let t6 = t0 * t1;
+        derivatives[2].push([t3, t5, t6]);
+        for p in 0..N {
+            let alpha = R::splat(self.alpha[p]);
+            let t0 = alpha - R::splat(1.0);
+            let t1 = l1.logarithm();
+            let t2 = R::power(t1, t0);
+            let t3 = R::splat(1.0) / l1;
+            let t4 = t2 - t3;
+            let t5 = l2.logarithm();
+            let t6 = R::power(t5, t0);
+            let t7 = R::splat(1.0) / l2;
+            let t8 = t6 - t7;
+            let t9 = l3.logarithm();
+            let t10 = R::power(t9, t0);
+            let t11 = R::splat(1.0) / l3;
+            let t12 = t10 - t11;
+            let mu = R::splat(self.mu[p]);
+            let t13 = l1.ln();
+            let t14 = mu * t13;
+            let t15 = t2 * t14;
+            let t16 = l2.ln();
+            let t17 = mu * t16;
+            let t18 = t6 * t17;
+            let t19 = l3.ln();
+            let t20 = mu * t19;
+            let t21 = t10 * t20;
+            derivatives[0].push([t4, t8, t12]);
+            derivatives[1].push([t15, t18, t21]);
+        }
+        derivatives.concat()
     }
 }
