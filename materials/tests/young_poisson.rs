@@ -1,5 +1,6 @@
 //! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked.
 
+use piola::material;
 use piola::material::{Declared, Inadmissible, Moduli};
 use piola_materials::{
     CiarletNeoHookean, ExponentiatedHencky, FixedCorotated, Hencky, IsochoricNeoHookean, Knowles, NeoHookean,
@@ -62,4 +63,30 @@ fn materials_are_as_stiff_as_asked() -> Result<(), Inadmissible> {
     check(ValanisLandel::from_young_poisson)?;
     check(Varga::from_young_poisson)?;
     check(|young, poisson| Yeoh::from_young_poisson(young, poisson, -1.46e3, 40.4))
+}
+
+/// Parameters that are differences of moduli, one of them with a constant, and names of what is emitted.
+#[material(domain(J > 0.0))]
+pub fn Own(
+    [l1, l2, l3]: [f64; 3],
+    /// A quarter of the shear modulus, less 3 Pa.
+    c: f64,
+    /// Stiffening.
+    young: f64,
+    /// First Lamé parameter less 4/3 of the shear modulus, Pa.
+    a: f64,
+) -> f64 {
+    let shear = c + 3.0;
+    let stiffening = (I1b - 3.0).powi(2) * young * a;
+    2.0 * shear * (I1 - 3.0 - 2.0 * J.ln()) + (a / 2.0 + 8.0 / 3.0 * shear) * J.ln().powi(2) + stiffening
+}
+
+#[test]
+fn differences_and_constants_are_solved() -> Result<(), Inadmissible> {
+    check(|young, poisson| Own::from_young_poisson(young, poisson, 0.1))?;
+    // E = 2.5, ν = 0.25: μ = λ = 1.
+    let own = Own::from_young_poisson(2.5, 0.25, 0.1)?;
+    assert_eq!((own.c(), own.young()), (0.25 - 3.0, 0.1));
+    assert!((own.a() + 1.0 / 3.0).abs() < 4.0 * f64::EPSILON, "{}", own.a());
+    Ok(())
 }

@@ -1,5 +1,7 @@
 //! The derivatives of the stress by the parameters, against the stress itself.
 
+mod own;
+
 use piola::Inversion;
 use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter};
 use piola_materials::{CATALOGUE, Entry, FittableVisitor, find};
@@ -75,7 +77,7 @@ fn scale(material: &impl Fittable, derivatives: &[[f64; 3]]) -> f64 {
         let p = values[list][place];
         d.iter().map(|d| (p * d).abs()).sum::<f64>()
     };
-    2.0 * mu + lambda.abs() + shares.map(size).sum::<f64>()
+    2.0 * mu.abs() + lambda.abs() + shares.map(size).sum::<f64>()
 }
 
 struct Slopes<'a>(&'a str);
