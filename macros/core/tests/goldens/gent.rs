@@ -247,6 +247,13 @@ impl ::piola::Material for Gent {
     fn ends_at_zero_volume(&self) -> bool {
         ::core::matches!(self.inversion, ::piola::Inversion::Refuse)
     }
+    #[inline]
+    fn inversion(&self) -> ::piola::Inversion {
+        self.inversion
+    }
+    fn stated_moduli(&self) -> ::core::option::Option<::piola::material::Moduli> {
+        ::core::option::Option::Some(::piola::material::Declared::moduli(self))
+    }
 }
 #[allow(unused_variables, clippy::all)]
 impl ::piola::material::Varying for Gent {
@@ -913,10 +920,6 @@ impl ::piola::material::Varying for Gent {
                     (R::splat(epsilon) * I1).less(J + J)
                 }
             }
-    }
-    #[inline]
-    fn inversion(&self) -> ::piola::Inversion {
-        self.inversion
     }
 }
 impl ::piola::material::Declared for Gent {

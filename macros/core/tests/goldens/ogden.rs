@@ -228,6 +228,13 @@ impl<const N: usize> ::piola::Material for Ogden<N> {
     fn ends_at_zero_volume(&self) -> bool {
         ::core::matches!(self.inversion, ::piola::Inversion::Refuse)
     }
+    #[inline]
+    fn inversion(&self) -> ::piola::Inversion {
+        self.inversion
+    }
+    fn stated_moduli(&self) -> ::core::option::Option<::piola::material::Moduli> {
+        ::core::option::Option::Some(::piola::material::Declared::moduli(self))
+    }
 }
 #[allow(unused_variables, clippy::all)]
 impl<const N: usize> ::piola::material::Varying for Ogden<N> {
@@ -969,10 +976,6 @@ impl<const N: usize> ::piola::material::Varying for Ogden<N> {
                 <R::Mask as ::piola::lanes::Mask>::splat(true)
             }
         }
-    }
-    #[inline]
-    fn inversion(&self) -> ::piola::Inversion {
-        self.inversion
     }
 }
 impl<const N: usize> ::piola::material::Declared for Ogden<N> {
