@@ -23,10 +23,11 @@
 //! | rule | what must hold |
 //! |---|---|
 //! | [`rest`] | no stress, no twist at F = I, and a positive shear modulus |
+//! | [`domain`] | numbers are finite where they are admitted, and [`Material::ends_at_zero_volume`] tells the truth |
 //! | [`objectivity`] | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
 //! | [`isotropy`] | rotating the rest shape does likewise, and equal stretches are interchangeable |
 //! | [`symmetric_tangent`] | A : (dP/dF) B = B : (dP/dF) A |
-//! | [`stress_slope`] | difference quotients of ψ approach P as h² |
+//! | [`stress_slope`] | difference quotients of ψ approach P as h², and ψ grows by the work of P |
 //! | [`tangent_slope`] | difference quotients of P approach dP/dF as h² |
 //! | [`dual_numbers`] | ψ of dual numbers gives the gradient, the gradient of dual numbers the Hessian, to rounding |
 //! | [`quotients`] | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
@@ -54,6 +55,7 @@ use std::fmt;
 use crate::material::{Blocks, Inversion, Material};
 
 mod derivatives;
+mod domain;
 mod dual;
 mod evaluation;
 mod frames;
@@ -73,6 +75,7 @@ mod strains;
 mod violation;
 
 pub use derivatives::dual_numbers;
+pub use domain::domain;
 pub use frames::{isotropy, objectivity, symmetric_tangent};
 pub use invariants::invariants;
 pub use inverted::extension;
@@ -171,6 +174,7 @@ pub fn check_rule<M: Material>(
     };
     applies.then(|| match rule {
         Rule::Rest => rest(material, settings),
+        Rule::Domain => domain(material, settings),
         Rule::Objectivity => objectivity(material, settings),
         Rule::Isotropy => isotropy(material, settings),
         Rule::SymmetricTangent => symmetric_tangent(material, settings),

@@ -20,9 +20,11 @@ use std::fmt;
 use crate::lanes::{Mask, Real};
 
 mod fittable;
+mod normalised;
 mod varying;
 
 pub use fittable::Fittable;
+pub use normalised::Normalised;
 pub use varying::{Each, Mixed, Parameters, Uniform, Varying};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
@@ -200,13 +202,13 @@ impl Moduli {
         self.lambda + 2.0 / 3.0 * self.mu
     }
 
-    /// Young's modulus E = μ (3λ + 2μ) / (λ + μ), Pa.
+    /// Young's modulus E = μ (3λ + 2μ) / (λ + μ), Pa: from 0 at λ = −2μ/3, where K is, to 3μ as λ grows.
     #[must_use]
     pub fn young(&self) -> f64 {
-        self.mu * (3.0 * self.lambda + 2.0 * self.mu) / (self.lambda + self.mu)
+        self.mu * ((3.0 * self.lambda + 2.0 * self.mu) / (self.lambda + self.mu))
     }
 
-    /// Poisson's ratio ν = λ / (2 (λ + μ)).
+    /// Poisson's ratio ν = λ / (2 (λ + μ)): from −1 at λ = −2μ/3, by 0 at λ = 0, to ½ as λ grows.
     #[must_use]
     pub fn poisson(&self) -> f64 {
         self.lambda / (2.0 * (self.lambda + self.mu))
@@ -260,6 +262,15 @@ pub trait Declared: Material + Sized {
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
     fn moduli(&self) -> Moduli;
+
+    /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2 (J − 1)²; see
+    /// [`Normalised`].
+    ///
+    /// # Errors
+    /// As [`Normalised::new`]: E or ν out of bounds, or ν below that of the energy itself.
+    fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, Inadmissible> {
+        Normalised::new(self, young, poisson)
+    }
 }
 
 /// Why a material cannot be built from these parameters.
@@ -321,6 +332,13 @@ pub enum Inadmissible {
         /// The parameters as given.
         given: String,
     },
+    /// A Poisson's ratio is asked for that is below what an energy has by itself.
+    BelowOwnPoisson {
+        /// As asked for.
+        poisson: f64,
+        /// The energy's own, which is the lowest that it can be normalised to.
+        lowest: f64,
+    },
     /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
     Shape {
         /// What was expected.
@@ -368,9 +386,45 @@ impl fmt::Display for Inadmissible {
                 "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {given}; \
                  use `Inversion::Refuse` or other parameters"
             ),
+            Self::BelowOwnPoisson { poisson, lowest } => write!(
+                f,
+                "Poisson's ratio {poisson} is below {lowest}, that of the energy itself, to which resistance to changes of \
+                 volume can be added but not taken away: lower its volumetric parameter first, or, of an energy of the \
+                 catalogue, let `Entry::matching` choose its parameters"
+            ),
             Self::Shape { expected } => write!(f, "{expected}"),
         }
     }
 }
 
 impl std::error::Error for Inadmissible {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moduli_are_those_that_they_came_from() {
+        for poisson in [-0.99, -0.5, 0.0, 0.25, 0.3, 0.45, 0.499_999_9] {
+            for young in [1e-3, 1.0, 2e11] {
+                let moduli = Moduli::from_young_poisson(young, poisson).expect("elastic");
+                // 3λ + 2μ is E/(1 − 2ν), and cancels towards ν = −1; 1 − 2ν has ν's rounding.
+                let error = 8.0 * f64::UNIT_ROUNDOFF / (1.0 + poisson);
+                assert!((moduli.young() - young).abs() <= error * young, "{moduli:?}");
+                assert!((moduli.poisson() - poisson).abs() <= error, "{moduli:?}");
+                let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
+                assert!((moduli.bulk() - bulk).abs() <= error * bulk, "{moduli:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn moduli_have_limits() {
+        let no_bulk = Moduli { mu: 3.0, lambda: -2.0 };
+        assert_eq!((no_bulk.bulk(), no_bulk.young(), no_bulk.poisson()), (0.0, 0.0, -1.0));
+        let no_lateral = Moduli { mu: 3.0, lambda: 0.0 };
+        assert_eq!((no_lateral.bulk(), no_lateral.young(), no_lateral.poisson()), (2.0, 6.0, 0.0));
+        let nearly_incompressible = Moduli { mu: 3e10, lambda: 1e300 };
+        assert_eq!((nearly_incompressible.young(), nearly_incompressible.poisson()), (9e10, 0.5));
+    }
+}

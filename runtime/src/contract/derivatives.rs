@@ -1,6 +1,7 @@
 //! The rule on derivatives by dual numbers: to rounding, where difference quotients leave a truncation.
 
 use super::dual::Dual;
+use super::evaluation::{blocks_at, energy_at, gradient_at};
 use super::samples::at_samples;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::Material;
@@ -16,19 +17,19 @@ pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1),
 /// The first violation.
 pub fn dual_numbers(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::DualNumbers, material, settings, |judge, stretches, _| {
-        let blocks = material.blocks(stretches);
-        let gradient = material.gradient(stretches);
+        let blocks = blocks_at(material, stretches);
+        let gradient = gradient_at(material, stretches);
         let first = 100.0 * UNIT * stress_scale(&blocks, stretches);
         let second = 100.0 * UNIT * stiffness(&blocks);
         let lines = [0, 1, 2].map(|k| Dual::along(stretches, k));
         for k in 0..3 {
-            let expected = material.energy(lines[k]).slope;
+            let expected = energy_at(material, lines[k]).slope;
             for (method, found) in [("gradient", gradient[k]), ("blocks", blocks.gradient[k])] {
                 let name = || format!("{}, as `{method}` gives it", gradient_name(k));
                 judge.compare(name, stretches, found, expected, first)?;
             }
         }
-        let rows = lines.map(|line| material.gradient(line));
+        let rows = lines.map(|line| gradient_at(material, line));
         for (entry, (i, j)) in ENTRIES.into_iter().enumerate() {
             for expected in [rows[i][j].slope, rows[j][i].slope] {
                 let found = blocks.hessian[entry];

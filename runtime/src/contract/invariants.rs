@@ -1,5 +1,6 @@
 //! The rule on invariants: what a material says by I1, I2 and J against what it says by stretches.
 
+use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
@@ -22,16 +23,16 @@ pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Find
         if !material.admits_invariants(invariants) {
             return Ok(());
         }
-        let admitted = if material.admits(stretches) { 1.0 } else { -1.0 };
+        let admitted = if is_admitted(material, stretches) { 1.0 } else { -1.0 };
         judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
 
-        let scale = stress_scale(&material.blocks(stretches), stretches);
-        let expected = material.energy(stretches);
+        let scale = stress_scale(&blocks_at(material, stretches), stretches);
+        let expected = energy_at(material, stretches);
         let found = material.energy_by_invariants(invariants);
         let tolerance = 100.0 * UNIT * (scale * stretches[0] + expected.abs());
         judge.compare(|| "energy by invariants".into(), stretches, found, expected, tolerance)?;
 
-        let gradient = material.gradient(stretches);
+        let gradient = gradient_at(material, stretches);
         let [w1, w2, wj] = material.gradient_by_invariants(invariants);
         for i in 0..3 {
             let [l, m, n] = [i, (i + 1) % 3, (i + 2) % 3].map(|k| stretches[k]);

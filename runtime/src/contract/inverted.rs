@@ -1,6 +1,7 @@
 //! The rule on extensions: smooth beside and across the threshold, restoring below it.
 
-use super::slopes::{Approach, energy_at, stress_at};
+use super::evaluation::{gradient_at, is_admitted};
+use super::slopes::{Approach, energy_along, stress_along};
 use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
 use crate::material::{Inversion, Material};
 use crate::random::Random;
@@ -59,8 +60,8 @@ fn across(
     if !admitted(judge, material, stretches)? {
         return Ok(());
     }
-    energy_at(judge, material, stretches, &Approach::smooth(stretches), random)?;
-    stress_at(judge, material, stretches, &Approach::across(stretches), random)
+    energy_along(judge, material, stretches, &Approach::smooth(stretches), random)?;
+    stress_along(judge, material, stretches, &Approach::across(stretches), random)
 }
 
 fn beside(
@@ -74,8 +75,8 @@ fn beside(
         return Ok(());
     }
     let approach = Approach::beside(epsilon, stretches);
-    energy_at(judge, material, stretches, &approach, random)?;
-    stress_at(judge, material, stretches, &approach, random)?;
+    energy_along(judge, material, stretches, &approach, random)?;
+    stress_along(judge, material, stretches, &approach, random)?;
     if stretches[2] < epsilon { restoring(judge, material, stretches) } else { Ok(()) }
 }
 
@@ -83,7 +84,7 @@ fn restoring(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -
     if stretches.iter().product::<f64>() >= 1.0 || !admitted(judge, material, stretches)? {
         return Ok(());
     }
-    let found = -material.gradient(stretches)[2];
+    let found = -gradient_at(material, stretches)[2];
     judge.positive(|| format!("negative {}", gradient_name(2)), stretches, found)
 }
 
@@ -91,10 +92,10 @@ fn restoring(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -
 /// on I1 is no matter of inversion.
 fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<bool, Violation> {
     let [l1, l2, l3] = stretches;
-    if !material.admits([l1, l2, l3.abs()]) {
+    if !is_admitted(material, [l1, l2, l3.abs()]) {
         return Ok(false);
     }
-    let admitted = if material.admits(stretches) { 1.0 } else { -1.0 };
+    let admitted = if is_admitted(material, stretches) { 1.0 } else { -1.0 };
     judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
     Ok(true)
 }

@@ -1,6 +1,7 @@
 //! The rule on lanes: many points side by side against each by itself.
 
-use super::numbers::{COUNT, known, name, numbers};
+use super::evaluation::{gradient_at_strains, is_admitted};
+use super::numbers::{COUNT, known, name, numbers, numbers_alone};
 use super::samples::{samples, together};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation};
 use crate::lanes::{Backend, Kernel, Lanes, Real};
@@ -25,13 +26,13 @@ pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, V
     for stretches in samples(material, settings, &mut random) {
         points.push(stretches);
         let close = [1e-9, 0.0].into_iter().flat_map(|gap| together(stretches, gap));
-        points.extend(close.filter(|&close| material.admits(close)));
+        points.extend(close.filter(|&close| is_admitted(material, close)));
     }
-    let alone: Vec<_> = points.iter().map(|&stretches| everything(material, stretches)).collect();
+    let alone: Vec<_> = points.iter().map(|&stretches| alone_at(material, stretches)).collect();
 
     let portable = Backend::portable();
-    let side_by_side = portable.run(SideBySide(material, &points));
-    for ((&stretches, found), expected) in points.iter().zip(side_by_side).zip(&alone) {
+    let together = side_by_side_on(portable, material, &points);
+    for ((&stretches, found), expected) in points.iter().zip(together).zip(&alone) {
         for k in 0..ALL {
             let name = || format!("{} on the {portable} back end against a scalar", everything_name(k));
             judge.same(name, stretches, found[k], expected[k])?;
@@ -39,12 +40,12 @@ pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, V
     }
 
     let backend = Backend::best();
-    let in_order = backend.run(SideBySide(material, &points));
+    let in_order = side_by_side_on(backend, material, &points);
     // Each in the lane before, with other neighbours.
     let by = 1.min(points.len());
     let mut moved = points.clone();
     moved.rotate_left(by);
-    let mut shifted = backend.run(SideBySide(material, &moved));
+    let mut shifted = side_by_side_on(backend, material, &moved);
     shifted.rotate_right(by);
     for ((&stretches, found), expected) in points.iter().zip(shifted).zip(&in_order) {
         for k in 0..ALL {
@@ -67,14 +68,33 @@ const ALL: usize = COUNT + 9;
 
 #[inline(always)]
 fn everything<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; ALL] {
-    let [l1, l2, l3] = stretches;
-    let one = R::splat(1.0);
-    let truth = |mask| R::select(mask, one, R::splat(0.0));
+    let by_strains = material.gradient_at_strains(strains(stretches));
+    in_a_row(material, stretches, numbers(material, stretches), by_strains)
+}
+
+#[inline(never)]
+fn alone_at(material: &impl Material, stretches: [f64; 3]) -> [f64; ALL] {
+    let by_strains = gradient_at_strains(material, strains(stretches));
+    in_a_row(material, stretches, numbers_alone(material, stretches), by_strains)
+}
+
+/// Those of the mirror image, since strains are above −1.
+#[inline(always)]
+fn strains<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
+    [l1, l2, l3.abs()].map(|l| l - R::splat(1.0))
+}
+
+#[inline(always)]
+fn in_a_row<R: Real>(
+    material: &impl Material,
+    stretches: [R; 3],
+    numbers: [R; COUNT],
+    [s1, s2, s3]: [R; 3],
+) -> [R; ALL] {
     let [a, b, c] = stretches.map(|l| l * l);
-    let invariants = [a + b + c, a * b + a * c + b * c, l1 * l2 * l3];
-    // Strains are above −1.
-    let [s1, s2, s3] = material.gradient_at_strains([l1 - one, l2 - one, l3.abs() - one]);
+    let invariants = [a + b + c, a * b + a * c + b * c, stretches[0] * stretches[1] * stretches[2]];
     let [w1, w2, wj] = material.gradient_by_invariants(invariants);
+    let truth = |mask| R::select(mask, R::splat(1.0), R::splat(0.0));
     let others = [
         s1,
         s2,
@@ -86,7 +106,6 @@ fn everything<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; ALL] 
         truth(material.admits(stretches)),
         truth(material.admits_invariants(invariants)),
     ];
-    let numbers = numbers(material, stretches);
     std::array::from_fn(|k| if k < COUNT { numbers[k] } else { others[k - COUNT] })
 }
 
@@ -103,6 +122,12 @@ fn everything_name(number: usize) -> String {
         "admission of the invariants (1 or 0)",
     ];
     if number < COUNT { name(number) } else { OTHERS[number - COUNT].into() }
+}
+
+/// One place for all calls: what a back end runs is compiled wherever it is asked for.
+#[inline(never)]
+fn side_by_side_on(backend: Backend, material: &impl Material, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
+    backend.run(SideBySide(material, points))
 }
 
 /// Everything at these stretches, as many points at once as there are lanes; the last point fills up what is left.

@@ -1,18 +1,26 @@
 //! All numbers of a point in a row, and how well a format can know them: what the rules on formats and lanes compare.
 
+use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::{gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::lanes::Real;
-use crate::material::Material;
+use crate::material::{Blocks, Material};
 
 /// How many numbers there are.
 pub(super) const COUNT: usize = 19;
 
-/// ψ; ψ1 … ψ3 from `gradient`; gradient, Hessian, flips and twists from `blocks`.
+/// ψ; ψ1 … ψ3 from `gradient`; gradient, Hessian, flips and twists from `blocks`: of many points at once.
 #[inline(always)]
 pub(super) fn numbers<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
-    let energy = material.energy(stretches);
-    let [g1, g2, g3] = material.gradient(stretches);
-    let blocks = material.blocks(stretches);
+    in_a_row(material.energy(stretches), material.gradient(stretches), material.blocks(stretches))
+}
+
+/// The same of one point.
+pub(super) fn numbers_alone<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
+    in_a_row(energy_at(material, stretches), gradient_at(material, stretches), blocks_at(material, stretches))
+}
+
+#[inline(always)]
+fn in_a_row<R: Real>(energy: R, [g1, g2, g3]: [R; 3], blocks: Blocks<R>) -> [R; COUNT] {
     let [p1, p2, p3] = blocks.gradient;
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
     let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);
@@ -39,9 +47,8 @@ pub(super) fn name(number: usize) -> String {
 pub(super) fn known(material: &impl Material, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
     /// Long beside rounding, short beside what an energy changes over.
     const STEP: f64 = 1.0 / 4096.0;
-    let at = |stretches: [f64; 3]| numbers(material, stretches);
-    let values = at(stretches);
-    let blocks = material.blocks(stretches);
+    let values = numbers_alone(material, stretches);
+    let blocks = blocks_at(material, stretches);
     let (stress, curvature) = (stress_scale(&blocks, stretches), stiffness(&blocks));
     let mut sizes = [curvature; COUNT];
     sizes[0] = stress * stretches[0] + values[0].abs();
@@ -50,10 +57,11 @@ pub(super) fn known(material: &impl Material, stretches: [f64; 3]) -> Option<([f
     for moved in 1..=3 {
         let moved =
             std::array::from_fn(|k| if k < moved { stretches[k] * (1.0 + STEP) } else { stretches[k] });
-        if !material.admits(moved) {
+        if !is_admitted(material, moved) {
             return None;
         }
-        for (size, (after, before)) in sizes.iter_mut().zip(at(moved).iter().zip(values)) {
+        for (size, (after, before)) in sizes.iter_mut().zip(numbers_alone(material, moved).iter().zip(values))
+        {
             *size += (after - before).abs() / STEP;
         }
     }

@@ -65,6 +65,11 @@ macro_rules! contract {
             }
 
             #[test]
+            fn domain() {
+                keep($crate::contract::Rule::Domain);
+            }
+
+            #[test]
             fn objectivity() {
                 keep($crate::contract::Rule::Objectivity);
             }

@@ -11,8 +11,9 @@
 //! ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to full
 //! accuracy over gaps of a tenth of the stretches; where higher derivatives jump in between, as at the threshold of an
 //! extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing cancels and the quotients
-//! are what their definition says.
+//! are what their definition says. Stretches 1 and 3 can only be close together with stretch 2 between them.
 
+use super::evaluation::{blocks_at, is_admitted};
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
 use crate::material::{Blocks, Material, PAIRS};
@@ -35,7 +36,7 @@ pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Findin
 
 /// The quotients against (ψi ∓ ψj)/(λi ∓ λj), as exactly as that is known.
 fn by_definition(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
-    let blocks = material.blocks(stretches);
+    let blocks = blocks_at(material, stretches);
     for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
         let (a, b) = (blocks.gradient[i], blocks.gradient[j]);
         let terms = a.abs() + b.abs() + stiffness(&blocks) * stretches[0];
@@ -62,14 +63,24 @@ fn close(
 ) -> Result<(), Violation> {
     let [l1, l2, l3] = stretches;
     // The pair is moved together around its mean, the other stretch stays; descending order is kept.
-    for (pair, center, other) in [(0, 0.5 * (l1 + l2), l3), (2, 0.5 * (l1 + l2), l1 * 2.0)] {
+    // In the last three cases all are close, the other one in the middle or as far as the end of the pair.
+    let reach = 0.5 * gap * l2;
+    let cases = [
+        (0, 0.5 * (l1 + l2), l3),
+        (2, 0.5 * (l1 + l2), l1 * 2.0),
+        (0, l2, l2 - reach),
+        (1, l2, l2),
+        (2, l2, l2 + reach),
+    ];
+    for (pair, center, other) in cases {
         let half = 0.5 * gap * center;
         let at = |t: f64| {
             let (x, y) = (center + t, center - t);
-            if pair == 0 { [x, y, other] } else { [other, x, y] }
+            [[x, y, other], [x, other, y], [other, x, y]][pair]
         };
-        let descends = pair == 2 || center - half >= other.abs();
-        if !descends || !material.admits(at(0.0)) || !material.admits(at(half)) {
+        let [x, y, z] = at(half);
+        let descends = x >= y && y >= z.abs();
+        if !descends || !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
             continue;
         }
         let (i, j) = PAIRS[pair];
@@ -77,10 +88,10 @@ fn close(
         let stored = at(half);
         let exact = 0.5 * (stored[i] - stored[j]);
         let (expected, inexact) = mean(exact, |t| {
-            let blocks = material.blocks(at(t));
+            let blocks = blocks_at(material, at(t));
             0.5 * (blocks.hessian[i] + blocks.hessian[j]) - blocks.hessian[3 + pair]
         });
-        let blocks = material.blocks(stored);
+        let blocks = blocks_at(material, stored);
         let tolerance = tolerance(&blocks) + inexact;
         let name = || format!("{}, which are {gap:e} of their mean apart", pair_name("flip", pair));
         judge.compare(name, stored, blocks.flip[pair], expected, tolerance)?;
@@ -98,16 +109,25 @@ fn opposite(
     let [l1, l2, _] = stretches;
     let half = 0.5 * gap * l2;
     let at = |t: f64| [l1.max(1.1 * l2), t + l2, t - l2];
-    if material.has_pole() || !material.admits(at(0.0)) || !material.admits(at(half)) {
+    if !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
         return Ok(());
+    }
+    if material.has_pole() {
+        // Large at the pole, and bounded.
+        let stored = at(half);
+        let twist = blocks_at(material, stored).twist[2];
+        let bounded = if twist.is_finite() { 1.0 } else { -1.0 };
+        let name =
+            || format!("finiteness (1 or −1) of the {} at a pole, which is {twist}", pair_name("twist", 2));
+        return judge.positive(name, stored, bounded);
     }
     let stored = at(half);
     let exact = 0.5 * (stored[1] + stored[2]);
     let (expected, inexact) = mean(exact, |t| {
-        let blocks = material.blocks(at(t));
+        let blocks = blocks_at(material, at(t));
         0.5 * (blocks.hessian[1] + blocks.hessian[2]) + blocks.hessian[5]
     });
-    let blocks = material.blocks(stored);
+    let blocks = blocks_at(material, stored);
     let tolerance = tolerance(&blocks) + inexact;
     let name = || format!("{}, which are opposite but for {gap:e} of stretch 2", pair_name("twist", 2));
     judge.compare(name, stored, blocks.twist[2], expected, tolerance)
@@ -121,7 +141,7 @@ fn tolerance(blocks: &Blocks<f64>) -> f64 {
 
 /// The mean of f over [0, end] and how inexact it may be: four times by how much rules with fewer panels differ from
 /// it, zero up to rounding for a smooth f.
-fn mean(end: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
+pub(super) fn mean(end: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     let [whole, halves, quarters] = [1, 2, 4].map(|panels| {
         let width = end / f64::from(panels);
         (0..panels).map(|k| gauss(width * f64::from(k), width, &f)).sum::<f64>() / f64::from(panels)

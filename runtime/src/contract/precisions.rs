@@ -1,6 +1,7 @@
 //! The rule on formats: `f32` against `f64`, at stretches that both know.
 
-use super::numbers::{known, name, numbers};
+use super::evaluation::is_admitted;
+use super::numbers::{known, name, numbers_alone};
 use super::samples::{at_samples, together};
 use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
@@ -26,11 +27,11 @@ pub fn single_precision(material: &impl Material, settings: &Settings) -> Result
 fn compare(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
     let single = stretches.map(|l| l as f32);
     let stretches = single.map(f64::from);
-    if !material.admits(stretches) || !material.admits(single) {
+    if !is_admitted(material, stretches) || !material.admits(single) {
         return Ok(());
     }
     let Some((expected, tolerances)) = known(material, stretches) else { return Ok(()) };
-    let found = numbers(material, single);
+    let found = numbers_alone(material, single);
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let tolerance = <f32 as Real>::UNIT_ROUNDOFF * tolerances[k];
         judge.compare(|| format!("{} in `f32`", name(k)), stretches, found.into(), expected, tolerance)?;

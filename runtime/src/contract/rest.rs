@@ -1,5 +1,6 @@
 //! Rules on F = I.
 
+use super::evaluation::blocks_at;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
 use crate::material::{Material, Moduli};
 
@@ -10,7 +11,7 @@ use crate::material::{Material, Moduli};
 pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Rest);
     let stretches = [1.0; 3];
-    let blocks = material.blocks(stretches);
+    let blocks = blocks_at(material, stretches);
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
     for k in 0..3 {
         if settings.stress_free_at_rest {
@@ -32,7 +33,7 @@ pub fn moduli(material: &impl Material) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Moduli);
     let Some(stated) = material.stated_moduli() else { return judge.finding() };
     let stretches = [1.0; 3];
-    let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
+    let tolerance = 64.0 * UNIT * stiffness(&blocks_at(material, stretches));
     let found = Moduli::at_rest(material);
     judge.compare(|| "shear modulus".into(), stretches, stated.mu, found.mu, tolerance)?;
     judge.compare(|| "first Lamé parameter".into(), stretches, stated.lambda, found.lambda, tolerance)?;

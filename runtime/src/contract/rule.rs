@@ -8,6 +8,8 @@ use std::fmt;
 pub enum Rule {
     /// See [`rest`](super::rest).
     Rest,
+    /// See [`domain`](super::domain).
+    Domain,
     /// See [`objectivity`](super::objectivity).
     Objectivity,
     /// See [`isotropy`](super::isotropy).
@@ -38,8 +40,9 @@ pub enum Rule {
 
 impl Rule {
     /// All of them, in the order of the table at the head of the module.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Rest,
+        Self::Domain,
         Self::Objectivity,
         Self::Isotropy,
         Self::SymmetricTangent,
@@ -60,6 +63,7 @@ impl Rule {
     pub const fn promise(self) -> &'static str {
         match self {
             Self::Rest => "F = I is free of stress, and shear is resisted there",
+            Self::Domain => "where the energy is defined, it and its derivatives are finite numbers",
             Self::Objectivity => "rotating space rotates the stress and leaves the energy",
             Self::Isotropy => "rotating the rest shape rotates the stress, and no stretch is preferred",
             Self::SymmetricTangent => "A : (dP/dF) B = B : (dP/dF) A",
@@ -85,6 +89,7 @@ impl fmt::Display for Rule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Rest => "rest",
+            Self::Domain => "domain",
             Self::Objectivity => "objectivity",
             Self::Isotropy => "isotropy",
             Self::SymmetricTangent => "symmetric tangent",

@@ -48,6 +48,10 @@ enum Defect {
     OverstatedShear,
     ConstantOfSinglePrecision,
     AnyLaneDecides,
+    JumpingEnergy,
+    LimitWhereAllAreClose,
+    DeniesItsEnd,
+    UnboundedPole,
 }
 
 struct Defective<M>(M, Defect);
@@ -58,6 +62,9 @@ impl<M: Material> Material for Defective<M> {
         match self.1 {
             Defect::PrestressOfOnePart => right + l[0] + l[1] + l[2],
             Defect::PrefersFirstStretch => right + quartic(l[0])[0],
+            Defect::JumpingEnergy => {
+                right + R::select(l[2].less(R::splat(0.8)), R::splat(1e-6), R::splat(0.0))
+            }
             Defect::AttractsCollapse => right + R::splat(100.0) * below(l[2]) * below(l[2]) * below(l[2]),
             _ => right,
         }
@@ -128,7 +135,18 @@ impl<M: Material> Material for Defective<M> {
                     blocks.hessian[0] = h11 * R::splat(1.0 + 4.0 * UNIT);
                 }
             }
-            Defect::LinearInStrains | Defect::OverstatedShear => {}
+            Defect::LimitWhereAllAreClose => {
+                let close = (l[0] - l[2]).less(R::splat(1e-6));
+                // A limit for l[0] = l[2] = 1.
+                blocks.flip[1] = R::select(close, (diagonal[0] - mixed[1]) * l[1], blocks.flip[1]);
+            }
+            Defect::UnboundedPole => {
+                blocks.twist = PAIRS.map(|(i, j)| (gradient[i] + gradient[j]) / (l[i] + l[j]));
+            }
+            Defect::LinearInStrains
+            | Defect::OverstatedShear
+            | Defect::JumpingEnergy
+            | Defect::DeniesItsEnd => {}
         }
         blocks
     }
@@ -153,7 +171,7 @@ impl<M: Material> Material for Defective<M> {
     }
 
     fn ends_at_zero_volume(&self) -> bool {
-        self.0.ends_at_zero_volume()
+        self.0.ends_at_zero_volume() && !matches!(self.1, Defect::DeniesItsEnd)
     }
 
     fn inversion(&self) -> Inversion {
@@ -280,6 +298,18 @@ fn defects_that_one_rule_sees_are_named_by_it() {
         "second derivative of the energy by stretch 1 on the portable back end",
     );
     check_names_alone(&ByInvariants { w2: 0.5 }, Rule::Invariants, "by invariants");
+    check_names_alone(&plain(Defect::JumpingEnergy), Rule::StressSlope, "energy");
+    check_names_alone(&plain(Defect::DeniesItsEnd), Rule::Domain, "ends_at_zero_volume");
+    check_names_alone(
+        &plain(Defect::LimitWhereAllAreClose),
+        Rule::Quotients,
+        "flip of stretches 1 and 3, which are 1e-",
+    );
+    check_names_alone(
+        &Defective(RotatedLinear, Defect::UnboundedPole),
+        Rule::Quotients,
+        "twist of stretches 2 and 3 at a pole",
+    );
 }
 
 #[test]
