@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use piola::batch::Batch;
-use piola::material::{Declared, Each, Inadmissible, Normalised, Varying};
+use piola::material::{Declared, Each, Inadmissible, Moduli, Normalised, Varying};
 use piola::{Inversion, Material};
 use piola_materials::{Arap, Gent, MooneyRivlin, find};
 
