@@ -1,11 +1,11 @@
 //! An energy of the catalogue as its compiler understands it, for what only the expressions can say.
 
-use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::PathBuf;
 
 use piola::Inversion;
 use piola::material::Description;
+use piola_codegen::hash::HashMap;
 use piola_codegen::interpret::{Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
 use piola_codegen::parse::{Declaration, parse};
@@ -85,7 +85,7 @@ impl Declared {
             _ => &self.model.plain,
         };
         let point = Point { stretches, ..self.point.clone() };
-        let mut memo = HashMap::new();
+        let mut memo = HashMap::default();
         let mut terms = |id| evaluate_with(&self.model.graph, id, &point, &mut memo).magnitude;
         (variant.flip.map(&mut terms), variant.twist.map(&mut terms))
     }

@@ -12,7 +12,7 @@ use syn::Expr;
 use crate::expr::Length;
 use crate::model::{Model, Variant};
 use crate::parse::Declaration;
-use crate::schedule::{Op, Program, Statement, schedule};
+use crate::schedule::{Op, Program, Statement};
 
 /// The operations that each result of a material takes by itself, by its name: inside the domain, and last the blocks of an
 /// energy continued beyond that. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
@@ -28,7 +28,7 @@ pub fn counts(model: &mut Model) -> Vec<(&'static str, Count)> {
         ("blocks", model.plain.blocks()),
     ];
     results.extend(model.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
-    let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&schedule(&mut model.graph, &roots)));
+    let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&model.program(&roots)));
     results.into_iter().map(count).collect()
 }
 

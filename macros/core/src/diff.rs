@@ -4,9 +4,8 @@
 //! over lists: everything else is constant. Entries are those of the sum around them, so an entry outside a sum is no
 //! variable of what stands inside one: see [`crate::by_parameters`].
 
-use std::collections::HashMap;
-
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// Derivatives, each computed once.

@@ -7,8 +7,7 @@
 //!
 //! The graph knows no derivative: see [`crate::diff`] and [`crate::quotient`].
 
-use std::collections::HashMap;
-
+use crate::hash::HashMap;
 use crate::rational::Rational;
 pub use exponent::Exponent;
 

@@ -16,10 +16,9 @@
 //!
 //! [`quotient`]: crate::quotient
 
-use std::collections::HashMap;
-
 use crate::divided::power_quotient;
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// Differences from rest, each computed once.

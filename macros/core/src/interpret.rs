@@ -5,9 +5,8 @@
 //! Three users: the parity decisions of [`crate::quotient`], the checks of [`crate::check`], and tests, as an oracle
 //! for the emitted code.
 
-use std::collections::HashMap;
-
 use crate::expr::{Exponent, Extended, Graph, Id, Node};
+use crate::hash::HashMap;
 
 /// Values of everything an expression may name.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +33,7 @@ pub struct Value {
 /// Evaluates a node at a point.
 #[must_use]
 pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
-    evaluate_with(graph, id, point, &mut HashMap::new())
+    evaluate_with(graph, id, point, &mut HashMap::default())
 }
 
 /// The same for many nodes at one point: `memo` keeps what has been evaluated there.
@@ -107,7 +106,7 @@ impl Interpreter<'_> {
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
-                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::new());
+                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::default());
                     let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;
                     sum.magnitude += magnitude;

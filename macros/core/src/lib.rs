@@ -21,6 +21,7 @@ pub mod expr;
 pub mod extension;
 pub mod fallback;
 pub mod formula;
+pub mod hash;
 pub mod increment;
 pub mod interpret;
 pub mod invariants;

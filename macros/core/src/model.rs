@@ -1,5 +1,7 @@
 //! From a declaration to everything that is emitted: the table of contents of the compiler.
 
+use std::rc::Rc;
+
 use syn::{BinOp, Expr};
 
 use crate::by_parameters::by_parameters;
@@ -9,6 +11,7 @@ use crate::diff::Differentiator;
 use crate::expand::expand;
 use crate::expr::{Graph, Id};
 use crate::extension;
+use crate::hash::HashMap;
 use crate::increment::{Increments, at_rest};
 use crate::interpret::Point;
 use crate::invariants::{ByInvariants, by_invariants};
@@ -16,6 +19,7 @@ use crate::parse::Declaration;
 use crate::quotient::Quotients;
 use crate::rational::Rational;
 use crate::resolve::Resolver;
+use crate::schedule::{Program, schedule};
 use crate::simplify::simplify;
 use crate::volume::{Purpose, separate};
 use crate::young_poisson::{YoungPoisson, young_poisson};
@@ -50,6 +54,20 @@ pub struct Model {
     pub from_young_poisson: Option<YoungPoisson>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
+    /// What has been scheduled.
+    programs: HashMap<Vec<Id>, Rc<Program>>,
+}
+
+impl Model {
+    /// The computation of the roots, ordered when it is asked for first.
+    pub fn program(&mut self, roots: &[Id]) -> Rc<Program> {
+        if let Some(done) = self.programs.get(roots) {
+            return done.clone();
+        }
+        let program = Rc::new(schedule(&mut self.graph, roots));
+        self.programs.insert(roots.to_vec(), program.clone());
+        program
+    }
 }
 
 /// The volumes J for which an energy is defined.
@@ -171,6 +189,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     check::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     let from_young_poisson = young_poisson(&graph, declaration, moduli);
+    let programs = HashMap::default();
     Some(Model {
         graph,
         energy,
@@ -184,6 +203,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         by_parameters,
         from_young_poisson,
         samples,
+        programs,
     })
 }
 

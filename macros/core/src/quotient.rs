@@ -21,11 +21,10 @@
 //! Equal stretches need no branch: the limit is what the formula gives. What is not odd in (x, y) has a pole at
 //! x + y = 0; there the numerator ψi + ψj does not cancel and the plain quotient is accurate.
 
-use std::collections::HashMap;
-
 use crate::divided::power_quotient;
 use crate::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::extension;
+use crate::hash::HashMap;
 use crate::interpret::{Point, Value, evaluate_with};
 use crate::rational::Rational;
 
@@ -67,7 +66,7 @@ impl<'a> Quotients<'a> {
     /// Decides parities at the given points, which must lie in the domain of the energy.
     #[must_use]
     pub fn new(samples: &'a [Point]) -> Self {
-        Self { samples, memo: HashMap::new(), values: HashMap::new() }
+        Self { samples, memo: HashMap::default(), values: HashMap::default() }
     }
 
     /// D⁻ij from ψi.

@@ -7,9 +7,10 @@
 //! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
 //! base are made from one logarithm.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
 
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
+use crate::hash::{HashMap, HashSet};
 use crate::rational::Rational;
 use order::Order;
 use parts::Parts;
@@ -183,8 +184,8 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
         parts,
         count: 0,
         statements: Vec::new(),
-        numbers: HashMap::new(),
-        values: HashMap::new(),
+        numbers: HashMap::default(),
+        values: HashMap::default(),
         open_loop: None,
     };
     scheduler.loops(&reachable);
@@ -216,7 +217,7 @@ struct OpenLoop {
 impl Scheduler<'_> {
     /// Sums first, in the order in which they need each other, those of one length together.
     fn loops(&mut self, reachable: &[Id]) {
-        let mut depth: HashMap<Id, usize> = HashMap::new();
+        let mut depth: HashMap<Id, usize> = HashMap::default();
         let mut sums: BTreeMap<(usize, Length), Vec<(Id, Id)>> = BTreeMap::new();
         for &id in reachable {
             let inner = self.graph.children(id).iter().map(|child| depth[child]).max().unwrap_or(0);

@@ -13,14 +13,13 @@
 //! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
 //! where I1 is tiny and the left side has no correct digit. The others save operations.
 
-use std::collections::HashMap;
-
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// The expression with the rules applied everywhere.
 pub fn simplify(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut HashMap::new())
+    rewrite(graph, e, &mut HashMap::default())
 }
 
 fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {

@@ -16,9 +16,8 @@
 //!
 //! An extension takes the factors apart instead: below ε it continues J^(−2/3) and leaves I1 as it is.
 
-use std::collections::HashMap;
-
 use crate::expr::{Exponent, Graph, Id, Node, Stretch};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// What the separated expression is for.
@@ -33,7 +32,7 @@ pub enum Purpose {
 
 /// The expression with real powers and logarithms of products of stretches separated.
 pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
-    rewrite(graph, e, &mut HashMap::new(), &|graph, id| match graph.node(id).clone() {
+    rewrite(graph, e, &mut HashMap::default(), &|graph, id| match graph.node(id).clone() {
         Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, purpose),
         Node::Product(factors) => {
             let mut separated = Vec::new();

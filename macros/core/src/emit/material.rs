@@ -7,7 +7,7 @@ use syn::Ident;
 use super::generics;
 use super::invariants;
 use super::writer::Writer;
-use crate::expr::{Graph, Id};
+use crate::expr::Id;
 use crate::model::{Model, Variant, Volume};
 use crate::parse::Declaration;
 use crate::schedule::schedule;
@@ -148,17 +148,17 @@ impl<'a> Bodies<'a> {
         let inversion = writer.inversion();
         let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
                           result: &dyn Fn(&[TokenStream]) -> TokenStream| {
-            let body = |graph: &mut Graph, variant: &Variant| {
-                let program = schedule(graph, &select(variant));
+            let body = |model: &mut Model, roots: &[Id]| {
+                let program = model.program(roots);
                 let (statements, outputs) = writer.program(&program);
                 let result = result(&outputs);
                 quote!(#(#statements)* #result)
             };
-            let plain = body(&mut model.graph, &model.plain);
-            match &model.extended {
+            let plain = body(model, &select(&model.plain));
+            match model.extended.as_ref().map(select) {
                 None => plain,
                 Some(extended) => {
-                    let extended = body(&mut model.graph, extended);
+                    let extended = body(model, &extended);
                     quote! {
                         match #inversion {
                             ::piola::Inversion::Refuse => { #plain }

@@ -265,7 +265,7 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
 
 /// How each value is written where it is used.
 #[derive(Default)]
-struct Names(std::collections::HashMap<Value, TokenStream>);
+struct Names(crate::hash::HashMap<Value, TokenStream>);
 
 impl Names {
     fn get(&self, value: Value) -> TokenStream {

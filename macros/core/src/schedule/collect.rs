@@ -7,15 +7,14 @@
 //! Only powers of stretches are taken out, and only of terms that are of degree zero without them: what is then added stays
 //! within the range of the numbers wherever parameters and logarithms do.
 
-use std::collections::HashMap;
-
 use super::degrees::Degrees;
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// The roots with common factors taken out.
 pub(super) fn collect(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
-    let (mut degrees, mut memo) = (Degrees::default(), HashMap::new());
+    let (mut degrees, mut memo) = (Degrees::default(), HashMap::default());
     roots.iter().map(|&root| rewrite(graph, &mut degrees, root, &mut memo)).collect()
 }
 

@@ -1,8 +1,7 @@
 //! How expressions grow when all stretches are scaled by t: the exponent n of t^n.
 
-use std::collections::HashMap;
-
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 
 /// For t → 0 and for t → ∞.
 pub(super) type Degree = [f64; 2];

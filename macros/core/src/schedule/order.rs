@@ -9,6 +9,7 @@
 
 use super::degrees::{Degree, Degrees, power, sum};
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// A base with an exponent, one of those into which [`parts`] takes powers.
@@ -17,8 +18,14 @@ type Factor = (Id, Exponent);
 /// What decides on the order: degrees, and the products of a program.
 pub(super) struct Order {
     degrees: Degrees,
-    products: Vec<Vec<Factor>>,
+    /// The products that have a factor once or more, twice or more, and so on.
+    with_factor: HashMap<Factor, Vec<Set>>,
+    /// All products.
+    all: Set,
 }
+
+/// Products of a program, each by a bit.
+type Set = Vec<u64>;
 
 impl Order {
     /// For products among these nodes.
@@ -27,7 +34,20 @@ impl Order {
             Node::Product(factors) => Some(apart(factors)),
             _ => None,
         };
-        Self { degrees: Degrees::default(), products: reachable.iter().filter_map(factors).collect() }
+        let products: Vec<_> = reachable.iter().filter_map(factors).collect();
+        let words = products.len().div_ceil(64);
+        let mut with_factor: HashMap<Factor, Vec<Set>> = HashMap::default();
+        for (product, factors) in products.iter().enumerate() {
+            for (k, factor) in factors.iter().enumerate() {
+                let earlier = factors[..k].iter().filter(|&other| other == factor).count();
+                let sets = with_factor.entry(*factor).or_default();
+                if sets.len() == earlier {
+                    sets.push(vec![0; words]);
+                }
+                sets[earlier][product / 64] |= 1 << (product % 64);
+            }
+        }
+        Self { degrees: Degrees::default(), with_factor, all: vec![u64::MAX; words] }
     }
 
     /// The factors in the order of multiplication, parameters first.
@@ -38,26 +58,27 @@ impl Order {
         }
         let mut order: Vec<Factor> = Vec::new();
         let mut total = [0.0; 2];
-        let mut alike: Vec<usize> = (0..self.products.len()).collect();
+        // The products of which what has been multiplied is a part.
+        let mut alike = self.all.clone();
         while !left.is_empty() {
             let size = |[low, high]: Degree| (total[0] + low).abs() + (total[1] + high).abs();
             let smallest = left.iter().map(|&(degrees, _)| size(degrees)).fold(f64::INFINITY, f64::min);
             // The first of the most shared of the smallest.
-            let mut best: Option<(usize, Vec<usize>)> = None;
+            let mut best: Option<(usize, u32, Set)> = None;
             for (k, &(degrees, factor)) in left.iter().enumerate() {
                 if size(degrees) > smallest || left[..k].iter().any(|other| other.1 == factor) {
                     continue;
                 }
-                let times = |factors: &[Factor]| factors.iter().filter(|&&other| other == factor).count();
-                let needed = times(&order) + 1;
-                let sharing: Vec<_> =
-                    alike.iter().copied().filter(|&p| times(&self.products[p]) >= needed).collect();
-                if best.as_ref().is_none_or(|(_, most)| sharing.len() > most.len()) {
-                    best = Some((k, sharing));
+                let earlier = order.iter().filter(|&&other| other == factor).count();
+                let set = self.with_factor.get(&factor).and_then(|sets| sets.get(earlier));
+                let sharing: Set = alike.iter().zip(set.into_iter().flatten()).map(|(a, b)| a & b).collect();
+                let number = sharing.iter().map(|word| word.count_ones()).sum();
+                if best.as_ref().is_none_or(|&(_, most, _)| number > most) {
+                    best = Some((k, number, sharing));
                 }
             }
             // A degree that is no number is as good as any.
-            let (k, sharing) = best.unwrap_or_default();
+            let (k, _, sharing) = best.unwrap_or_default();
             let (degrees, factor) = left.remove(k);
             total = sum(total, degrees);
             order.push(factor);

@@ -1,13 +1,12 @@
 //! What is done to a program once its operations are in order.
 
-use std::collections::{HashMap, HashSet};
-
 use super::{Op, Program, Statement, Value};
+use crate::hash::{HashMap, HashSet};
 
 /// a b + c, c − a b and a b − c in one operation where the product is used nowhere else.
 pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
-    let mut uses: HashMap<Value, usize> = HashMap::new();
-    let mut products: HashMap<Value, (Value, Value)> = HashMap::new();
+    let mut uses: HashMap<Value, usize> = HashMap::default();
+    let mut products: HashMap<Value, (Value, Value)> = HashMap::default();
     let mut count = |value: Value| *uses.entry(value).or_default() += 1;
     program.outputs.iter().copied().for_each(&mut count);
     for statement in &program.statements {
@@ -25,7 +24,7 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
             }
         }
     }
-    let mut fused = HashSet::new();
+    let mut fused: HashSet<Value> = HashSet::default();
     let mut fuse = |op: &mut Op| {
         type Fuse = fn(Value, Value, Value) -> Op;
         let candidates: &[(Value, Fuse, Value)] = match *op {
@@ -63,7 +62,7 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
 /// Numbers values in the order in which they are computed; literals and inputs, which are written where they are used,
 /// come after all others.
 pub(super) fn renumber(mut program: Program) -> Program {
-    let mut names: HashMap<Value, Value> = HashMap::new();
+    let mut names: HashMap<Value, Value> = HashMap::default();
     let mut inlined = Vec::new();
     let mut name = |value: Value, op: Option<Op>| {
         if matches!(op, Some(op) if op.operands().is_empty() && op != Op::PoleFloor) {

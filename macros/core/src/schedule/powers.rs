@@ -1,9 +1,10 @@
 //! Which powers of each base are needed, and which one of them is computed.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use crate::divided::LARGEST_ROOT;
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// Which powers of each base are needed, to choose the one that is computed.
@@ -29,7 +30,7 @@ pub(super) enum Way {
 impl Powers {
     /// Those that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
-        let mut denominators: HashMap<Id, i128> = HashMap::new();
+        let mut denominators: HashMap<Id, i128> = HashMap::default();
         let mut used: BTreeMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
         for &id in reachable {
             match graph.node(id) {

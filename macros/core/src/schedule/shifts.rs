@@ -7,10 +7,11 @@
 //! Of the powers x^(αₚ+k) only one is computed; the others are it times a power of x, which is the same for all p and then is
 //! multiplied once, not for every entry. What is left in the sum is what other sums have computed already.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use super::powers::{Powers, Way};
 use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 use crate::volume::rewrite;
 
@@ -25,7 +26,7 @@ pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<
         let sum = graph.sum(length, rest);
         Some(times(graph, sum, &shifts))
     };
-    let mut memo = HashMap::new();
+    let mut memo = HashMap::default();
     roots.iter().map(|&root| rewrite(graph, root, &mut memo, &rule)).collect()
 }
 
