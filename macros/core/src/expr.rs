@@ -123,8 +123,17 @@ impl Graph {
         std::mem::take(&mut self.overflowed)
     }
 
-    /// The id of a node that is in normal form by its nature: anything but sums and products.
-    pub fn leaf(&mut self, node: Node) -> Id {
+    /// The id of a node that is in normal form by its nature: anything but sums and products. Quotients know no order of
+    /// their two arguments.
+    pub fn leaf(&mut self, mut node: Node) -> Id {
+        if let Node::LnQuotient(a, b)
+        | Node::ExpQuotient(a, b)
+        | Node::FunctionQuotient(.., a, b)
+        | Node::PowerQuotient(a, b, _) = &mut node
+            && b < a
+        {
+            std::mem::swap(a, b);
+        }
         if let Some(&id) = self.ids.get(&node) {
             return id;
         }

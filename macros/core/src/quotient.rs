@@ -83,7 +83,7 @@ impl<'a> Quotients<'a> {
         j: Stretch,
         positive: bool,
     ) -> Twist {
-        let (odd, rest) = self.split(graph, gradient, i, j);
+        let (odd, rest) = self.split(graph, gradient, i, j, positive);
         let removable = self.quotient(graph, odd, Reflection::Twist(i, j));
         if graph.is_zero(rest) {
             return Twist { value: removable, has_pole: false };
@@ -187,8 +187,8 @@ impl<'a> Quotients<'a> {
         self.chain_rule(graph, base, reflection, |graph, a, b| power_quotient(graph, a, b, exponent))
     }
 
-    /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not.
-    fn split(&mut self, graph: &mut Graph, e: Id, i: Stretch, j: Stretch) -> (Id, Id) {
+    /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not. With `positive`, there is no pole.
+    fn split(&mut self, graph: &mut Graph, e: Id, i: Stretch, j: Stretch, positive: bool) -> (Id, Id) {
         let zero = graph.integer(0);
         match self.parity(graph, e, i, j) {
             Parity::Odd => return (e, zero),
@@ -199,14 +199,18 @@ impl<'a> Quotients<'a> {
             Node::Linear { constant, terms } => {
                 let (mut odd, mut rest) = (Vec::new(), Vec::new());
                 for (term, coefficient) in terms {
-                    let (o, r) = self.split(graph, term, i, j);
+                    let (o, r) = self.split(graph, term, i, j, positive);
                     odd.push((o, coefficient));
                     rest.push((r, coefficient));
                 }
                 (graph.linear(Rational::ZERO, &odd), graph.linear(constant, &rest))
             }
             Node::Sum(length, body) => {
-                let (odd, rest) = self.split(graph, body, i, j);
+                let (odd, rest) = self.split(graph, body, i, j, positive);
+                // Where there is no pole, the sums that the gradient needs anyway.
+                if positive && !graph.is_zero(rest) {
+                    return (zero, e);
+                }
                 (graph.sum(length, odd), graph.sum(length, rest))
             }
             Node::Product(factors) => {
@@ -221,13 +225,13 @@ impl<'a> Quotients<'a> {
                     return (zero, e);
                 };
                 let others = graph.div(e, sum);
-                let (odd, rest) = self.split(graph, sum, i, j);
+                let (odd, rest) = self.split(graph, sum, i, j, positive);
                 if graph.is_zero(odd) || graph.is_zero(rest) {
                     return (zero, e);
                 }
                 let [(o1, r1), (o2, r2)] = [odd, rest].map(|part| {
                     let term = graph.mul(part, others);
-                    self.split(graph, term, i, j)
+                    self.split(graph, term, i, j, positive)
                 });
                 (graph.add(o1, o2), graph.add(r1, r2))
             }

@@ -101,6 +101,12 @@ impl Rational {
         Self { numerator: -self.numerator, ..self }
     }
 
+    /// |self|.
+    #[must_use]
+    pub fn magnitude(self) -> Self {
+        if self.is_negative() { self.negated() } else { self }
+    }
+
     /// Whether it is 0.
     #[must_use]
     pub fn is_zero(self) -> bool {

@@ -172,9 +172,14 @@ pub struct Program {
 #[must_use]
 pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
     let powers = Powers::used_by(graph, &graph.reachable(roots));
-    let roots = shifts::take_out(graph, &powers, roots);
-    let roots = collect::collect(graph, &roots);
-    let reachable = graph.reachable(&roots);
+    let mut roots = collect::collect(graph, roots);
+    let mut reachable = graph.reachable(&roots);
+    if reachable.iter().any(|&id| matches!(graph.node(id), Node::Sum(..))) {
+        roots = shifts::take_out(graph, &powers, &roots);
+        // Once more, for what has come out of sums over lists.
+        roots = collect::collect(graph, &roots);
+        reachable = graph.reachable(&roots);
+    }
     let order = Order::of(graph, &reachable);
     let parts = Parts::of(graph, &reachable);
     let mut scheduler = Scheduler {
@@ -389,31 +394,17 @@ impl Scheduler<'_> {
     }
 
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
-        let (constant, terms) = self.parts.regrouped(constant, terms);
-        let terms = &terms[..];
-        let magnitude = |r: Rational| if r.is_negative() { r.negated() } else { r };
-        // c a − c b is c (a − b).
-        if let [(_, first), _, ..] = terms
-            && constant.is_zero()
-            && magnitude(*first) != Rational::ONE
-            && terms.iter().all(|&(_, c)| magnitude(c) == magnitude(*first))
-        {
-            let unit = |c: Rational| Rational::integer(if c.is_negative() { -1 } else { 1 });
-            let terms: Vec<_> = terms.iter().map(|&(term, c)| (term, unit(c))).collect();
-            let sum = self.linear(Rational::ZERO, &terms);
-            let factor = self.literal(magnitude(*first));
-            return self.push(Op::Mul(sum, factor));
-        }
+        let sum = self.parts.regrouped(constant, terms);
+        let (constant, groups) = (sum.0, self.parts.groups(&sum));
         // What is added comes first, what is subtracted next, the constant last.
-        let (subtracted, added): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, c)| c.is_negative());
+        let (subtracted, added): (Vec<_>, Vec<_>) =
+            groups.iter().partition(|group| group.iter().all(|(_, c)| c.is_negative()));
         let mut sum: Option<Value> = None;
-        for &(term, coefficient) in added.iter().chain(&subtracted) {
-            let mut value = self.value(term);
-            if magnitude(coefficient) != Rational::ONE {
-                let factor = self.literal(magnitude(coefficient));
-                value = self.push(Op::Mul(value, factor));
-            }
-            sum = Some(match (sum, coefficient.is_negative()) {
+        for (group, is_subtracted) in
+            added.iter().map(|group| (group, false)).chain(subtracted.iter().map(|group| (group, true)))
+        {
+            let value = self.multiple(group, is_subtracted);
+            sum = Some(match (sum, is_subtracted) {
                 (None, false) => value,
                 (Some(sum), false) => self.push(Op::Add(sum, value)),
                 (Some(sum), true) => self.push(Op::Sub(sum, value)),
@@ -430,9 +421,29 @@ impl Scheduler<'_> {
             None => self.literal(constant),
             Some(sum) if constant.is_zero() || is_used => sum,
             Some(sum) => {
-                let literal = self.literal(magnitude(constant));
+                let literal = self.literal(constant.magnitude());
                 self.push(if constant.is_negative() { Op::Sub(sum, literal) } else { Op::Add(sum, literal) })
             }
+        }
+    }
+
+    /// Terms with one coefficient but for signs, or their negative: c s − c t is c (s − t).
+    fn multiple(&mut self, terms: &[(Id, Rational)], is_negated: bool) -> Value {
+        let sum = match terms {
+            &[(term, _)] => self.value(term),
+            terms => {
+                let sign =
+                    |c: Rational| Rational::integer(if c.is_negative() == is_negated { 1 } else { -1 });
+                let signs: Vec<_> = terms.iter().map(|&(term, c)| (term, sign(c))).collect();
+                self.linear(Rational::ZERO, &signs)
+            }
+        };
+        match terms.first().map(|(_, c)| c.magnitude()) {
+            Some(c) if c != Rational::ONE => {
+                let factor = self.literal(c);
+                self.push(Op::Mul(sum, factor))
+            }
+            _ => sum,
         }
     }
 

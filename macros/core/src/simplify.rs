@@ -7,7 +7,10 @@
 //! w − s w/(β + s) = βw/(β + s)
 //! w s + c w = w (s + c)
 //! Σₚ a + c Σₚ b = Σₚ (a + c b)
+//! (p s + p t)/p = s + t
 //! ```
+//!
+//! the last for a parameter p.
 //!
 //! The first two remove cancellation: each left side subtracts what is nearly equal where s is small or large. They arise
 //! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
@@ -30,6 +33,7 @@ fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
     while let Some(simpler) = cancel_against_denominator(graph, result)
         .or_else(|| collect_into_factor(graph, result))
         .or_else(|| join_sums(graph, result))
+        .or_else(|| cancel_parameter(graph, result))
     {
         result = simpler;
     }
@@ -102,6 +106,33 @@ fn join_sums(graph: &mut Graph, e: Id) -> Option<Id> {
             let body = simplify(graph, body);
             let joined = graph.sum(length, body);
             return Some(replace(graph, constant, &terms, [first, second], (joined, Rational::ONE)));
+        }
+    }
+    None
+}
+
+/// (p s + p t)/p = s + t
+fn cancel_parameter(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Product(factors) = graph.node(e).clone() else { return None };
+    let is_below = |&&(base, exponent): &&(Id, Exponent)| {
+        matches!(graph.node(base), Node::Parameter(_) | Node::Entry(_))
+            && exponent.as_integer().is_some_and(|n| n < 0)
+    };
+    for &(parameter, _) in factors.iter().filter(is_below) {
+        let is_above = |&(term, _): &(Id, Rational)| {
+            let (_, factors) = graph.factors(term);
+            let exponent = factors.iter().find(|factor| factor.0 == parameter).and_then(|f| f.1.as_integer());
+            exponent.is_some_and(|n| n > 0)
+        };
+        for &(sum, exponent) in &factors {
+            let Node::Linear { constant, terms } = graph.node(sum).clone() else { continue };
+            if exponent != Exponent::ONE || !constant.is_zero() || !terms.iter().all(is_above) {
+                continue;
+            }
+            let terms: Vec<_> = terms.iter().map(|&(term, c)| (graph.div(term, parameter), c)).collect();
+            let others = graph.div(e, sum);
+            let divided = graph.linear(Rational::ZERO, &terms);
+            return Some(graph.product_of(&[others, parameter, divided]));
         }
     }
     None

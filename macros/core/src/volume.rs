@@ -14,6 +14,13 @@
 //! J^(−2/3) I1 = λ1^(4/3) (λ2λ3)^(−2/3) + λ2^(4/3) (λ3λ1)^(−2/3) + λ3^(4/3) (λ1λ2)^(−2/3)
 //! ```
 //!
+//! Each term of such a sum is a power of an isochoric stretch, and stays one where the exponent is a parameter: a real power
+//! costs more than all else in an energy, and two of each stretch would be needed otherwise.
+//!
+//! ```text
+//! J^(−α/3) λ1^α = (λ1^(2/3) λ2^(−1/3) λ3^(−1/3))^α
+//! ```
+//!
 //! An extension takes the factors apart instead: below ε it continues J^(−2/3) and leaves I1 as it is.
 
 use crate::expr::{Exponent, Graph, Id, Node, Stretch};
@@ -47,10 +54,11 @@ pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
                     None => separated.push((separate(graph, base, purpose), exponent)),
                 }
             }
-            if purpose == Purpose::Evaluation {
-                multiply_in(graph, &mut separated);
+            if purpose == Purpose::Extension {
+                return Some(graph.product(&separated));
             }
-            Some(graph.product(&separated))
+            multiply_in(graph, &mut separated);
+            Some(product_of_isochoric(graph, &separated))
         }
         _ => None,
     })
@@ -89,10 +97,41 @@ fn multiply_in(graph: &mut Graph, factors: &mut Vec<(Id, Exponent)>) {
     let (powers, mut others): (Vec<_>, Vec<_>) =
         factors.iter().copied().partition(|&(base, _)| is_power(graph, base));
     others.retain(|factor| *factor != factors[position]);
-    let power = graph.product(&powers);
-    let terms: Vec<_> = terms.into_iter().map(|(term, c)| (graph.mul(power, term), c)).collect();
+    let mut times_power = |term| {
+        let (_, mut factors) = graph.factors(term);
+        factors.extend(&powers);
+        product_of_isochoric(graph, &factors)
+    };
+    let terms: Vec<_> = terms.into_iter().map(|(term, c)| (times_power(term), c)).collect();
     others.push((graph.linear(Rational::ZERO, &terms), Exponent::ONE));
     *factors = others;
+}
+
+/// The product, in which real powers of the three stretches are one of an isochoric stretch J^(−1/3) λi if they can be.
+fn product_of_isochoric(graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
+    let product = graph.product(factors);
+    let (_, factors) = graph.factors(product);
+    let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+    let real_part =
+        |stretch| factors.iter().find(|factor| factor.0 == stretch).and_then(|factor| factor.1.real);
+    let [Some(a), Some(b), Some(c)] = stretches.map(real_part) else { return product };
+    let mut is_isochoric = |&(_, own, others): &(usize, Id, [Id; 2])| {
+        others[0] == others[1] && graph.scale(others[0], Rational::integer(-2)) == own
+    };
+    let Some((i, _, [other, _])) =
+        [(0, a, [b, c]), (1, b, [c, a]), (2, c, [a, b])].into_iter().find(&mut is_isochoric)
+    else {
+        return product;
+    };
+    let third = |n| Rational::new(n, 3).map_or(Exponent::ONE, Exponent::rational);
+    let base: Vec<_> = (0..3).map(|k| (stretches[k], third(if k == i { 2 } else { -1 }))).collect();
+    let exponent = graph.scale(other, Rational::integer(-3));
+    let mut joined = vec![(product, Exponent::ONE), (graph.product(&base), graph.exponent(exponent))];
+    for (stretch, real) in stretches.into_iter().zip([a, b, c]) {
+        let real = graph.neg(real);
+        joined.push((stretch, graph.exponent(real)));
+    }
+    graph.product(&joined)
 }
 
 /// The factors of a product of powers of stretches, without coefficient; `None` for anything else.
@@ -147,6 +186,19 @@ mod tests {
         let power = g.power(volume, two_thirds);
         let separated = separate(&mut g, power, Purpose::Evaluation);
         assert_eq!(separated, g.product(&[x, y, z].map(|stretch| (stretch, two_thirds))));
+
+        let alpha = g.leaf(Node::Parameter(0));
+        let third = Rational::new(1, 3).unwrap();
+        let (minus_third, r) = (g.scale(alpha, third.negated()), g.exponent(alpha));
+        let minus_third = g.exponent(minus_third);
+        let isochoric = g.product(&[(volume, minus_third), (y, r)]);
+        let base = [(x, -1), (y, 2), (z, -1)]
+            .map(|(stretch, n)| (stretch, Exponent::rational(Rational::new(n, 3).unwrap())));
+        let base = g.product(&base);
+        assert_eq!(separate(&mut g, isochoric, Purpose::Evaluation), g.power(base, r));
+        let volumetric = g.power(volume, minus_third);
+        let each = g.product(&[x, y, z].map(|stretch| (stretch, minus_third)));
+        assert_eq!(separate(&mut g, volumetric, Purpose::Evaluation), each);
 
         let square = g.powi(volume, 2);
         let ln_square = g.ln(square);

@@ -1,23 +1,35 @@
-//! Sums that are parts of other sums, so that these start from them.
+//! What sums have in common: parts, so that a sum starts from another one, and coefficients of their terms.
 //!
 //! ```text
 //! 2μ + λ − 2μ ln x − λ ln J = (2μ + λ) − (2μ ln x + λ ln J)
 //! ```
 //!
 //! The last is x times the first derivative of the same energy. An expression graph has no sums of sums, so this is said while
-//! its operations are put in order.
+//! its operations are put in order. Nor does it have
+//!
+//! ```text
+//! a − c s − c t = a − c (s + t)
+//! ```
+//!
+//! which saves a multiplication unless c s or c t is needed by another sum.
 
 use crate::expr::{Graph, Id, Node};
+use crate::hash::HashMap;
 use crate::rational::Rational;
 
 /// A sum as a constant and terms with their coefficients.
 pub(super) type Linear = (Rational, Vec<(Id, Rational)>);
 
 /// The sums of a program.
-pub(super) struct Parts(Vec<(Id, Linear)>);
+pub(super) struct Parts {
+    /// The longest first.
+    sums: Vec<(Id, Linear)>,
+    /// In how many sums a term has a coefficient of this magnitude.
+    multiples: HashMap<(Id, Rational), usize>,
+}
 
 impl Parts {
-    /// Those among these nodes, the longest first.
+    /// Those among these nodes.
     pub(super) fn of(graph: &Graph, reachable: &[Id]) -> Self {
         let sum = |&id: &Id| match graph.node(id) {
             Node::Linear { constant, terms } if terms.len() > 1 => Some((id, (*constant, terms.clone()))),
@@ -25,12 +37,39 @@ impl Parts {
         };
         let mut sums: Vec<_> = reachable.iter().filter_map(sum).collect();
         sums.sort_by_key(|(_, (_, terms))| std::cmp::Reverse(terms.len()));
-        Self(sums)
+        let mut multiples = HashMap::default();
+        for &(term, c) in sums.iter().flat_map(|(_, (_, terms))| terms) {
+            *multiples.entry((term, c.magnitude())).or_default() += 1;
+        }
+        Self { sums, multiples }
+    }
+
+    /// The terms in groups that have one coefficient but for signs.
+    pub(super) fn groups(&self, (constant, terms): &Linear) -> Vec<Vec<(Id, Rational)>> {
+        let is_shared = |&&(id, c): &&(Id, Rational)| {
+            self.multiples.get(&(id, c.magnitude())).is_some_and(|&sums| sums > 1)
+        };
+        let are_alike =
+            |a: Rational, b: Rational| a.magnitude() == b.magnitude() && a.magnitude() != Rational::ONE;
+        // A multiple that other sums need, too, is no reason for a second multiplication here if it is the only one.
+        let all_alike = constant.is_zero() && terms.iter().all(|&(_, c)| are_alike(c, terms[0].1));
+        let one_group = all_alike && terms.iter().filter(is_shared).count() <= 1;
+        let mut groups: Vec<Vec<(Id, Rational)>> = Vec::new();
+        for term in terms {
+            let with_term = |group: &&mut Vec<(Id, Rational)>| {
+                one_group || are_alike(group[0].1, term.1) && !is_shared(&term) && !is_shared(&&group[0])
+            };
+            match groups.iter_mut().find(with_term) {
+                Some(group) => group.push(*term),
+                None => groups.push(vec![*term]),
+            }
+        }
+        groups
     }
 
     /// The sum with the longest of its parts as one term.
     pub(super) fn regrouped(&self, constant: Rational, terms: &[(Id, Rational)]) -> Linear {
-        let regrouped = self.0.iter().find_map(|(id, (part_constant, part))| {
+        let regrouped = self.sums.iter().find_map(|(id, (part_constant, part))| {
             if part.len() >= terms.len() {
                 return None;
             }

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Of the powers x^(αₚ+k) only one is computed; the others are it times a power of x, which is the same for all p and then is
-//! multiplied once, not for every entry. What is left in the sum is what other sums have computed already.
+//! multiplied once, not for every entry; and so is a whole power of a stretch itself. What is left in the sum is what other
+//! sums have computed already.
 
 use std::collections::BTreeMap;
 
@@ -36,6 +37,10 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
         Node::Product(factors) => {
             let (mut shifts, mut left) = (Shifts::new(), Vec::new());
             for (base, exponent) in factors {
+                if let (Node::Stretch(_), Some(n)) = (graph.node(base), exponent.as_integer()) {
+                    *shifts.entry(base).or_default() += n;
+                    continue;
+                }
                 if exponent == Exponent::ONE {
                     let (inner, rest) = split(graph, powers, base);
                     inner.into_iter().for_each(|(base, n)| *shifts.entry(base).or_default() += n);

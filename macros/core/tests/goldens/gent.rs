@@ -48,9 +48,9 @@
 ///
 /// | result | operations |
 /// |---|---|
-/// | energy | 23 (1 ÷, 2 ln) |
+/// | energy | 22 (1 ÷, 2 ln) |
 /// | gradient | 37 (5 ÷) |
-/// | energy, gradient and Hessian | 103 (5 ÷, 2 ln) |
+/// | energy, gradient and Hessian | 102 (5 ÷, 2 ln) |
 /// | flip | 34 (5 ÷) |
 /// | twist | 34 (5 ÷) |
 /// | blocks | 107 (5 ÷) |
@@ -274,26 +274,25 @@ impl ::piola::material::Varying for Gent {
                 let t1 = l3.mul_add(t0, -R::splat(1.0));
                 let t2 = kappa * t1;
                 let t3 = t1 * t2;
-                let t4 = t3 * R::splat(0.5);
                 let mu = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.mu);
                 let jm = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.jm);
-                let t5 = R::splat(1.0) / jm;
-                let t6 = l1 * l1;
-                let t7 = l2.mul_add(l2, t6);
-                let t8 = l3.mul_add(l3, t7);
-                let t9 = t8 - R::splat(3.0);
-                let t10 = (-t5).mul_add(t9, R::splat(1.0));
-                let t11 = t10.ln();
-                let t12 = mu * jm;
-                let t13 = t11 * t12;
-                let t14 = (-R::splat(0.5)).mul_add(t13, t4);
-                let t15 = ::piola::quotient::ln_product([l1, l2, l3]);
-                let t16 = (-mu).mul_add(t15, t14);
-                t16
+                let t4 = R::splat(1.0) / jm;
+                let t5 = l1 * l1;
+                let t6 = l2.mul_add(l2, t5);
+                let t7 = l3.mul_add(l3, t6);
+                let t8 = t7 - R::splat(3.0);
+                let t9 = (-t4).mul_add(t8, R::splat(1.0));
+                let t10 = t9.ln();
+                let t11 = mu * jm;
+                let t12 = (-t10).mul_add(t11, t3);
+                let t13 = t12 * R::splat(0.5);
+                let t14 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let t15 = (-mu).mul_add(t14, t13);
+                t15
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
                 let epsilon = R::splat(epsilon);
@@ -304,54 +303,51 @@ impl ::piola::material::Varying for Gent {
                 let t1 = l3.mul_add(t0, -R::splat(1.0));
                 let t2 = kappa * t1;
                 let t3 = t1 * t2;
-                let t4 = t3 * R::splat(0.5);
                 let mu = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.mu);
                 let jm = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.jm);
-                let t5 = R::splat(1.0) / jm;
-                let t6 = l1 * l1;
-                let t7 = l2.mul_add(l2, t6);
-                let t8 = l3.mul_add(l3, t7);
-                let t9 = t8 - R::splat(3.0);
-                let t10 = (-t5).mul_add(t9, R::splat(1.0));
-                let t11 = t10.ln();
-                let t12 = mu * jm;
-                let t13 = t11 * t12;
-                let t14 = (-R::splat(0.5)).mul_add(t13, t4);
-                let t15 = l1.max(epsilon);
-                let t16 = t15.ln();
-                let t17 = (l1 - epsilon).min(R::splat(0.0));
-                let t18 = R::splat(1.0) / t15;
-                let t19 = t17.mul_add(t18, t16);
-                let t20 = l2.max(epsilon);
-                let t21 = t20.ln();
-                let t22 = t19 + t21;
-                let t23 = (l2 - epsilon).min(R::splat(0.0));
-                let t24 = R::splat(1.0) / t20;
-                let t25 = t23.mul_add(t24, t22);
-                let t26 = l3.max(epsilon);
-                let t27 = t26.ln();
-                let t28 = t25 + t27;
-                let t29 = (l3 - epsilon).min(R::splat(0.0));
-                let t30 = R::splat(1.0) / t26;
-                let t31 = t29.mul_add(t30, t28);
-                let t32 = t17 * t17;
-                let t33 = t18 * t32;
-                let t34 = t18 * t33;
-                let t35 = (-R::splat(0.5)).mul_add(t34, t31);
-                let t36 = t23 * t23;
-                let t37 = t24 * t36;
-                let t38 = t24 * t37;
-                let t39 = (-R::splat(0.5)).mul_add(t38, t35);
-                let t40 = t29 * t29;
-                let t41 = t30 * t40;
-                let t42 = t30 * t41;
-                let t43 = (-R::splat(0.5)).mul_add(t42, t39);
-                let t44 = (-mu).mul_add(t43, t14);
-                t44
+                let t4 = R::splat(1.0) / jm;
+                let t5 = l1 * l1;
+                let t6 = l2.mul_add(l2, t5);
+                let t7 = l3.mul_add(l3, t6);
+                let t8 = t7 - R::splat(3.0);
+                let t9 = (-t4).mul_add(t8, R::splat(1.0));
+                let t10 = t9.ln();
+                let t11 = mu * jm;
+                let t12 = (-t10).mul_add(t11, t3);
+                let t13 = t12 * R::splat(0.5);
+                let t14 = l1.max(epsilon);
+                let t15 = t14.ln();
+                let t16 = (l1 - epsilon).min(R::splat(0.0));
+                let t17 = R::splat(1.0) / t14;
+                let t18 = t16.mul_add(t17, t15);
+                let t19 = l2.max(epsilon);
+                let t20 = t19.ln();
+                let t21 = t18 + t20;
+                let t22 = (l2 - epsilon).min(R::splat(0.0));
+                let t23 = R::splat(1.0) / t19;
+                let t24 = t22.mul_add(t23, t21);
+                let t25 = l3.max(epsilon);
+                let t26 = t25.ln();
+                let t27 = t24 + t26;
+                let t28 = (l3 - epsilon).min(R::splat(0.0));
+                let t29 = R::splat(1.0) / t25;
+                let t30 = t28.mul_add(t29, t27);
+                let t31 = t16 * t16;
+                let t32 = t17 * t31;
+                let t33 = t17 * t32;
+                let t34 = t22 * t22;
+                let t35 = t23 * t34;
+                let t36 = t23.mul_add(t35, t33);
+                let t37 = t28 * t28;
+                let t38 = t29 * t37;
+                let t39 = t29.mul_add(t38, t36);
+                let t40 = (-R::splat(0.5)).mul_add(t39, t30);
+                let t41 = (-mu).mul_add(t40, t13);
+                t41
             }
         }
     }
@@ -851,23 +847,22 @@ impl ::piola::material::Varying for Gent {
         let t0 = J - R::splat(1.0);
         let t1 = kappa * t0;
         let t2 = t0 * t1;
-        let t3 = t2 * R::splat(0.5);
         let mu = ::piola::material::Parameters::read::<
             R,
         >(materials, |material| material.mu);
         let jm = ::piola::material::Parameters::read::<
             R,
         >(materials, |material| material.jm);
-        let t4 = R::splat(1.0) / jm;
-        let t5 = I1 - R::splat(3.0);
-        let t6 = (-t4).mul_add(t5, R::splat(1.0));
-        let t7 = t6.ln();
-        let t8 = mu * jm;
-        let t9 = t7 * t8;
-        let t10 = (-R::splat(0.5)).mul_add(t9, t3);
-        let t11 = J.ln();
-        let t12 = (-mu).mul_add(t11, t10);
-        t12
+        let t3 = R::splat(1.0) / jm;
+        let t4 = I1 - R::splat(3.0);
+        let t5 = (-t3).mul_add(t4, R::splat(1.0));
+        let t6 = t5.ln();
+        let t7 = mu * jm;
+        let t8 = (-t6).mul_add(t7, t2);
+        let t9 = t8 * R::splat(0.5);
+        let t10 = J.ln();
+        let t11 = (-mu).mul_add(t10, t9);
+        t11
     }
     #[inline(always)]
     #[allow(non_snake_case)]

@@ -46,13 +46,13 @@
 ///
 /// | result | operations |
 /// |---|---|
-/// | energy | 15 (1 ln) |
+/// | energy | 14 (1 ln) |
 /// | gradient | 15 (3 ÷, 1 ln) |
-/// | energy, gradient and Hessian | 43 (3 ÷, 1 ln) |
+/// | energy, gradient and Hessian | 42 (3 ÷, 1 ln) |
 /// | flip | 14 (3 ÷, 1 ln) |
 /// | twist | 14 (3 ÷, 1 ln) |
 /// | blocks | 45 (3 ÷, 1 ln) |
-/// | blocks, continued | 136 (7 ÷, 3 ln, 6 Δ) |
+/// | blocks, continued | 134 (7 ÷, 3 ln, 6 Δ) |
 ///
 /// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -268,16 +268,15 @@ impl ::piola::material::Varying for NeoHookean {
                 let t2 = l3.mul_add(l3, t1);
                 let t3 = t2 - R::splat(3.0);
                 let t4 = mu * t3;
-                let t5 = t4 * R::splat(0.5);
-                let t6 = ::piola::quotient::ln_product([l1, l2, l3]);
+                let t5 = ::piola::quotient::ln_product([l1, l2, l3]);
                 let lambda = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.lambda);
-                let t7 = t6 * t6;
-                let t8 = lambda * t7;
-                let t9 = R::splat(0.5).mul_add(t8, t5);
-                let t10 = (-mu).mul_add(t6, t9);
-                t10
+                let t6 = t5 * t5;
+                let t7 = lambda.mul_add(t6, t4);
+                let t8 = t7 * R::splat(0.5);
+                let t9 = (-mu).mul_add(t5, t8);
+                t9
             }
             ::piola::Inversion::Extend { epsilon: epsilon } => {
                 let epsilon = R::splat(epsilon);
@@ -289,44 +288,41 @@ impl ::piola::material::Varying for NeoHookean {
                 let t2 = l3.mul_add(l3, t1);
                 let t3 = t2 - R::splat(3.0);
                 let t4 = mu * t3;
-                let t5 = t4 * R::splat(0.5);
-                let t6 = l1.max(epsilon);
-                let t7 = t6.ln();
-                let t8 = (l1 - epsilon).min(R::splat(0.0));
-                let t9 = R::splat(1.0) / t6;
-                let t10 = t8.mul_add(t9, t7);
-                let t11 = l2.max(epsilon);
-                let t12 = t11.ln();
-                let t13 = t10 + t12;
-                let t14 = (l2 - epsilon).min(R::splat(0.0));
-                let t15 = R::splat(1.0) / t11;
-                let t16 = t14.mul_add(t15, t13);
-                let t17 = l3.max(epsilon);
-                let t18 = t17.ln();
-                let t19 = t16 + t18;
-                let t20 = (l3 - epsilon).min(R::splat(0.0));
-                let t21 = R::splat(1.0) / t17;
-                let t22 = t20.mul_add(t21, t19);
-                let t23 = t8 * t8;
-                let t24 = t9 * t23;
-                let t25 = t9 * t24;
-                let t26 = (-R::splat(0.5)).mul_add(t25, t22);
-                let t27 = t14 * t14;
-                let t28 = t15 * t27;
-                let t29 = t15 * t28;
-                let t30 = (-R::splat(0.5)).mul_add(t29, t26);
-                let t31 = t20 * t20;
-                let t32 = t21 * t31;
-                let t33 = t21 * t32;
-                let t34 = (-R::splat(0.5)).mul_add(t33, t30);
+                let t5 = l1.max(epsilon);
+                let t6 = t5.ln();
+                let t7 = (l1 - epsilon).min(R::splat(0.0));
+                let t8 = R::splat(1.0) / t5;
+                let t9 = t7.mul_add(t8, t6);
+                let t10 = l2.max(epsilon);
+                let t11 = t10.ln();
+                let t12 = t9 + t11;
+                let t13 = (l2 - epsilon).min(R::splat(0.0));
+                let t14 = R::splat(1.0) / t10;
+                let t15 = t13.mul_add(t14, t12);
+                let t16 = l3.max(epsilon);
+                let t17 = t16.ln();
+                let t18 = t15 + t17;
+                let t19 = (l3 - epsilon).min(R::splat(0.0));
+                let t20 = R::splat(1.0) / t16;
+                let t21 = t19.mul_add(t20, t18);
+                let t22 = t7 * t7;
+                let t23 = t8 * t22;
+                let t24 = t8 * t23;
+                let t25 = t13 * t13;
+                let t26 = t14 * t25;
+                let t27 = t14.mul_add(t26, t24);
+                let t28 = t19 * t19;
+                let t29 = t20 * t28;
+                let t30 = t20.mul_add(t29, t27);
+                let t31 = (-t30).mul_add(R::splat(0.5), t21);
                 let lambda = ::piola::material::Parameters::read::<
                     R,
                 >(materials, |material| material.lambda);
-                let t35 = t34 * lambda;
-                let t36 = t34 * t35;
-                let t37 = R::splat(0.5).mul_add(t36, t5);
-                let t38 = (-mu).mul_add(t34, t37);
-                t38
+                let t32 = t31 * lambda;
+                let t33 = t31.mul_add(t32, t4);
+                let t34 = R::splat(0.5) * t33;
+                let t35 = (-mu).mul_add(t31, t34);
+                t35
             }
         }
     }
@@ -391,28 +387,26 @@ impl ::piola::material::Varying for NeoHookean {
                 let t21 = t3 * t3;
                 let t22 = t4 * t21;
                 let t23 = t4 * t22;
-                let t24 = (-t23).mul_add(R::splat(0.5), t20);
-                let t25 = t10 * t10;
-                let t26 = t11 * t25;
-                let t27 = t11 * t26;
-                let t28 = (-R::splat(0.5)).mul_add(t27, t24);
-                let t29 = t17 * t17;
-                let t30 = t18 * t29;
-                let t31 = t18 * t30;
-                let t32 = (-R::splat(0.5)).mul_add(t31, t28);
-                let t33 = (-t4).mul_add(t5, t4);
-                let t34 = lambda * t32;
-                let t35 = t33.mul_add(t34, t0);
-                let t36 = (-mu).mul_add(t33, t35);
-                let t37 = mu * l2;
-                let t38 = (-t11).mul_add(t12, t11);
-                let t39 = t34.mul_add(t38, t37);
-                let t40 = (-mu).mul_add(t38, t39);
-                let t41 = mu * l3;
-                let t42 = (-t18).mul_add(t19, t18);
-                let t43 = t34.mul_add(t42, t41);
-                let t44 = (-mu).mul_add(t42, t43);
-                [t36, t40, t44]
+                let t24 = t10 * t10;
+                let t25 = t11 * t24;
+                let t26 = t11.mul_add(t25, t23);
+                let t27 = t17 * t17;
+                let t28 = t18 * t27;
+                let t29 = t18.mul_add(t28, t26);
+                let t30 = (-t29).mul_add(R::splat(0.5), t20);
+                let t31 = (-t4).mul_add(t5, t4);
+                let t32 = lambda * t30;
+                let t33 = t31.mul_add(t32, t0);
+                let t34 = (-mu).mul_add(t31, t33);
+                let t35 = mu * l2;
+                let t36 = (-t11).mul_add(t12, t11);
+                let t37 = t32.mul_add(t36, t35);
+                let t38 = (-mu).mul_add(t36, t37);
+                let t39 = mu * l3;
+                let t40 = (-t18).mul_add(t19, t18);
+                let t41 = t32.mul_add(t40, t39);
+                let t42 = (-mu).mul_add(t40, t41);
+                [t34, t38, t42]
             }
         }
     }
@@ -577,100 +571,98 @@ impl ::piola::material::Varying for NeoHookean {
                 let t20 = t2 * t2;
                 let t21 = t3 * t20;
                 let t22 = t3 * t21;
-                let t23 = (-t22).mul_add(R::splat(0.5), t19);
-                let t24 = t9 * t9;
-                let t25 = t10 * t24;
-                let t26 = t10 * t25;
-                let t27 = (-R::splat(0.5)).mul_add(t26, t23);
-                let t28 = t16 * t16;
-                let t29 = t17 * t28;
-                let t30 = t17 * t29;
-                let t31 = (-R::splat(0.5)).mul_add(t30, t27);
-                let t32 = (-t3).mul_add(t4, t3);
-                let t33 = lambda * t31;
-                let t34 = t32 * t33;
-                let t35 = mu.mul_add(l1, t34);
-                let t36 = mu * t32;
-                let t37 = t35 - t36;
-                let t38 = (-t10).mul_add(t11, t10);
-                let t39 = t33 * t38;
-                let t40 = mu.mul_add(l2, t39);
-                let t41 = mu * t38;
-                let t42 = t40 - t41;
-                let t43 = (-t17).mul_add(t18, t17);
-                let t44 = t33 * t43;
-                let t45 = mu.mul_add(l3, t44);
-                let t46 = mu * t43;
-                let t47 = t45 - t46;
-                let t48 = lambda * t32;
-                let t49 = t32.mul_add(t48, mu);
-                let t50 = mu - t33;
-                let t51 = t3 * t50;
-                let t52 = t3.mul_add(t51, t49);
-                let t53 = lambda * t38;
-                let t54 = t38.mul_add(t53, mu);
-                let t55 = t10 * t50;
-                let t56 = t10.mul_add(t55, t54);
-                let t57 = lambda * t43;
-                let t58 = t43.mul_add(t57, mu);
-                let t59 = t17 * t50;
-                let t60 = t17.mul_add(t59, t58);
-                let t61 = t38 * t48;
-                let t62 = t43 * t48;
-                let t63 = t43 * t53;
-                let t64 = ::piola::quotient::share_above(l1, l2, epsilon);
-                let t65 = t3 * t64;
-                let t66 = t10 * t65;
-                let t67 = -t66;
-                let t68 = R::splat(1.0) / epsilon;
-                let t69 = ::piola::quotient::share_below(l1, l2, epsilon);
-                let t70 = t68 * t68;
-                let t71 = (-t69).mul_add(t70, t67);
-                let t72 = t33.mul_add(t71, mu);
-                let t73 = (-mu).mul_add(t71, t72);
-                let t74 = ::piola::quotient::share_above(l1, l3, epsilon);
-                let t75 = t3 * t74;
-                let t76 = t17 * t75;
-                let t77 = -t76;
-                let t78 = ::piola::quotient::share_below(l1, l3, epsilon);
-                let t79 = (-t70).mul_add(t78, t77);
-                let t80 = t33.mul_add(t79, mu);
-                let t81 = (-mu).mul_add(t79, t80);
-                let t82 = ::piola::quotient::share_above(l2, l3, epsilon);
-                let t83 = t10 * t82;
-                let t84 = t17 * t83;
-                let t85 = -t84;
-                let t86 = ::piola::quotient::share_below(l2, l3, epsilon);
-                let t87 = (-t70).mul_add(t86, t85);
-                let t88 = t33.mul_add(t87, mu);
-                let t89 = (-mu).mul_add(t87, t88);
-                let t90 = t34 + t39;
-                let t91 = t90 - t36;
-                let t92 = t91 - t41;
-                let t93 = l1 + l2;
-                let t94 = ::piola::quotient::pole_floor([l1, l2, l3]);
-                let t95 = t93.max(t94);
-                let t96 = t92 / t95;
-                let t97 = mu + t96;
-                let t98 = t34 + t44;
-                let t99 = t98 - t36;
-                let t100 = t99 - t46;
-                let t101 = l1 + l3;
-                let t102 = t101.max(t94);
-                let t103 = t100 / t102;
-                let t104 = mu + t103;
-                let t105 = t39 + t44;
-                let t106 = t105 - t41;
-                let t107 = t106 - t46;
-                let t108 = l2 + l3;
-                let t109 = t108.max(t94);
-                let t110 = t107 / t109;
-                let t111 = mu + t110;
+                let t23 = t9 * t9;
+                let t24 = t10 * t23;
+                let t25 = t10.mul_add(t24, t22);
+                let t26 = t16 * t16;
+                let t27 = t17 * t26;
+                let t28 = t17.mul_add(t27, t25);
+                let t29 = (-t28).mul_add(R::splat(0.5), t19);
+                let t30 = (-t3).mul_add(t4, t3);
+                let t31 = lambda * t29;
+                let t32 = t30 * t31;
+                let t33 = mu.mul_add(l1, t32);
+                let t34 = mu * t30;
+                let t35 = t33 - t34;
+                let t36 = (-t10).mul_add(t11, t10);
+                let t37 = t31 * t36;
+                let t38 = mu.mul_add(l2, t37);
+                let t39 = mu * t36;
+                let t40 = t38 - t39;
+                let t41 = (-t17).mul_add(t18, t17);
+                let t42 = t31 * t41;
+                let t43 = mu.mul_add(l3, t42);
+                let t44 = mu * t41;
+                let t45 = t43 - t44;
+                let t46 = lambda * t30;
+                let t47 = t30.mul_add(t46, mu);
+                let t48 = mu - t31;
+                let t49 = t3 * t48;
+                let t50 = t3.mul_add(t49, t47);
+                let t51 = lambda * t36;
+                let t52 = t36.mul_add(t51, mu);
+                let t53 = t10 * t48;
+                let t54 = t10.mul_add(t53, t52);
+                let t55 = lambda * t41;
+                let t56 = t41.mul_add(t55, mu);
+                let t57 = t17 * t48;
+                let t58 = t17.mul_add(t57, t56);
+                let t59 = t36 * t46;
+                let t60 = t41 * t46;
+                let t61 = t41 * t51;
+                let t62 = ::piola::quotient::share_above(l1, l2, epsilon);
+                let t63 = t3 * t62;
+                let t64 = t10 * t63;
+                let t65 = -t64;
+                let t66 = R::splat(1.0) / epsilon;
+                let t67 = ::piola::quotient::share_below(l1, l2, epsilon);
+                let t68 = t66 * t66;
+                let t69 = (-t67).mul_add(t68, t65);
+                let t70 = t31.mul_add(t69, mu);
+                let t71 = (-mu).mul_add(t69, t70);
+                let t72 = ::piola::quotient::share_above(l1, l3, epsilon);
+                let t73 = t3 * t72;
+                let t74 = t17 * t73;
+                let t75 = -t74;
+                let t76 = ::piola::quotient::share_below(l1, l3, epsilon);
+                let t77 = (-t68).mul_add(t76, t75);
+                let t78 = t31.mul_add(t77, mu);
+                let t79 = (-mu).mul_add(t77, t78);
+                let t80 = ::piola::quotient::share_above(l2, l3, epsilon);
+                let t81 = t10 * t80;
+                let t82 = t17 * t81;
+                let t83 = -t82;
+                let t84 = ::piola::quotient::share_below(l2, l3, epsilon);
+                let t85 = (-t68).mul_add(t84, t83);
+                let t86 = t31.mul_add(t85, mu);
+                let t87 = (-mu).mul_add(t85, t86);
+                let t88 = t32 + t37;
+                let t89 = t88 - t34;
+                let t90 = t89 - t39;
+                let t91 = l1 + l2;
+                let t92 = ::piola::quotient::pole_floor([l1, l2, l3]);
+                let t93 = t91.max(t92);
+                let t94 = t90 / t93;
+                let t95 = mu + t94;
+                let t96 = t32 + t42;
+                let t97 = t96 - t34;
+                let t98 = t97 - t44;
+                let t99 = l1 + l3;
+                let t100 = t99.max(t92);
+                let t101 = t98 / t100;
+                let t102 = mu + t101;
+                let t103 = t37 + t42;
+                let t104 = t103 - t39;
+                let t105 = t104 - t44;
+                let t106 = l2 + l3;
+                let t107 = t106.max(t92);
+                let t108 = t105 / t107;
+                let t109 = mu + t108;
                 ::piola::material::Blocks {
-                    gradient: [t37, t42, t47],
-                    hessian: [t52, t56, t60, t61, t62, t63],
-                    flip: [t73, t81, t89],
-                    twist: [t97, t104, t111],
+                    gradient: [t35, t40, t45],
+                    hessian: [t50, t54, t58, t59, t60, t61],
+                    flip: [t71, t79, t87],
+                    twist: [t95, t102, t109],
                 }
             }
         }
@@ -704,16 +696,15 @@ impl ::piola::material::Varying for NeoHookean {
         >(materials, |material| material.mu);
         let t0 = I1 - R::splat(3.0);
         let t1 = mu * t0;
-        let t2 = t1 * R::splat(0.5);
-        let t3 = J.ln();
+        let t2 = J.ln();
         let lambda = ::piola::material::Parameters::read::<
             R,
         >(materials, |material| material.lambda);
-        let t4 = t3 * lambda;
-        let t5 = t3 * t4;
-        let t6 = R::splat(0.5).mul_add(t5, t2);
-        let t7 = (-mu).mul_add(t3, t6);
-        t7
+        let t3 = t2 * lambda;
+        let t4 = t2.mul_add(t3, t1);
+        let t5 = t4 * R::splat(0.5);
+        let t6 = (-mu).mul_add(t2, t5);
+        t6
     }
     #[inline(always)]
     #[allow(non_snake_case)]
