@@ -115,15 +115,25 @@ impl Differentiator {
     }
 }
 
-/// ln b as the factor of b^r. A sum may vanish, as I1 − 3 does at rest: there b^r ln b is 0 for r > 0, not 0 · (−∞).
+/// ln b as the factor of b^r. Where b vanishes, as I1 − 3 does at rest, b^r ln b is 0 for r > 0, not 0 · (−∞).
 fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
-    if !matches!(graph.node(base), Node::Linear { .. }) {
+    if !may_vanish(graph, base) {
         return graph.ln(base);
     }
     let smallest = graph.leaf(Node::Float(f64::MIN_POSITIVE.to_bits()));
     let above = graph.sub(base, smallest);
     let positive = graph.leaf(Node::WhereNegative(above, smallest, base));
     graph.ln(positive)
+}
+
+/// Whether a base of real powers, which is nowhere negative, may be zero inside a domain: what is no sum is not.
+fn may_vanish(graph: &Graph, base: Id) -> bool {
+    match graph.node(base) {
+        Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),
+        Node::Linear { terms, .. } => !terms.is_empty(),
+        Node::Stretch(_) | Node::Parameter(_) | Node::Entry(_) | Node::Float(_) | Node::Exp(_) => false,
+        _ => true,
+    }
 }
 
 #[cfg(test)]

@@ -187,5 +187,15 @@ fn inert_type(function: &Function) -> TokenStream {
                 #unreachable
             }
         }
+
+        #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::material::Fittable for #name<#(#generics),*> {
+            fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+                #unreachable
+            }
+            fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
+                #unreachable
+            }
+        }
     }
 }

@@ -9,5 +9,6 @@ fn main() -> Result<(), piola::material::Inadmissible> {
     let spline = Spline::through(&[[0.5, -1.0], [1.0, 0.0], [2.0, 1.0]])?;
     let solid = Solid::new(spline)?;
     assert!(0.0 < solid.energy([1.0; 3]));
+    assert!(piola::material::Fittable::values(&solid).is_empty());
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! How a material comes to be: `new`, which checks its parameters, what finds some of them from a stiffness, what chooses the way of inversion, and what reads the
-//! parameters back.
+//! How a material comes to be: `new`, which checks its parameters, what finds some of them from a stiffness, what chooses the
+//! way of inversion, and what reads the parameters back.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
