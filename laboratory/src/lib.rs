@@ -1,13 +1,15 @@
 //! A material on the bench: what a testing machine would say of an energy before any body is made of it.
 //!
 //! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free sides solved;
-//! * [`data`]: measured curves, and how well an energy agrees with them.
+//! * [`data`]: measured curves, and how well an energy agrees with them;
+//! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones.
 //!
 //! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an energy of one's
 //! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously.
 
 pub mod curve;
 pub mod data;
+pub mod fit;
 mod specimen;
 
 pub use specimen::Specimen;

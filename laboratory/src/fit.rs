@@ -1,0 +1,142 @@
+//! Parameters from measured data: nonlinear least squares over the stresses of all tests at once.
+//!
+//! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
+//! ([`Difference`]), are made small in the sum of their squares by the Levenberg–Marquardt method \[Mor78\]. How a stress
+//! changes with a parameter follows from what `fit` in the declaration generates, the sides that give way included
+//! ([`Response::weights`](crate::curve::Response::weights)).
+//!
+//! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some combination
+//! of parameters only, and there may be several minima. All three are looked for and said: [`Warning`].
+//!
+//! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
+//! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
+//! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980.
+
+mod candidate;
+mod minimum;
+mod problem;
+mod report;
+mod starts;
+mod uniqueness;
+
+use crate::curve::Volume;
+use crate::data::{Measured, Measurements};
+
+pub use candidate::Candidate;
+pub use report::{Ended, Fit, FitError, Number, Standing, Warning};
+
+use candidate::Numbers;
+use minimum::Minimum;
+use problem::Problem;
+
+/// What is made small at each measured point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Difference {
+    /// The difference by the measured stress, so that small strains count as much as large ones. Points without stress
+    /// are left out.
+    #[default]
+    Relative,
+    /// The difference by the greatest measured stress of all, so that stiff tests and large strains decide. It is what makes
+    /// R² great.
+    Absolute,
+}
+
+/// How to fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Whether the specimens keep their volume. Of data without lateral stretches, which most are, this is the
+    /// assumption to make for rubber: default.
+    pub volume: Volume,
+    /// Relative differences by default.
+    pub difference: Difference,
+    /// Parameters that keep their values: names as declared, a list with all its entries, or an entry as `alpha_1`,
+    /// counted from 1.
+    pub held: Vec<String>,
+    /// How many times to start anew from parameters at random about the given ones, default 20.
+    pub restarts: usize,
+    /// Of these random parameters, default 1: the same seed gives the same fit.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            volume: Volume::Kept,
+            difference: Difference::Relative,
+            held: Vec::new(),
+            restarts: 20,
+            seed: 1,
+        }
+    }
+}
+
+/// The parameters with which an energy agrees best with data, sought from those that it has.
+///
+/// Trials stay where the constructor accepts the parameters and every measured point has a stress.
+///
+/// # Errors
+/// Where nothing can be fitted: see [`FitError`].
+pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> Result<Fit, FitError> {
+    let numbers = Numbers::of(start);
+    let mut held = held(&numbers, &settings.held)?;
+    let points = points(data, settings.difference)?;
+    let problem = |held: &[Option<Standing>], values: Vec<f64>| {
+        let free = (0..held.len()).filter(|&number| held[number].is_none()).collect();
+        Problem::new(start, &numbers, &points, settings.volume, free, values)
+    };
+
+    let first = problem(&vec![None; held.len()], numbers.values.clone());
+    first.answers().map_err(FitError::Start)?;
+    for number in uniqueness::indifferent(&first) {
+        held[number].get_or_insert(Standing::Indifferent);
+    }
+    let free = held.iter().filter(|standing| standing.is_none()).count();
+    if free == 0 {
+        return Err(FitError::NothingFree);
+    }
+    if points.len() < free {
+        return Err(FitError::TooFewPoints { points: points.len(), free });
+    }
+
+    let minima: Vec<Minimum> = starts::around(&numbers.values, &held, settings)
+        .map(|values| problem(&held, values))
+        .filter(|problem| problem.answers().is_ok())
+        .take(1 + settings.restarts)
+        .enumerate()
+        .filter_map(|(start, problem)| minimum::descend(problem, start))
+        .collect();
+    let best = minima.iter().min_by(|a, b| a.squares.total_cmp(&b.squares)).ok_or(FitError::NoMinimum)?;
+    let agreement = data.agreement(best.problem.specimen(), settings.volume);
+    let agreement = agreement.map_err(|unanswered| FitError::Start(Some(unanswered)))?;
+    let analysis = uniqueness::analyse(&best.problem, &numbers);
+    Ok(report::report(&numbers, &held, &minima, best, agreement, analysis))
+}
+
+/// Which numbers are not to change.
+fn held(numbers: &Numbers, names: &[String]) -> Result<Vec<Option<Standing>>, FitError> {
+    let mut held = vec![None; numbers.values.len()];
+    for name in names {
+        let mut is_known = false;
+        for (number, standing) in held.iter_mut().enumerate() {
+            if numbers.is_named(number, name) {
+                (is_known, *standing) = (true, Some(Standing::Held));
+            }
+        }
+        if !is_known {
+            return Err(FitError::UnknownParameter { name: name.clone(), known: numbers.names.clone() });
+        }
+    }
+    Ok(held)
+}
+
+/// The points that count, each with what its difference is divided by, Pa.
+fn points(data: &Measurements, difference: Difference) -> Result<Vec<(Measured, f64)>, FitError> {
+    let greatest = data.points.iter().fold(0.0_f64, |greatest, point| greatest.max(point.stress.abs()));
+    let size = |point: &Measured| match difference {
+        Difference::Relative => point.stress,
+        Difference::Absolute => greatest,
+    };
+    let counting = data.points.iter().filter(|point| !point.is_rest() && size(point) != 0.0);
+    let points: Vec<_> = counting.map(|point| (*point, size(point))).collect();
+    if points.is_empty() { Err(FitError::NoPoints) } else { Ok(points) }
+}

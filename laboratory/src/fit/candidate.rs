@@ -1,0 +1,108 @@
+//! An energy whose parameters are sought, with its type out of sight, and its parameters as one row of numbers.
+
+use piola::Inversion;
+use piola::material::{Description, Fittable, Inadmissible};
+
+use crate::specimen::Specimen;
+
+/// A [`Specimen`] that can be made anew with other parameters: any [`Fittable`] material.
+pub trait Candidate: Specimen {
+    /// What the declaration says of itself.
+    fn description(&self) -> Description;
+
+    /// The parameters, one list for each of the description.
+    fn values(&self) -> Vec<Vec<f64>>;
+
+    /// The same energy with these parameters, refused outside its domain.
+    ///
+    /// # Errors
+    /// Where the constructor would refuse.
+    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Inadmissible>;
+
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, at stretches λ1 ≥ λ2 ≥ λ3 > 0.
+    fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
+}
+
+impl<M: Fittable + 'static> Candidate for M {
+    fn description(&self) -> Description {
+        M::DESCRIPTION
+    }
+
+    fn values(&self) -> Vec<Vec<f64>> {
+        Fittable::values(self)
+    }
+
+    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Inadmissible> {
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        Ok(Box::new(M::from_values(&values, Inversion::Refuse)?))
+    }
+
+    fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]> {
+        Fittable::gradient_by_parameters(self, stretches)
+    }
+}
+
+/// The parameters of an energy, lists entry by entry.
+#[derive(Clone, Debug)]
+pub(super) struct Numbers {
+    /// Such as `kappa`, or `mu_1` for the first entry of a list.
+    pub(super) names: Vec<String>,
+    pub(super) values: Vec<f64>,
+    /// The parameter that each belongs to: its name and the number of its entries.
+    parameters: Vec<(&'static str, usize)>,
+}
+
+impl Numbers {
+    pub(super) fn of(candidate: &dyn Candidate) -> Self {
+        let lists = candidate.values();
+        let parameters = candidate.description().parameters;
+        let names = parameters.iter().zip(&lists).flat_map(|(parameter, list)| {
+            (1..=list.len()).map(|entry| match parameter.is_list {
+                true => format!("{}_{entry}", parameter.name),
+                false => parameter.name.to_owned(),
+            })
+        });
+        Self {
+            names: names.collect(),
+            values: lists.concat(),
+            parameters: parameters.iter().zip(&lists).map(|(p, list)| (p.name, list.len())).collect(),
+        }
+    }
+
+    /// Whether a number goes by that name, or is an entry of the list of that name.
+    pub(super) fn is_named(&self, number: usize, name: &str) -> bool {
+        let owners = self.parameters.iter().flat_map(|&(owner, length)| std::iter::repeat_n(owner, length));
+        self.names[number] == name || owners.into_iter().nth(number) == Some(name)
+    }
+
+    /// As lists again, one for each parameter.
+    pub(super) fn lists(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let mut rest = values;
+        let mut next = |length: usize| {
+            let (list, after) = rest.split_at(length);
+            rest = after;
+            list.to_vec()
+        };
+        self.parameters.iter().map(|&(_, length)| next(length)).collect()
+    }
+
+    /// The values with the terms of sums in an order of their own: terms that change places are the same energy.
+    pub(super) fn sorted(&self, values: &[f64]) -> Vec<f64> {
+        let mut lists = self.lists(values);
+        let lengths: Vec<usize> = lists.iter().map(Vec::len).filter(|&length| length > 1).collect();
+        for &length in &lengths {
+            let mut terms: Vec<usize> = (0..length).collect();
+            let key = |term: usize| {
+                lists.iter().filter(move |list| list.len() == length).map(move |list| list[term])
+            };
+            // By the last list, which holds the exponents in most sums.
+            terms.sort_by(|&a, &b| {
+                key(b).rev().partial_cmp(key(a).rev()).unwrap_or(std::cmp::Ordering::Equal)
+            });
+            for list in lists.iter_mut().filter(|list| list.len() == length) {
+                *list = terms.iter().map(|&term| list[term]).collect();
+            }
+        }
+        lists.concat()
+    }
+}

@@ -1,0 +1,273 @@
+//! What a fit says.
+
+use std::fmt;
+
+use super::candidate::Numbers;
+use super::minimum::Minimum;
+use super::uniqueness::Analysis;
+use crate::data::{Agreement, Unanswered};
+
+/// Another minimum is about as good if its differences are at most this much greater than those of the best.
+const ABOUT_AS_GOOD: f64 = 1.1;
+/// Two minima are the same if no parameter differs by more than this share of itself.
+const SAME: f64 = 0.01;
+/// Other minima that are reported: in a flat valley there would be one for each descent.
+const OTHERS: usize = 5;
+
+/// Parameters that fit, and how well.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The parameters as [`Declared::from_values`](piola::material::Declared::from_values) takes them.
+    pub values: Vec<Vec<f64>>,
+    /// The same, one by one.
+    pub numbers: Vec<Number>,
+    /// R² of each mode and of all, whatever was made small.
+    pub agreement: Agreement,
+    /// The root of the mean square of the differences that were made small: 0.05 is five percent.
+    pub difference: f64,
+    /// Of the parameters that were free at the minimum, the greatest singular value of ∂r/∂p, columns scaled to one, by the
+    /// least: the fit determines the parameters so many times worse than the data determine the fit.
+    pub condition: f64,
+    /// Of which start the best minimum is: 0 is the one given, others are random.
+    pub start: usize,
+    /// Descents that ended in a minimum.
+    pub descents: usize,
+    /// How often the curves were computed on the way to the best minimum.
+    pub evaluations: usize,
+    /// Why the search ended there.
+    pub ended: Ended,
+    /// Why other parameters might do as well.
+    pub warnings: Vec<Warning>,
+}
+
+/// A parameter, or an entry of a list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// Such as `kappa`, or `mu_1` for the first entry of a list.
+    pub name: String,
+    /// As fitted.
+    pub value: f64,
+    /// Whether it was sought.
+    pub standing: Standing,
+    /// Standard error of the value to first order, the differences being independent and alike, if it was sought from more
+    /// points than unknowns.
+    pub error: Option<f64>,
+}
+
+/// Whether a parameter was sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It was.
+    Free,
+    /// It kept its value, as was asked for.
+    Held,
+    /// It kept its value, because the data say nothing about it.
+    Indifferent,
+}
+
+/// Why a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// The curves go through the data exactly.
+    Exact,
+    /// No change of the parameters improves the fit to first order.
+    Stationary,
+    /// Neither parameters nor differences change any more but by rounding.
+    Settled,
+    /// The number of evaluations was exhausted before.
+    Unfinished,
+}
+
+impl fmt::Display for Ended {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Exact => "the curves go through the data",
+            Self::Stationary => "no change of the parameters improves the fit",
+            Self::Settled => "the parameters change no more but by rounding",
+            Self::Unfinished => "not at a minimum yet when the evaluations were exhausted",
+        })
+    }
+}
+
+/// Why other parameters might fit as well.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The data say nothing about a parameter, such as a bulk modulus at constant volume.
+    Indifferent {
+        /// Its name.
+        parameter: String,
+    },
+    /// The data say little about a combination of parameters.
+    Dependent {
+        /// Relative changes of parameters that make up for each other, the greatest being 1; absolute where one is zero.
+        changes: Vec<(String, f64)>,
+        /// The root of the mean square of what such a change changes of the differences, to first order.
+        effect: f64,
+    },
+    /// There is another minimum, about as good.
+    OtherMinimum {
+        /// Its parameters, as [`Fit::values`].
+        values: Vec<Vec<f64>>,
+        /// As [`Fit::difference`].
+        difference: f64,
+    },
+    /// The best that was found is no minimum yet.
+    Unfinished,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Indifferent { parameter } => {
+                write!(f, "the data say nothing about {parameter}, which keeps its value")
+            }
+            Self::Dependent { changes, effect } => {
+                let changes: Vec<_> =
+                    changes.iter().map(|(name, change)| format!("{name} {:+.3} %", change)).collect();
+                write!(
+                    f,
+                    "the data say little about {}: together they change the fit by {:.1e} %",
+                    changes.join(", "),
+                    effect
+                )
+            }
+            Self::OtherMinimum { values, difference } => {
+                write!(f, "another minimum has differences of {:.3} %: {values:?}", 100.0 * difference)
+            }
+            Self::Unfinished => {
+                write!(f, "this is no minimum yet: {}; start from these parameters", Ended::Unfinished)
+            }
+        }
+    }
+}
+
+/// Why nothing can be fitted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum FitError {
+    /// A parameter that is to be held does not exist.
+    UnknownParameter {
+        /// The name as given.
+        name: String,
+        /// The names that exist, list by entry.
+        known: Vec<String>,
+    },
+    /// No parameter is left that could change, or that the data say anything about.
+    NothingFree,
+    /// There is no point that counts.
+    NoPoints,
+    /// There are fewer points than parameters.
+    TooFewPoints {
+        /// Points that count.
+        points: usize,
+        /// Parameters that are sought.
+        free: usize,
+    },
+    /// With the parameters to start from, the energy has no stress at a measured point, or, where none is named, is refused.
+    Start(
+        /// Which.
+        Option<Unanswered>,
+    ),
+    /// Numbers left their range from every start.
+    NoMinimum,
+}
+
+impl fmt::Display for FitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownParameter { name, known } => {
+                write!(f, "there is no parameter `{name}` to hold; there are {}", known.join(", "))
+            }
+            Self::NothingFree => {
+                f.write_str("no parameter is left to fit: hold fewer, or add data of other tests")
+            }
+            Self::NoPoints => f.write_str("there is no point with a stress to fit"),
+            Self::TooFewPoints { points, free } => {
+                write!(f, "{points} points cannot determine {free} parameters; hold some, or add data")
+            }
+            Self::Start(Some(unanswered)) => {
+                write!(f, "the parameters to start from must reach all points, but {unanswered}")
+            }
+            Self::Start(None) => f.write_str("the parameters to start from are refused without an extension"),
+            Self::NoMinimum => {
+                f.write_str("numbers leave their range on the way; start nearer to the solution")
+            }
+        }
+    }
+}
+
+impl std::error::Error for FitError {}
+
+pub(super) fn report(
+    numbers: &Numbers,
+    held: &[Option<Standing>],
+    minima: &[Minimum<'_>],
+    best: &Minimum<'_>,
+    agreement: Agreement,
+    analysis: Analysis,
+) -> Fit {
+    let (count, free) = (best.problem.count(), best.problem.free.len());
+    let difference = |minimum: &Minimum<'_>| (minimum.squares / count as f64).sqrt();
+    let deviation = (count > free).then(|| (best.squares / (count - free) as f64).sqrt());
+    let error = |number: usize| {
+        let place = best.problem.free.iter().position(|&other| other == number)?;
+        Some(deviation? * analysis.errors.get(place)?)
+    };
+    let number = |(number, standing): (usize, &Option<Standing>)| Number {
+        name: numbers.names[number].clone(),
+        value: best.problem.values[number],
+        standing: standing.unwrap_or(Standing::Free),
+        error: error(number),
+    };
+    let fitted: Vec<_> = held.iter().enumerate().map(number).collect();
+
+    let silent = fitted.iter().filter(|number| number.standing == Standing::Indifferent);
+    let mut warnings: Vec<_> =
+        silent.map(|number| Warning::Indifferent { parameter: number.name.clone() }).collect();
+    if best.ended == Ended::Unfinished {
+        warnings.push(Warning::Unfinished);
+    }
+    warnings.extend(analysis.warnings);
+    let others = others(numbers, minima, best).into_iter().map(|minimum| Warning::OtherMinimum {
+        values: numbers.lists(&minimum.problem.values),
+        difference: difference(minimum),
+    });
+    warnings.extend(others);
+    Fit {
+        values: numbers.lists(&best.problem.values),
+        numbers: fitted,
+        agreement,
+        difference: difference(best),
+        condition: analysis.condition,
+        start: best.start,
+        descents: minima.len(),
+        evaluations: best.evaluations,
+        ended: best.ended,
+        warnings,
+    }
+}
+
+/// Minima about as good as the best, the best among them first, each once, and no more than so many.
+fn others<'a, 'b>(numbers: &Numbers, minima: &'a [Minimum<'b>], best: &Minimum<'b>) -> Vec<&'a Minimum<'b>> {
+    // What is exact but for rounding is as good as what is exact.
+    let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
+    let good = minima.iter().filter(|minimum| minimum.ended != Ended::Unfinished && minimum.squares <= limit);
+    let mut good: Vec<_> = good.collect();
+    good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
+    let mut seen = vec![numbers.sorted(&best.problem.values)];
+    good.retain(|minimum| {
+        let values = numbers.sorted(&minimum.problem.values);
+        let is_new = !seen.iter().any(|other| is_same(other, &values));
+        if is_new {
+            seen.push(values);
+        }
+        is_new
+    });
+    good.truncate(OTHERS);
+    good
+}
+
+fn is_same(one: &[f64], other: &[f64]) -> bool {
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * a.abs().max(b.abs()))
+}

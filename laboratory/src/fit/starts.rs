@@ -1,0 +1,30 @@
+//! Where descents begin.
+
+use piola::random::Random;
+
+use super::Settings;
+use super::report::Standing;
+
+/// The greatest factor between a random number and the one given.
+const SPREAD: f64 = 10.0;
+/// Draws for each descent; those that the energy refuses begin none.
+const DRAWS: usize = 20;
+
+/// The values given, then random ones: the free numbers multiplied by factors between 1/10 and 10, evenly by their
+/// logarithms, and once in four with the other sign.
+pub(super) fn around<'a>(
+    values: &'a [f64],
+    held: &'a [Option<Standing>],
+    settings: &Settings,
+) -> impl Iterator<Item = Vec<f64>> + 'a {
+    let mut random = Random::new(settings.seed);
+    let mut draw = move || {
+        let other = |(&value, standing): (&f64, &Option<Standing>)| {
+            let factor = SPREAD.powf(random.uniform(-1.0, 1.0));
+            let sign = if random.once_in(4) { -1.0 } else { 1.0 };
+            if standing.is_none() { sign * factor * value } else { value }
+        };
+        values.iter().zip(held).map(other).collect()
+    };
+    std::iter::once(values.to_vec()).chain((0..settings.restarts * DRAWS).map(move |_| draw()))
+}

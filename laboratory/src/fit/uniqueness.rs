@@ -1,0 +1,93 @@
+//! What the data say about the parameters near a minimum, and what they do not.
+//!
+//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after [BKW80]: where one is
+//! small, the combination of parameters that belongs to it changes no residual.
+//!
+//! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
+
+use nalgebra_34::DMatrix;
+
+use super::candidate::Numbers;
+use super::problem::Problem;
+use super::report::Warning;
+
+/// A parameter that changes the residuals by less than this share of what the most telling one does tells nothing: rounding,
+/// such as that of a bulk modulus at constant volume.
+const SILENCE: f64 = 1e-9;
+/// The greatest singular value by another, from which on [BKW80] call the dependence moderate to strong.
+const CONDITION: f64 = 30.0;
+/// A parameter that changes less than this, relative to the one that changes most, is not part of a combination.
+const SHARE: f64 = 0.01;
+
+/// The numbers that the data say nothing about.
+pub(super) fn indifferent(problem: &Problem<'_>) -> Vec<usize> {
+    let Some(slopes) = problem.slopes() else { return Vec::new() };
+    let lengths = lengths(&slopes);
+    let sensitivity = |k: usize| {
+        let value = problem.values[problem.free[k]].abs();
+        lengths[k] * if value == 0.0 { 1.0 } else { value }
+    };
+    let greatest = (0..lengths.len()).map(sensitivity).fold(0.0, f64::max);
+    let is_silent = |&k: &usize| sensitivity(k) <= SILENCE * greatest;
+    (0..lengths.len()).filter(is_silent).map(|k| problem.free[k]).collect()
+}
+
+/// What a minimum says of itself.
+pub(super) struct Analysis {
+    /// √(diagonal of (Jᵀ J)⁻¹) of the free numbers: their standard errors for residuals with the standard deviation 1.
+    pub(super) errors: Vec<f64>,
+    /// The greatest singular value by the least.
+    pub(super) condition: f64,
+    pub(super) warnings: Vec<Warning>,
+}
+
+pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
+    let nothing = || Analysis { errors: Vec::new(), condition: f64::INFINITY, warnings: Vec::new() };
+    let Some(mut slopes) = problem.slopes() else { return nothing() };
+    let lengths = lengths(&slopes);
+    if !lengths.iter().all(|&length| length.is_finite() && length > 0.0) {
+        return nothing();
+    }
+    for (mut column, length) in slopes.column_iter_mut().zip(&lengths) {
+        column /= *length;
+    }
+    let rows = problem.count() as f64;
+    let decomposed = slopes.svd(false, true);
+    let Some(directions) = decomposed.v_t else { return nothing() };
+    let singular = &decomposed.singular_values;
+    let greatest = singular.max();
+
+    let mut errors = vec![0.0_f64; lengths.len()];
+    let mut warnings = Vec::new();
+    for (direction, &value) in directions.row_iter().zip(singular) {
+        for (error, component) in errors.iter_mut().zip(direction.iter()) {
+            *error += (component / value).powi(2);
+        }
+        if greatest < CONDITION * value {
+            continue;
+        }
+        // Relative changes of the parameters; of one that is zero, absolute ones.
+        let changes: Vec<f64> = (0..lengths.len())
+            .map(|k| {
+                let number = problem.values[problem.free[k]];
+                direction[k] / lengths[k] / if number == 0.0 { 1.0 } else { number }
+            })
+            .collect();
+        let most = changes.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let named = problem.free.iter().zip(&changes);
+        let part = named.filter(|(_, change)| change.abs() >= SHARE * most.abs());
+        warnings.push(Warning::Dependent {
+            changes: part.map(|(&number, change)| (numbers.names[number].clone(), change / most)).collect(),
+            effect: value / most.abs() / rows.sqrt(),
+        });
+    }
+    for (error, length) in errors.iter_mut().zip(&lengths) {
+        *error = error.sqrt() / length;
+    }
+    Analysis { errors, condition: greatest / singular.min(), warnings }
+}
+
+/// The length of each column.
+fn lengths(slopes: &DMatrix<f64>) -> Vec<f64> {
+    slopes.column_iter().map(|column| column.norm()).collect()
+}
