@@ -10,7 +10,6 @@
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
-//! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980.
 
 mod candidate;
 mod minimum;
@@ -105,7 +104,10 @@ pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> R
         .enumerate()
         .filter_map(|(start, problem)| minimum::descend(problem, start))
         .collect();
-    let best = minima.iter().min_by(|a, b| a.squares.total_cmp(&b.squares)).ok_or(FitError::NoMinimum)?;
+    let least = minima.iter().map(|minimum| minimum.squares).reduce(f64::min).ok_or(FitError::NoMinimum)?;
+    // Of those that differ by rounding alone the first.
+    let is_least = |minimum: &&Minimum<'_>| minimum.squares <= least * (1.0 + 1e-9);
+    let best = minima.iter().find(is_least).ok_or(FitError::NoMinimum)?;
     let agreement = data.agreement(best.problem.specimen(), settings.volume);
     let agreement = agreement.map_err(|unanswered| FitError::Start(Some(unanswered)))?;
     let analysis = uniqueness::analyse(&best.problem, &numbers);

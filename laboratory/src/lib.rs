@@ -2,11 +2,14 @@
 //!
 //! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free sides solved;
 //! * [`data`]: measured curves, and how well an energy agrees with them;
-//! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones.
+//! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
+//! * [`chart`]: both in one picture.
 //!
 //! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an energy of one's
-//! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously.
+//! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously and slowly, so
+//! that neither buckling nor viscosity, softening or friction at the plates is seen.
 
+pub mod chart;
 pub mod curve;
 pub mod data;
 pub mod fit;

@@ -1,7 +1,7 @@
 //! The strain at which the free sides of a specimen carry no stress.
 //!
 //! Newton's method with the slope that the energy has, inside an interval with a side too narrow at one end and too wide
-//! at the other, halved where the step would leave it or falls behind halving [PTVF07].
+//! at the other, halved where the step would leave it or falls behind halving \[PTVF07\].
 //!
 //! This module knows no materials.
 //!

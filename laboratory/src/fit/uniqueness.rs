@@ -1,6 +1,6 @@
 //! What the data say about the parameters near a minimum, and what they do not.
 //!
-//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after [BKW80]: where one is
+//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after \[BKW80\]: where one is
 //! small, the combination of parameters that belongs to it changes no residual.
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
@@ -14,7 +14,7 @@ use super::report::Warning;
 /// A parameter that changes the residuals by less than this share of what the most telling one does tells nothing: rounding,
 /// such as that of a bulk modulus at constant volume.
 const SILENCE: f64 = 1e-9;
-/// The greatest singular value by another, from which on [BKW80] call the dependence moderate to strong.
+/// The greatest singular value by another, from which on \[BKW80\] call the dependence moderate to strong.
 const CONDITION: f64 = 30.0;
 /// A parameter that changes less than this, relative to the one that changes most, is not part of a combination.
 const SHARE: f64 = 0.01;

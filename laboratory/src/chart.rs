@@ -1,0 +1,75 @@
+//! Test curves and measured points as a chart, in SVG.
+//!
+//! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap where the
+//! material has no stress.
+
+mod panel;
+
+use plotters::prelude::{IntoDrawingArea, SVGBackend};
+
+use crate::curve::{Mode, NoResponse, Response};
+use crate::data::{Agreement, Measurements};
+use panel::Panel;
+
+pub use panel::ChartError;
+
+/// A curve to be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// In which test.
+    pub mode: Mode,
+    /// Its points, in the order of their controls.
+    pub points: Vec<Result<Response, NoResponse>>,
+}
+
+/// Pixels of a panel.
+const WIDTH: u32 = 640;
+const HEIGHT: u32 = 520;
+/// Pixels for title and note.
+const HEAD: u32 = 62;
+
+/// The SVG text of a chart with a title, a line that explains, and R² of each mode if there are data to have it of.
+///
+/// # Errors
+/// Where there is neither a point of a curve nor one of the data, and what the library of charts says.
+pub fn draw(
+    title: &str,
+    note: &str,
+    curves: &[Curve],
+    data: Option<(&Measurements, &Agreement)>,
+) -> Result<String, ChartError> {
+    let panels: Vec<_> = GROUPS.iter().filter_map(|group| Panel::of(group, curves, data)).collect();
+    if panels.is_empty() {
+        return Err(ChartError::Empty);
+    }
+    let mut svg = String::new();
+    {
+        let size = (WIDTH * panels.len() as u32, HEAD + HEIGHT);
+        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let below = panel::head(&root, title, note, HEAD)?;
+        for (panel, area) in panels.iter().zip(below.split_evenly((1, panels.len()))) {
+            panel.draw(&area)?;
+        }
+        root.present().map_err(panel::failed)?;
+    }
+    Ok(svg)
+}
+
+/// Modes with axes in common.
+struct Group {
+    modes: &'static [Mode],
+    /// What the machine sets.
+    control: &'static str,
+    /// What it reads.
+    stress: &'static str,
+}
+
+const GROUPS: [Group; 3] = [
+    Group {
+        modes: &[Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear],
+        control: "stretch λ",
+        stress: "nominal stress",
+    },
+    Group { modes: &[Mode::SimpleShear], control: "shear γ", stress: "shear stress P12" },
+    Group { modes: &[Mode::Volumetric], control: "volume ratio J", stress: "mean Cauchy stress" },
+];

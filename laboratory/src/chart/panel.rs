@@ -1,0 +1,232 @@
+//! A panel: curves and points over two axes, with a line for each mode above them.
+
+use std::fmt;
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::{Curve, Group};
+use crate::curve::Mode;
+use crate::data::{Agreement, Measurements};
+
+const FONT: &str = "sans-serif";
+const GREY: RGBColor = RGBColor(90, 90, 90);
+/// Pixels of a line of the legend.
+const LINE: i32 = 20;
+
+/// Of Okabe and Ito, which stay apart for all kinds of colour vision.
+fn colour(mode: Mode) -> RGBColor {
+    match mode {
+        Mode::Uniaxial => RGBColor(0, 114, 178),
+        Mode::Equibiaxial => RGBColor(213, 94, 0),
+        Mode::PureShear => RGBColor(0, 158, 115),
+        Mode::SimpleShear => RGBColor(204, 121, 167),
+        Mode::Volumetric => RGBColor(230, 159, 0),
+    }
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Why there is no chart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ChartError {
+    /// There is no point to draw.
+    Empty,
+    /// What the library of charts says.
+    Drawing {
+        /// Its reason.
+        reason: String,
+    },
+}
+
+impl fmt::Display for ChartError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => {
+                f.write_str("there is no point to draw: the material has no stress at any of them")
+            }
+            Self::Drawing { reason } => write!(f, "the chart cannot be drawn: {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for ChartError {}
+
+pub(super) fn failed(error: impl fmt::Display) -> ChartError {
+    ChartError::Drawing { reason: error.to_string() }
+}
+
+/// What is left of an area below a title and a note, which are this many pixels high.
+pub(super) fn head<'a>(
+    root: &Area<'a>,
+    title: &str,
+    note: &str,
+    height: u32,
+) -> Result<Area<'a>, ChartError> {
+    root.fill(&WHITE).map_err(failed)?;
+    let (head, below) = root.split_vertically(height);
+    head.draw(&Text::new(title.to_owned(), (20, 12), (FONT, 20).into_font())).map_err(failed)?;
+    head.draw(&Text::new(note.to_owned(), (20, 40), (FONT, 14).into_font().color(&GREY))).map_err(failed)?;
+    Ok(below)
+}
+
+pub(super) struct Panel<'a> {
+    group: &'a Group,
+    series: Vec<Series>,
+}
+
+/// A mode's curve and measured points: control and stress, Pa.
+struct Series {
+    mode: Mode,
+    /// The parts between gaps.
+    strokes: Vec<Vec<(f64, f64)>>,
+    marks: Vec<(f64, f64)>,
+    determination: Option<f64>,
+}
+
+impl<'a> Panel<'a> {
+    /// `None` where nothing of the group is to be drawn.
+    pub(super) fn of(
+        group: &'a Group,
+        curves: &[Curve],
+        data: Option<(&Measurements, &Agreement)>,
+    ) -> Option<Self> {
+        let series = group.modes.iter().map(|&mode| {
+            let curves = curves.iter().filter(|curve| curve.mode == mode);
+            let points = data.into_iter().flat_map(|(data, _)| data.of(mode));
+            let agreement =
+                data.and_then(|(_, agreement)| agreement.modes.iter().find(|(of, _)| *of == mode));
+            Series {
+                mode,
+                strokes: curves.flat_map(strokes).collect(),
+                marks: points.map(|point| (point.control, point.stress)).collect(),
+                determination: agreement.map(|(_, determination)| *determination),
+            }
+        });
+        let is_used = |series: &Series| !series.strokes.is_empty() || !series.marks.is_empty();
+        let series: Vec<_> = series.filter(is_used).collect();
+        (!series.is_empty()).then_some(Self { group, series })
+    }
+
+    pub(super) fn draw(&self, area: &Area<'_>) -> Result<(), ChartError> {
+        let (legend, plot) = area.split_vertically(LINE * self.series.len() as i32 + 4);
+        for (row, series) in self.series.iter().enumerate() {
+            series.explain(&legend, LINE * row as i32 + LINE / 2)?;
+        }
+
+        let lines = || self.series.iter().flat_map(|series| series.strokes.iter().flatten());
+        let marks = || self.series.iter().flat_map(|series| &series.marks);
+        let across = range(lines().chain(marks()).map(|point| point.0));
+        // A curve that runs away from the data leaves the panel.
+        let up = if marks().next().is_some() {
+            range(marks().map(|point| point.1))
+        } else {
+            range(lines().map(|p| p.1))
+        };
+        let (unit, scale) = unit(up.start.abs().max(up.end.abs()));
+        let up = up.start / scale..up.end / scale;
+
+        let mut chart = ChartBuilder::on(&plot)
+            .margin(10)
+            .x_label_area_size(46)
+            .y_label_area_size(70)
+            .build_cartesian_2d(across.clone(), up.clone())
+            .map_err(failed)?;
+        chart
+            .configure_mesh()
+            .light_line_style(WHITE)
+            .bold_line_style(RGBColor(228, 228, 228))
+            .x_labels(8)
+            .y_labels(8)
+            .x_desc(self.group.control)
+            .y_desc(format!("{} ({unit})", self.group.stress))
+            .axis_desc_style((FONT, 15))
+            .label_style((FONT, 13))
+            .x_label_formatter(&|x| short(*x, across.end - across.start))
+            .y_label_formatter(&|y| short(*y, up.end - up.start))
+            .draw()
+            .map_err(failed)?;
+        for series in &self.series {
+            let colour = colour(series.mode);
+            for stroke in &series.strokes {
+                for part in stroke
+                    .iter()
+                    .map(|&(x, y)| (x, y / scale))
+                    .collect::<Vec<_>>()
+                    .split(|(_, y)| !up.contains(y))
+                {
+                    if part.len() > 1 {
+                        let line = PathElement::new(part.to_vec(), colour.stroke_width(2));
+                        chart.draw_series([line]).map_err(failed)?;
+                    }
+                }
+            }
+            let marks = series.marks.iter().map(|&(x, y)| Circle::new((x, y / scale), 3, colour.filled()));
+            chart.draw_series(marks).map_err(failed)?;
+        }
+        Ok(())
+    }
+}
+
+impl Series {
+    /// A line of the legend at this height.
+    fn explain(&self, legend: &Area<'_>, y: i32) -> Result<(), ChartError> {
+        const LEFT: i32 = 80;
+        let colour = colour(self.mode);
+        if !self.strokes.is_empty() {
+            let line = PathElement::new([(LEFT, y), (LEFT + 28, y)], colour.stroke_width(2));
+            legend.draw(&line).map_err(failed)?;
+        }
+        if !self.marks.is_empty() {
+            legend.draw(&Circle::new((LEFT + 14, y), 3, colour.filled())).map_err(failed)?;
+        }
+        let mut text = self.mode.name().replace('_', " ");
+        if let Some(determination) = self.determination {
+            text += &format!(", R² = {determination:.5}");
+        }
+        legend.draw(&Text::new(text, (LEFT + 38, y - 6), (FONT, 15).into_font())).map_err(failed)
+    }
+}
+
+/// The parts of a curve between the points that are missing.
+fn strokes(curve: &Curve) -> Vec<Vec<(f64, f64)>> {
+    let parts = curve.points.split(|point| point.is_err());
+    let part = |part: &[Result<_, _>]| {
+        let points =
+            part.iter().flatten().map(|point: &crate::curve::Response| (point.control, point.stress));
+        points.collect::<Vec<_>>()
+    };
+    parts.map(part).filter(|part| !part.is_empty()).collect()
+}
+
+/// From a little below the least number to a little above the greatest.
+fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
+    let (least, greatest) =
+        numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let size = greatest - least;
+    let margin = if size > 0.0 { 0.04 * size } else { 0.5 * least.abs().max(f64::MIN_POSITIVE) };
+    least - margin..greatest + margin
+}
+
+/// In which stresses up to this one, Pa, have few digits before the point, and its size in Pa.
+fn unit(greatest: f64) -> (&'static str, f64) {
+    match greatest {
+        1e9.. => ("GPa", 1e9),
+        1e5.. => ("MPa", 1e6),
+        1e2.. => ("kPa", 1e3),
+        _ => ("Pa", 1.0),
+    }
+}
+
+/// A number at a tick of an axis of this length.
+fn short(x: f64, length: f64) -> String {
+    let digits = (1.0 - length.log10()).ceil().max(0.0);
+    if digits > 6.0 || length >= 1e6 {
+        return format!("{x:.2e}");
+    }
+    let text = format!("{x:.0$}", digits as usize);
+    // No minus before zero.
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".into() } else { text }
+}
