@@ -1,5 +1,7 @@
 //! The command line.
 
+mod laboratory;
+
 use std::fmt;
 use std::path::PathBuf;
 
@@ -15,6 +17,8 @@ use piola_scenes::settings::{Files, Settings};
 use piola_scenes::view::recording::Recording;
 use piola_scenes::view::state::State;
 use piola_scenes::view::{Begin, Options};
+
+pub(crate) use laboratory::{Curve, Fit};
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -38,6 +42,10 @@ pub(crate) enum Command {
     View(Box<View>),
     /// List the materials with formula, parameters and typical values of them, domain and small-strain moduli.
     Materials,
+    /// Print test curves of a material, with R² of measured ones.
+    Curve(Box<Curve>),
+    /// Fit the parameters of a material to measured curves.
+    Fit(Box<Fit>),
 }
 
 /// All quantities are in SI units; y points upwards.

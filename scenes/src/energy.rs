@@ -8,8 +8,10 @@ use std::fmt;
 
 use piola::Inversion;
 use piola::batch;
-use piola::material::{Description, Moduli};
-use piola_materials::{CATALOGUE, Entry};
+use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
+use piola_laboratory::Specimen;
+use piola_laboratory::fit::Candidate;
+use piola_materials::{CATALOGUE, Entry, FittableVisitor, Visitor};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -154,6 +156,48 @@ impl Energy {
             elements: entry.elements(&values, inversion).map_err(refused)?,
             moduli: entry.moduli(&values, inversion).map_err(refused)?,
         })
+    }
+
+    /// The same for test curves.
+    ///
+    /// # Errors
+    /// As [`Energy::build`].
+    pub fn specimen(&self) -> Result<Box<dyn Specimen>, Error> {
+        struct Boxed;
+        impl Visitor for Boxed {
+            type Output = Box<dyn Specimen>;
+            fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+                Box::new(material)
+            }
+        }
+        self.visit(|entry, values, inversion| entry.visit(values, inversion, Boxed))
+    }
+
+    /// The same for fits of its parameters.
+    ///
+    /// # Errors
+    /// As [`Energy::build`], and where the material has functions as parameters.
+    pub fn candidate(&self) -> Result<Box<dyn Candidate>, Error> {
+        struct Boxed;
+        impl FittableVisitor for Boxed {
+            type Output = Box<dyn Candidate>;
+            fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
+                Box::new(material)
+            }
+        }
+        self.visit(|entry, values, inversion| entry.visit_fittable(values, inversion, Boxed))
+    }
+
+    /// What an entry of the catalogue makes of all parameters.
+    fn visit<T>(
+        &self,
+        visit: impl Fn(&Entry, &[&[f64]], Inversion) -> Result<T, Inadmissible>,
+    ) -> Result<T, Error> {
+        let explicit = self.explicit()?;
+        let entry = find(&self.material)?;
+        let values = explicit.values(entry.name, &entry.description)?;
+        let visited = visit(entry, &values, self.inversion(&entry.description));
+        visited.map_err(|reason| Error::Inadmissible { material: entry.name, reason })
     }
 
     /// The values in the order of the declaration.

@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::PathBuf;
 
 use piola::material::Inadmissible;
+use piola_laboratory::chart::ChartError;
+use piola_laboratory::fit::FitError;
 
 /// Why a run cannot start or go on.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,6 +137,18 @@ pub enum Error {
         /// What the solver says.
         reason: String,
     },
+    /// Parameters cannot be fitted to the data.
+    Fit {
+        /// Name of the material.
+        material: String,
+        /// Why.
+        reason: FitError,
+    },
+    /// There is no chart.
+    Chart {
+        /// Why.
+        reason: ChartError,
+    },
     /// A time step failed.
     Step {
         /// The frame it would have led to.
@@ -230,6 +244,15 @@ impl fmt::Display for Error {
             }
             Self::Threads { reason } => write!(f, "cannot start threads: {reason}"),
             Self::Write { path, reason } => write!(f, "cannot write {}: {reason}", path.display()),
+            Self::Fit { material, reason } => {
+                write!(f, "{material} cannot be fitted: {reason}")?;
+                match reason {
+                    FitError::Start(_) => f.write_str(" (--param gives others)"),
+                    FitError::TooFewPoints { .. } => f.write_str(" (--hold)"),
+                    _ => Ok(()),
+                }
+            }
+            Self::Chart { reason } => reason.fmt(f),
             Self::Standing { reason } => write!(f, "where the body rests cannot be said: {reason}"),
             Self::Step { frame, reason } => {
                 write!(f, "the step to frame {frame} failed: {reason}; nothing was written")

@@ -5,6 +5,8 @@
 //!
 //! [`view`] plays it for a page in a browser, where it can be pulled with the mouse.
 //!
+//! [`laboratory`] puts a material of the catalogue on the bench of `piola-laboratory`.
+//!
 //! The crate holds no mechanics, models no contact with the floor that its pictures show, and opens no window.
 
 pub mod clock;
@@ -13,6 +15,7 @@ pub mod error;
 pub mod fields;
 pub mod gauge;
 pub mod geometry;
+pub mod laboratory;
 pub mod measure;
 pub mod output;
 pub mod play;

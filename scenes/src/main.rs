@@ -1,4 +1,4 @@
-//! The command `piola`: runs scenes, shows them in a browser, lists materials.
+//! The command `piola`: runs scenes, shows them in a browser, lists materials and puts them on the bench.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use piola_scenes::energy;
 use piola_scenes::error::Error;
+use piola_scenes::laboratory;
 use piola_scenes::run::run;
 use piola_scenes::view::Viewer;
 
@@ -25,6 +26,12 @@ fn main() -> ExitCode {
         Some(Command::Materials) => {
             energy::pages().for_each(say);
             Ok(())
+        }
+        Some(Command::Curve(arguments)) => {
+            arguments.settings().and_then(|settings| laboratory::curve(&settings)).map(table)
+        }
+        Some(Command::Fit(arguments)) => {
+            arguments.settings().and_then(|settings| laboratory::fit(&settings)).map(table)
         }
     };
     match result {
@@ -55,6 +62,11 @@ fn view(arguments: View) -> Result<(), Error> {
     say(format_args!("http://{}/ shows the scene; Ctrl-C ends it", viewer.address()));
     viewer.wait();
     Ok(())
+}
+
+/// Writes what ends its last line itself.
+fn table(what: impl Display) {
+    say(what.to_string().trim_end());
 }
 
 /// Writes to standard output; a reader who has gone away is no failure.

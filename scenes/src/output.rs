@@ -6,11 +6,13 @@ mod folder;
 mod ply;
 mod summary;
 mod vtu;
+mod whole;
 
 pub use folder::Folder;
 pub use ply::write_ply;
 pub use summary::{Newton, Place, Reading, Standing, Summary};
 pub use vtu::{Field, write_pvd, write_vtu};
+pub use whole::write_whole;
 
 /// The file of a frame's surface.
 #[must_use]

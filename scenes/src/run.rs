@@ -80,7 +80,7 @@ pub fn run(settings: &Settings, output: &Output, on_step: &mut dyn FnMut()) -> R
     let distance = measure::distance_from_rest(mesh, play.simulation().positions(), pinned);
     let reading = match settings.scene.gauge {
         Some(marks) => {
-            let material = settings.energy.build()?.elements;
+            let material = settings.energy.specimen()?;
             Some(gauge::read(mesh, play.simulation(), marks, material.as_ref()))
         }
         None => None,

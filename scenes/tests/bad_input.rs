@@ -139,3 +139,26 @@ fn files_of_the_viewer_that_are_none() {
     check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
     check(&[], &["view", "--port", "65536"], &["65536"]);
 }
+
+#[test]
+fn what_a_bench_cannot_do() {
+    let data = |text: &str| [("rubber.csv", text.to_owned())];
+    check(&[], &["curve", "ruber"], &["`ruber`", "piola materials"]);
+    check(&[], &["curve", "gent", "--param", "mue=1"], &["`mue`", "`jm`"]);
+    check(&[], &["curve", "gent", "--param", "mu=-1"], &["mu", "-1"]);
+    check(&[], &["curve", "gent", "--mode", "twist"], &["`twist`", "`pure_shear`"]);
+    check(&[], &["curve", "gent", "--from", "2", "--to", "1"], &["--to", "above --from"]);
+    check(&[], &["curve", "gent", "--from", "-1"], &["--from", "positive"]);
+    check(&[], &["curve", "gent", "--svg", "no/folder.svg"], &["no/folder.svg", "cannot write"]);
+    check(&[], &["fit", "gent"], &["--data"]);
+    check(&[], &["fit", "gent", "--data", "rubber.csv"], &["rubber.csv", "cannot be read", "treloar"]);
+    let arguments = ["fit", "gent", "--data", "rubber.csv"];
+    check(&data("mode,stretch\nuniaxial,2\n"), &arguments, &["rubber.csv:1", "nominal_stress_MPa"]);
+    let text = "mode,stretch,nominal_stress_kPa\nuniaxial,two,3\n";
+    check(&data(text), &arguments, &["rubber.csv:2", "`two`", "not a number"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--hold", "nu"], &["`nu`", "mu, jm, kappa"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--param", "jm=10"], &["λ = 3.57", "--param"]);
+    check(&[], &["fit", "stretch_spline", "--data", "treloar"], &["fit"]);
+    let text = "mode,stretch,nominal_stress_kPa\nuniaxial,2,300\n";
+    check(&data(text), &arguments, &["1 points", "--hold"]);
+}

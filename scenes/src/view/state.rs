@@ -10,6 +10,7 @@ use super::session::Held;
 use crate::clock::Clock;
 use crate::energy::Energy;
 use crate::error::Error;
+use crate::output::write_whole;
 use crate::settings::Settings;
 
 /// The first field of a file, by which it is known for what it is, and what its version is.
@@ -76,15 +77,7 @@ impl State {
         let failure = |reason: String| Error::Write { path: path.into(), reason };
         let mut text = serde_json::to_vec(self).map_err(|error| failure(error.to_string()))?;
         text.push(b'\n');
-        // The process number keeps two viewers with the same file apart.
-        let mut aside = path.as_os_str().to_owned();
-        aside.push(format!(".unfinished-{}", std::process::id()));
-        let written = fs::write(&aside, text).and_then(|()| fs::rename(&aside, path));
-        written.map_err(|error| {
-            // Where this fails too, the name of what stays says what it is.
-            let _ = fs::remove_file(&aside);
-            failure(error.to_string())
-        })
+        write_whole(path, &text)
     }
 
     /// Reads the file. Whether what it says fits its scene is seen by who plays it.

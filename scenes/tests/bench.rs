@@ -1,0 +1,72 @@
+//! Materials on the bench: `piola curve` and `piola fit`.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+#[track_caller]
+fn piola(folder: &Path, arguments: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+    let output = command.current_dir(folder).args(arguments).output().expect("the command starts");
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+const OGDENS: [&str; 4] = ["--param", "mu=0.63e6,0.0012e6,-0.01e6", "--param", "alpha=1.3,5,-2"];
+
+#[test]
+fn treloars_rubber_by_ogdens_parameters() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let mut arguments = vec!["curve", "ogden", "--incompressible", "--data", "treloar", "--svg", "ogden.svg"];
+    arguments.extend(OGDENS);
+    let text = piola(folder.path(), &arguments);
+    for word in ["uniaxial 0.97454", "equibiaxial 0.99738", "pure_shear 0.99721", "measured/Pa"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+    let svg = fs::read_to_string(folder.path().join("ogden.svg")).expect("a chart");
+    for word in ["R² = 0.97454", "stretch λ", "nominal stress (MPa)", "ogden, incompressible"] {
+        assert!(svg.contains(word), "`{word}` is not in the chart");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nothing else is left");
+}
+
+#[test]
+fn curves_say_where_they_end() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let arguments =
+        ["curve", "gent", "--param", "jm=5", "--to", "4", "--mode", "uniaxial,simple_shear,volumetric"];
+    let text = piola(folder.path(), &arguments);
+    assert!(text.contains("no lateral stretch frees the sides"), "{text}");
+    assert!(text.contains("P12/Pa") && text.contains("mean stress/Pa"), "{text}");
+    assert!(text.contains("--param mu=330000 --param jm=5 --param kappa=20000000"), "{text}");
+}
+
+#[test]
+fn fitted_parameters_can_be_pasted() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let text =
+        piola(folder.path(), &["fit", "yeoh", "--data", "treloar", "--svg", "yeoh.svg", "--starts", "3"]);
+    // What the catalogue's typical parameters are rounded from.
+    assert!(text.contains("--param c1=185") && text.contains("kappa=20000000"), "{text}");
+    assert!(text.contains("held: the data say nothing about it"), "{text}");
+    assert!(folder.path().join("yeoh.svg").exists());
+    let agreement = |text: &str| {
+        let (_, after) = text.split_once("uniaxial 0.").expect("R²");
+        after.lines().next().map(str::to_owned)
+    };
+    let options = text.lines().find(|line| line.trim().starts_with("--param")).expect("options");
+    let mut arguments = vec!["curve", "yeoh", "--incompressible", "--data", "treloar"];
+    arguments.extend(options.split_whitespace());
+    assert_eq!(agreement(&piola(folder.path(), &arguments)), agreement(&text));
+}
+
+#[test]
+fn data_of_ones_own_are_fitted_as_they_ask_for() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    // ∂ψ/∂J = κ (J − 1): with a volumetric test the volume is free.
+    let text = "# by hand\nmode,stretch,nominal_stress_kPa\nvolumetric,0.9,-200\nvolumetric,1.1,200\nvolumetric,1.05,100\n";
+    fs::write(folder.path().join("bulk.csv"), text).expect("a scratch file");
+    let text = piola(folder.path(), &["fit", "yeoh", "--data", "bulk.csv", "--hold", "c2", "--absolute"]);
+    assert!(text.contains("kappa=2000000\n") && text.contains(" held\n"), "{text}");
+    assert!(text.contains("held: the data say nothing about it"), "{text}");
+}
