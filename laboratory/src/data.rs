@@ -225,10 +225,10 @@ impl Columns {
             let number = text.parse().ok().filter(|number: &f64| number.is_finite());
             number.ok_or_else(|| at(Fault::Number { column: name, found: text.into() }))
         };
-        let mode = record[self.mode].parse().map_err(|unknown| at(Fault::Mode(unknown)))?;
+        let mode: Mode = record[self.mode].parse().map_err(|unknown| at(Fault::Mode(unknown)))?;
         let control = number(self.control, "stretch")?;
         let stress = self.unit * number(self.stress, "nominal_stress")?;
-        match Mode::allows(mode, control) {
+        match mode.allows(control) {
             true => Ok(Measured { mode, control, stress }),
             false => Err(at(Fault::Control(NoResponse::Control { mode, control }))),
         }
