@@ -170,9 +170,10 @@ impl<R: Real> Blocks<R> {
         ]
     }
 
-    /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 of a pair.
+    /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2, Pa, of a pair: its place in [`PAIRS`].
     #[inline(always)]
-    pub(super) fn straight_and_crossed(&self, pair: usize) -> (R, R) {
+    #[must_use]
+    pub fn straight_and_crossed(&self, pair: usize) -> (R, R) {
         let half = R::splat(0.5);
         let (flip, twist) = (half * self.flip[pair], half * self.twist[pair]);
         (flip + twist, flip - twist)
