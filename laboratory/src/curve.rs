@@ -18,7 +18,7 @@
 //! Nothing is formed that cancels at rest, so that the stress is as accurate at the smallest strains as
 //! [`gradient_at_strains`](piola::Material::gradient_at_strains) is.
 
-mod lateral;
+pub(crate) mod lateral;
 
 use std::fmt;
 use std::str::FromStr;

@@ -3,7 +3,8 @@
 //! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free sides solved;
 //! * [`data`]: measured curves, and how well an energy agrees with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
-//! * [`chart`]: both in one picture.
+//! * [`chart`]: both in one picture;
+//! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!
 //! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an energy of one's
 //! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously and slowly, so
@@ -14,5 +15,6 @@ pub mod curve;
 pub mod data;
 pub mod fit;
 mod specimen;
+pub mod stability;
 
 pub use specimen::Specimen;

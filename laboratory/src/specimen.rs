@@ -2,6 +2,7 @@
 
 use piola::Material;
 use piola::lanes::Mask;
+use piola::material::Blocks;
 
 /// A piece of any material, along whose principal axes forces are read.
 ///
@@ -13,6 +14,9 @@ pub trait Specimen: Send + Sync {
     /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23, Pa.
     fn hessian(&self, stretches: [f64; 3]) -> [f64; 6];
 
+    /// Gradient, Hessian and quotients, Pa: [`Material::blocks`].
+    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64>;
+
     /// Whether the energy is defined there: [`Material::admits`].
     fn admits(&self, stretches: [f64; 3]) -> bool;
 }
@@ -23,7 +27,11 @@ impl<M: Material> Specimen for M {
     }
 
     fn hessian(&self, stretches: [f64; 3]) -> [f64; 6] {
-        self.blocks(stretches).hessian
+        Material::blocks(self, stretches).hessian
+    }
+
+    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
+        Material::blocks(self, stretches)
     }
 
     fn admits(&self, stretches: [f64; 3]) -> bool {

@@ -1,0 +1,96 @@
+//! A report as a table of at most 90 columns.
+
+use std::fmt;
+
+use super::{Criterion, Finding, Report, Settings, Walk};
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { settings: Settings { from, to, .. }, moduli, points, admitted, findings, walks } = self;
+        let (mu, bulk) = (pascals(moduli.mu), pascals(moduli.bulk()));
+        writeln!(f, "at rest  μ = {mu}, K = {bulk}, ν = {}", digits(moduli.poisson()))?;
+        write!(f, "box      {from} ≤ λ3 ≤ λ2 ≤ λ1 ≤ {to}: {points} points, ")?;
+        match points - admitted {
+            0 => writeln!(f, "all inside the domain")?,
+            refused => writeln!(f, "{refused} outside the domain left out")?,
+        }
+
+        writeln!(f, "\ncriterion            kept at    least modulus   at λ1, λ2, λ3")?;
+        for Finding { criterion, kept, worst } in findings {
+            write!(f, "{criterion:20} {:10}", share(*kept, *admitted))?;
+            match worst {
+                Some(worst) => {
+                    let modulus = worst.moduli[*criterion as usize] / moduli.mu;
+                    writeln!(f, " {:15} {}", digits(modulus) + " μ", triple(worst.stretches))?;
+                }
+                None => writeln!(f, " –")?,
+            }
+        }
+        if let Some(Finding { worst: Some(worst), .. }) = findings.last() {
+            let (normal, polarisation) = (triple(worst.wave.normal), triple(worst.wave.polarisation));
+            writeln!(f, "  its wave there has the normal N = ({normal}), the motion m = ({polarisation})")?;
+        }
+
+        let [first, second, third] = Criterion::ALL;
+        writeln!(f, "\nfirst lost at               {first:16} {second:10} {third}")?;
+        for walk in walks {
+            let Walk { path, to, reached, lost } = walk;
+            let path = if *to < 1.0 { path.to_string() } else { String::new() };
+            let end =
+                if reached == to { to.to_string() } else { format!("{}, no further", digits(*reached)) };
+            let [first, second, third] = lost.map(|lost| lost.map_or("–".to_owned(), digits));
+            writeln!(f, "{path:12} {:14} {first:16} {second:10} {third}", format!("to {end}"))?;
+        }
+        write!(
+            f,
+            "(sides free of stress, but stretches λ, 1, 1 in confined and λ, λ, λ in hydrostatic tests)"
+        )
+    }
+}
+
+/// Rounded down, so that no exception disappears.
+fn share(part: usize, whole: usize) -> String {
+    match whole {
+        0 => "–".into(),
+        _ if part == whole => "100 %".into(),
+        _ => format!("{:.1} %", (1000.0 * part as f64 / whole as f64).floor() / 10.0),
+    }
+}
+
+fn triple(numbers: [f64; 3]) -> String {
+    numbers.map(digits).join(", ")
+}
+
+/// Four significant digits at most.
+fn digits(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    match rounded.abs() {
+        0.0 | 1e-3..1e6 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+fn pascals(stress: f64) -> String {
+    let units = [(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")];
+    let unit = units.into_iter().find(|(size, _)| stress.abs() >= *size && stress.abs() < 1e4 * size);
+    let (size, name) = unit.unwrap_or((1.0, "Pa"));
+    format!("{} {name}", digits(stress / size))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(
+            [0.0, 1.0, -0.577_350_27, 12_345.6, 1.2e-7].map(digits),
+            ["0", "1", "-0.5774", "12350", "1.2e-7"]
+        );
+        assert_eq!([3.8e5, 8.1e10, 2e7, 1.0].map(pascals), ["380 kPa", "81 GPa", "20 MPa", "1 Pa"]);
+        assert_eq!(
+            [(0, 0), (3, 3), (9_999, 10_000)].map(|(part, whole)| share(part, whole)),
+            ["–", "100 %", "99.9 %"]
+        );
+    }
+}

@@ -1,0 +1,315 @@
+//! Where the criteria hold in two planes through the space of stretches, as a picture.
+
+use std::fmt::{self, Display};
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::criteria::{Criterion, Judgement};
+use super::path::Path;
+use super::{NoSurvey, Settings};
+use crate::curve::lateral::{Side, release};
+use crate::specimen::{self, Specimen};
+
+/// A plane of stretches λ1, λ2, and what becomes of the third.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// A sheet: no stress through its thickness.
+    Sheet,
+    /// Plane strain: λ3 = 1.
+    Strain,
+}
+
+impl Plane {
+    /// The three stretches; `None` where nothing frees a sheet of stress.
+    #[must_use]
+    pub fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
+        match self {
+            Self::Strain => Some([l1, l2, 1.0]),
+            Self::Sheet => {
+                let thickness = |strain: f64| {
+                    let strains = [l1 - 1.0, l2 - 1.0, strain];
+                    let [.., stress] = specimen::gradient(specimen, strains)?;
+                    Some(Side { stress, slope: specimen::hessian(specimen, strains)[2][2] })
+                };
+                let strain = release(thickness, 1.0 / (l1 * l2) - 1.0)?;
+                Some([l1, l2, 1.0 + strain])
+            }
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Sheet => "sheet: no stress through its thickness",
+            Self::Strain => "plane strain: λ3 = 1",
+        }
+    }
+
+    /// Paths in this plane with their names.
+    fn paths(self) -> &'static [(&'static str, Course)] {
+        match self {
+            Self::Sheet => &[
+                ("uniaxial", Course::Test(Path::Uniaxial)),
+                ("equibiaxial", Course::Test(Path::Equibiaxial)),
+                ("pure shear", Course::Test(Path::PureShear)),
+            ],
+            Self::Strain => &[
+                ("constant volume", Course::Isochoric),
+                ("equibiaxial", Course::Diagonal),
+                ("confined", Course::Test(Path::Confined)),
+            ],
+        }
+    }
+}
+
+/// How λ2 follows λ1 along a line of the picture.
+#[derive(Clone, Copy)]
+enum Course {
+    Test(Path),
+    Isochoric,
+    Diagonal,
+}
+
+impl Course {
+    fn second(self, specimen: &dyn Specimen, first: f64) -> Option<f64> {
+        match self {
+            Self::Test(path) => path.stretches(specimen, first).map(|[_, second, _]| second),
+            Self::Isochoric => Some(1.0 / first),
+            Self::Diagonal => Some(first),
+        }
+    }
+}
+
+/// What a cell of the picture says.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cell {
+    Kept,
+    Hill,
+    Ellipticity,
+    HillAndEllipticity,
+    All,
+    Outside,
+}
+
+impl Cell {
+    const ALL: [Self; 6] =
+        [Self::Kept, Self::Hill, Self::Ellipticity, Self::HillAndEllipticity, Self::All, Self::Outside];
+
+    fn of(judgement: Option<Judgement>) -> Self {
+        let Some(Judgement { kept, .. }) = judgement else { return Self::Outside };
+        match Criterion::ALL.map(|criterion| kept[criterion as usize]) {
+            [false, ..] => Self::All,
+            [true, true, true] => Self::Kept,
+            [true, false, true] => Self::Hill,
+            [true, true, false] => Self::Ellipticity,
+            [true, false, false] => Self::HillAndEllipticity,
+        }
+    }
+
+    /// Of Okabe and Ito, which stay apart for all kinds of colour vision; what is well is pale.
+    fn colour(self) -> RGBColor {
+        match self {
+            Self::Kept => RGBColor(222, 240, 233),
+            Self::Hill => RGBColor(86, 180, 233),
+            Self::Ellipticity => RGBColor(240, 228, 66),
+            Self::HillAndEllipticity => RGBColor(230, 159, 0),
+            Self::All => RGBColor(213, 94, 0),
+            Self::Outside => RGBColor(190, 190, 190),
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Kept => "all criteria hold",
+            Self::Hill => "Hill lost",
+            Self::Ellipticity => "strong ellipticity lost",
+            Self::HillAndEllipticity => "Hill and strong ellipticity lost",
+            Self::All => "all lost, Baker–Ericksen too",
+            Self::Outside => "outside the domain, or no equilibrium",
+        }
+    }
+}
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoMap {
+    /// Nothing can be said of the material.
+    Survey(NoSurvey),
+    /// The library of charts refuses.
+    Chart {
+        /// What it says.
+        reason: String,
+    },
+}
+
+impl Display for NoMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Survey(reason) => reason.fmt(f),
+            Self::Chart { reason } => write!(f, "a chart cannot be drawn: {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for NoMap {}
+
+fn failed(error: impl Display) -> NoMap {
+    NoMap::Chart { reason: error.to_string() }
+}
+
+/// Cells along each side of a plane.
+const CELLS: usize = 120;
+/// Points along a line.
+const POINTS: usize = 121;
+const SIZE: (u32, u32) = (1100, 680);
+const FONT: &str = "sans-serif";
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Both planes over the range of the settings, side by side under a title, as SVG.
+///
+/// The box's resolution is not that of the picture, which has 120 × 120 cells in a plane.
+///
+/// # Errors
+/// As [`survey`](super::survey), and where the library of charts fails.
+pub fn map(specimen: &dyn Specimen, settings: &Settings, title: &str) -> Result<String, NoMap> {
+    settings.check().map_err(NoMap::Survey)?;
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        root.fill(&WHITE).map_err(failed)?;
+        root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
+        let (upper, legend) = root.margin(44, 10, 10, 10).split_vertically(540);
+        for (plane, area) in [Plane::Sheet, Plane::Strain].into_iter().zip(upper.split_evenly((1, 2))) {
+            panel(specimen, settings, plane, &area)?;
+        }
+        explain(&legend)?;
+        root.present().map_err(failed)?;
+    }
+    Ok(svg)
+}
+
+fn panel(specimen: &dyn Specimen, settings: &Settings, plane: Plane, area: &Area<'_>) -> Result<(), NoMap> {
+    let axis = || Axis { ends: settings.from..settings.to };
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .caption(plane.title(), (FONT, 16))
+        .x_label_area_size(44)
+        .y_label_area_size(54)
+        .build_cartesian_2d(axis(), axis())
+        .map_err(failed)?;
+
+    let cells = cells(specimen, settings, plane);
+    let edges = settings.stretches(CELLS + 1);
+    for (i, column) in cells.chunks(CELLS).enumerate() {
+        let mut start = 0;
+        for run in column.chunk_by(|one, next| one == next) {
+            let corners = [(edges[i], edges[start]), (edges[i + 1], edges[start + run.len()])];
+            let run_of_cells = Rectangle::new(corners, run[0].colour().filled());
+            chart.draw_series([run_of_cells]).map_err(failed)?;
+            start += run.len();
+        }
+    }
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .x_desc("λ1")
+        .y_desc("λ2")
+        .axis_desc_style((FONT, 15))
+        .label_style((FONT, 13))
+        .draw()
+        .map_err(failed)?;
+
+    for (name, course) in plane.paths() {
+        let point = |first: &f64| {
+            let second = course.second(specimen, *first)?;
+            (settings.from <= second && second <= settings.to).then_some((*first, second))
+        };
+        let points: Vec<_> = settings.stretches(POINTS).iter().map(point).collect();
+        // A line has gaps where the test has no equilibrium or leaves the picture.
+        for line in points.split(Option::is_none) {
+            let line: Vec<_> = line.iter().copied().flatten().collect();
+            chart.draw_series([PathElement::new(line, BLACK)]).map_err(failed)?;
+        }
+        let mut inside = points[..POINTS * 19 / 20].iter().rev().flatten();
+        if let (Some(&place), Some(&before)) = (inside.next(), inside.next()) {
+            // To the left of a line's last point, and on the side that the line does not come from.
+            let (side, shift) = if place.1 < before.1 { (VPos::Top, 4) } else { (VPos::Bottom, -4) };
+            // White around the letters keeps them readable over every colour and line.
+            let around = [(-1, 0), (1, 0), (0, -1), (0, 1)].map(|shift| (shift, WHITE));
+            for ((x, y), colour) in around.into_iter().chain([((0, 0), BLACK)]) {
+                let style = (FONT, 14).into_font().color(&colour).pos(Pos::new(HPos::Right, side));
+                let text = EmptyElement::at(place) + Text::new(*name, (x - 4, y + shift), style);
+                chart.draw_series([text]).map_err(failed)?;
+            }
+        }
+    }
+    chart.draw_series([Circle::new((1.0, 1.0), 4, BLACK.filled())]).map_err(failed)?;
+    Ok(())
+}
+
+/// Column by column, from the least stretches to the greatest.
+fn cells(specimen: &dyn Specimen, settings: &Settings, plane: Plane) -> Vec<Cell> {
+    // The middles of the cells are every other one of these.
+    let stretches = settings.stretches(2 * CELLS + 1);
+    let mut cells = vec![Cell::Outside; CELLS * CELLS];
+    for i in 0..CELLS {
+        for j in 0..=i {
+            let pair = [stretches[2 * i + 1], stretches[2 * j + 1]];
+            let judgement = plane.stretches(specimen, pair).and_then(|all| Judgement::of(specimen, all));
+            cells[CELLS * i + j] = Cell::of(judgement);
+            cells[CELLS * j + i] = cells[CELLS * i + j];
+        }
+    }
+    cells
+}
+
+/// Colours and what they mean, three in a row.
+fn explain(area: &Area<'_>) -> Result<(), NoMap> {
+    for (k, cell) in Cell::ALL.into_iter().enumerate() {
+        let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
+        let corners = [(x, y), (x + 24, y + 16)];
+        area.draw(&Rectangle::new(corners, cell.colour().filled())).map_err(failed)?;
+        area.draw(&Rectangle::new(corners, RGBColor(120, 120, 120))).map_err(failed)?;
+        let style = (FONT, 14).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(cell.name(), (x + 34, y + 9), style)).map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// An axis of stretches in equal steps of their logarithm, with round numbers on it.
+struct Axis {
+    ends: Range<f64>,
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, stretch: &f64, (low, high): (i32, i32)) -> i32 {
+        let share = (stretch / self.ends.start).ln() / (self.ends.end / self.ends.start).ln();
+        low + (share * f64::from(high - low)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        let decades = (-6..6).map(|exponent| 10f64.powi(exponent));
+        let round = decades.flat_map(|decade| [1.0, 1.5, 2.0, 3.0, 5.0, 7.0].map(|digit| digit * decade));
+        // 3 · 10⁻¹ is one rounding more than 0.3.
+        let (start, end) = (self.ends.start * (1.0 - 1e-12), self.ends.end * (1.0 + 1e-12));
+        round.filter(|stretch| start <= *stretch && *stretch <= end).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.ends.clone()
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, stretch: &f64) -> String {
+        format!("{}", (stretch * 1e9).round() / 1e9)
+    }
+}
