@@ -235,7 +235,10 @@ fn panel(specimen: &dyn Specimen, settings: &Settings, plane: Plane, area: &Area
             let line: Vec<_> = line.iter().copied().flatten().collect();
             chart.draw_series([PathElement::new(line, BLACK)]).map_err(failed)?;
         }
-        let mut inside = points[..POINTS * 19 / 20].iter().rev().flatten();
+        // Where there is room for a name, away from the frame.
+        let share = (settings.to / settings.from).powf(0.07);
+        let has_room = |place: &&(f64, f64)| settings.from * share < place.1 && place.1 < settings.to / share;
+        let mut inside = points[..POINTS * 19 / 20].iter().rev().flatten().filter(has_room);
         if let (Some(&place), Some(&before)) = (inside.next(), inside.next()) {
             // To the left of a line's last point, and on the side that the line does not come from.
             let (side, shift) = if place.1 < before.1 { (VPos::Top, 4) } else { (VPos::Bottom, -4) };
