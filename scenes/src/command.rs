@@ -18,7 +18,7 @@ use piola_scenes::view::recording::Recording;
 use piola_scenes::view::state::State;
 use piola_scenes::view::{Begin, Options};
 
-pub(crate) use laboratory::{Curve, Fit};
+pub(crate) use laboratory::{Check, Curve, Fit};
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -46,6 +46,10 @@ pub(crate) enum Command {
     Curve(Box<Curve>),
     /// Fit the parameters of a material to measured curves.
     Fit(Box<Fit>),
+    /// Say where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
+    ///
+    /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from rest.
+    Check(Box<Check>),
 }
 
 /// All quantities are in SI units; y points upwards.

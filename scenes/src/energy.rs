@@ -138,17 +138,9 @@ impl Energy {
     /// # Errors
     /// Where there is no such material, it has no such parameter, one has no value, or the material refuses one.
     pub fn build(&self) -> Result<Substance, Error> {
-        let entry = find(&self.material)?;
+        let Resolved { entry, values, inversion } = self.resolve()?;
+        let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
         let refused = |reason| Error::Inadmissible { material: entry.name, reason };
-        let matched = match self.moduli {
-            Some(moduli) if self.parameters.is_empty() => Some(entry.matching(moduli).map_err(refused)?),
-            _ => None,
-        };
-        let values = match &matched {
-            Some(values) => values.iter().map(Vec::as_slice).collect(),
-            None => self.values(entry.name, &entry.description)?,
-        };
-        let inversion = self.inversion(&entry.description);
         let names = entry.description.parameters.iter().map(|parameter| parameter.name);
         Ok(Substance {
             name: entry.name,
@@ -158,7 +150,7 @@ impl Energy {
         })
     }
 
-    /// The same for test curves.
+    /// The material on the bench, for test curves and their stability.
     ///
     /// # Errors
     /// As [`Energy::build`].
@@ -193,11 +185,21 @@ impl Energy {
         &self,
         visit: impl Fn(&Entry, &[&[f64]], Inversion) -> Result<T, Inadmissible>,
     ) -> Result<T, Error> {
-        let explicit = self.explicit()?;
+        let Resolved { entry, values, inversion } = self.resolve()?;
+        let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
+        visit(entry, &values, inversion)
+            .map_err(|reason| Error::Inadmissible { material: entry.name, reason })
+    }
+
+    /// Looks the material up and gives each parameter its values, which it may refuse.
+    fn resolve(&self) -> Result<Resolved, Error> {
         let entry = find(&self.material)?;
-        let values = explicit.values(entry.name, &entry.description)?;
-        let visited = visit(entry, &values, self.inversion(&entry.description));
-        visited.map_err(|reason| Error::Inadmissible { material: entry.name, reason })
+        let refused = |reason| Error::Inadmissible { material: entry.name, reason };
+        let values = match self.moduli {
+            Some(moduli) if self.parameters.is_empty() => entry.matching(moduli).map_err(refused)?,
+            _ => self.values(entry.name, &entry.description)?.into_iter().map(<[f64]>::to_vec).collect(),
+        };
+        Ok(Resolved { entry, values, inversion: self.inversion(&entry.description) })
     }
 
     /// The values in the order of the declaration.
@@ -224,6 +226,14 @@ impl Energy {
             false => Inversion::Refuse,
         })
     }
+}
+
+/// All that a material is built from.
+struct Resolved {
+    entry: &'static Entry,
+    /// In the order of the declaration.
+    values: Vec<Vec<f64>>,
+    inversion: Inversion,
 }
 
 /// Values by the names of the parameters.

@@ -104,6 +104,11 @@ pub enum Error {
         /// What is wrong, the file and its line named.
         reason: String,
     },
+    /// The bench has no use for what it is given.
+    Bench {
+        /// Why.
+        reason: String,
+    },
     /// Files cannot be written there.
     Folder {
         /// The folder.
@@ -228,7 +233,7 @@ impl fmt::Display for Error {
             }
             Self::Setup { reason } => f.write_str(reason),
             Self::Geometry { file, reason } => write!(f, "{file}: {reason}"),
-            Self::File { reason } => f.write_str(reason),
+            Self::File { reason } | Self::Bench { reason } => f.write_str(reason),
             Self::Folder { path, reason } => {
                 write!(
                     f,

@@ -1,5 +1,6 @@
-//! A material of the catalogue on the bench: what `piola curve` and `piola fit` do.
+//! A material of the catalogue on the bench: what `piola curve`, `piola fit` and `piola check` do.
 
+mod check;
 mod curve;
 mod fit;
 
@@ -13,6 +14,7 @@ use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
 use crate::error::Error;
 use crate::output::write_whole;
 
+pub use check::{CheckReport, CheckSettings, check};
 pub use curve::{CurveReport, CurveSettings, curve};
 pub use fit::{FitReport, FitSettings, fit};
 

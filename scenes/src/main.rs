@@ -33,6 +33,9 @@ fn main() -> ExitCode {
         Some(Command::Fit(arguments)) => {
             arguments.settings().and_then(|settings| laboratory::fit(&settings)).map(table)
         }
+        Some(Command::Check(arguments)) => {
+            arguments.settings().and_then(|settings| laboratory::check(&settings)).map(table)
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -162,3 +162,12 @@ fn what_a_bench_cannot_do() {
     let text = "mode,stretch,nominal_stress_kPa\nuniaxial,2,300\n";
     check(&data(text), &arguments, &["1 points", "--hold"]);
 }
+
+#[test]
+fn checks_of_nonsense() {
+    check(&[], &["check", "rubber"], &["no material `rubber`", "`neo_hookean_lnj`"]);
+    check(&[], &["check", "gent", "--param", "mue=1"], &["no parameter `mue`", "`mu`"]);
+    check(&[], &["check", "gent", "--param", "mu=-1"], &["mu > 0"]);
+    check(&[], &["check", "gent", "--from", "2"], &["from 2 to 3", "0 < from < 1 < to"]);
+    check(&[], &["check", "gent", "--resolution", "1"], &["resolution is 1", "2 to 400"]);
+}

@@ -256,3 +256,30 @@ fn materials_are_described() {
         assert!(text.contains(word), "`{word}` is not in: {text}");
     }
 }
+
+#[test]
+fn a_material_is_checked() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let output = piola(folder.path(), &["check", "stvk", "--resolution", "9", "--svg", "map.svg"]);
+    let (text, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success() && errors.is_empty(), "{errors}");
+    // Steel, with its typical parameters, and where an oblique wave stands still under confined compression.
+    for word in ["StVenantKirchhoff mu=8.1e10 lambda=1.2e11", "μ = 81 GPa", "strong ellipticity", "0.7043"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+    let map = fs::read_to_string(folder.path().join("map.svg")).expect("a map");
+    assert!(map.starts_with("<svg") && map.trim_end().ends_with("</svg>"));
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "the map and nothing else");
+}
+
+#[test]
+fn a_parameter_takes_the_place_of_a_typical_one() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let arguments =
+        ["check", "hencky", "--param", "mu=1e6", "--from", "0.8", "--to", "1.25", "--resolution", "3"];
+    let output = piola(folder.path(), &arguments);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.starts_with("Hencky mu=1e6 lambda=204000\n"), "{text}");
+    // A solid that is stable at moderate stretches says so.
+    assert_eq!(text.matches("100 %").count(), 3, "{text}");
+}

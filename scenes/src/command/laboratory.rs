@@ -3,14 +3,16 @@
 use std::path::PathBuf;
 
 use clap::Parser;
+use piola::Inversion;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::fit::Difference;
+use piola_laboratory::stability;
 
 use piola_scenes::energy::Energy;
 use piola_scenes::error::Error;
-use piola_scenes::laboratory::{CurveSettings, FitSettings, Source};
+use piola_scenes::laboratory::{CheckSettings, CurveSettings, FitSettings, Source};
 
-use super::parameter;
+use super::{inversion, parameter};
 
 /// Stresses are in Pa.
 #[derive(Debug, Parser)]
@@ -91,6 +93,34 @@ pub(crate) struct Fit {
     svg: Option<PathBuf>,
 }
 
+/// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from rest.
+#[derive(Debug, Parser)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    material: Material,
+
+    /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which the energy is
+    /// extended by polynomials.
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, default_value = "refuse", allow_negative_numbers = true)]
+    inversion: Inversion,
+
+    /// The least stretch of the box and of the tests.
+    #[arg(long, value_name = "A", default_value_t = 0.3, allow_negative_numbers = true)]
+    from: f64,
+
+    /// The greatest stretch of the box and of the tests.
+    #[arg(long, value_name = "B", default_value_t = 3.0, allow_negative_numbers = true)]
+    to: f64,
+
+    /// Stretches along each axis of the box.
+    #[arg(long, value_name = "N", default_value_t = 41)]
+    resolution: usize,
+
+    /// Draw a map over the stretches in a sheet and in plane strain.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
 /// A material of the catalogue.
 #[derive(Debug, Parser)]
 pub(crate) struct Material {
@@ -136,6 +166,15 @@ impl Fit {
             seed: self.seed,
             svg: self.svg,
         })
+    }
+}
+
+impl Check {
+    /// What is asked for.
+    pub(crate) fn settings(self) -> Result<CheckSettings, Error> {
+        let energy = self.material.energy()?.inverting(self.inversion);
+        let stretches = stability::Settings { from: self.from, to: self.to, resolution: self.resolution };
+        Ok(CheckSettings { energy, stretches, svg: self.svg })
     }
 }
 
