@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use piola::batch::Batch;
-use piola::material::{Declared, Each, Inadmissible, Moduli, Normalised, Varying};
+use piola::material::{Declared, Each, Inadmissible, Moduli, Normalised};
 use piola::{Inversion, Material};
 use piola_materials::{Arap, Gent, MooneyRivlin, find};
 
@@ -88,9 +88,3 @@ fn softer_in_volume_than_the_energy_itself_is_refused() {
     let soft = MooneyRivlin::from_values(&values, Inversion::Refuse).expect("admissible");
     assert!(soft.normalised_to(1e6, 0.3).is_ok());
 }
-
-/// A material for each point needs no more than that of the energy inside.
-const _: fn() = || {
-    fn varies<M: Varying>() {}
-    varies::<Normalised<Gent>>();
-};

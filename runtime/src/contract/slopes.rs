@@ -34,7 +34,7 @@ pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Fin
 ///
 /// Gauss's rule says how far off it is, and each ψ is known to some u times its own size and that of its terms.
 fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
-    let at = |t: f64| std::array::from_fn(|k| t.mul_add(to[k] - from[k], from[k]));
+    let at = |t: f64| std::array::from_fn(|k| from[k] + t * (to[k] - from[k]));
     // On the way through λ3 = 0 there may be a pole.
     let crosses = from[2].signum() != to[2].signum();
     let zero = -from[2] / (to[2] - from[2]);
