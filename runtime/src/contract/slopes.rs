@@ -11,7 +11,7 @@ use super::frames::diagonal;
 use super::pairs::mean;
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
-use crate::material::Material;
+use crate::material::{Inversion, Material};
 use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 use crate::random::Random;
@@ -42,10 +42,23 @@ fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3
     if !is_inside || (crosses && !is_admitted(material, [at(zero)[0], at(zero)[1], 0.0])) {
         return Ok(());
     }
-    let (expected, inexact) = mean(1.0, |t| {
+    let power = |t: f64| {
         let gradient = gradient_at(material, at(t));
-        (0..3).map(|k| gradient[k] * (to[k] - from[k])).sum()
-    });
+        (0..3).map(|k| gradient[k] * (to[k] - from[k])).sum::<f64>()
+    };
+    // Smooth from one stretch at the threshold of an extension to the next.
+    let mut ends = vec![0.0, 1.0];
+    if let Inversion::Extend { epsilon } = material.inversion() {
+        ends.extend((0..3).map(|k| (epsilon - from[k]) / (to[k] - from[k])).filter(|t| 0.0 < *t && *t < 1.0));
+        ends.sort_by(f64::total_cmp);
+    }
+    let (mut expected, mut inexact) = (0.0, 0.0);
+    for piece in ends.windows(2) {
+        let length = piece[1] - piece[0];
+        let (mean, error) = mean(1.0, |t| power(piece[0] + t * length));
+        expected += length * mean;
+        inexact += length * error;
+    }
     let rounding: f64 = [from, to]
         .into_iter()
         .map(|l| stress_scale(&blocks_at(material, l), l) * l[0] + energy_at(material, l).abs())
