@@ -39,7 +39,7 @@
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind;
 //! * [`random`]: numbers for samples, the same on every machine;
-//! * [`contract`]: what a material must satisfy, as functions for tests;
+//! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces;
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers;
 //! * [`step`]: implicit Euler by Newton's method.

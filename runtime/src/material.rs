@@ -120,7 +120,7 @@ pub trait Material: Send + Sync {
     }
 
     /// Small-strain moduli, where they are known from elsewhere than the Hessian at rest, as those of a declaration are; for
-    /// comparison with it by the [`contract`](crate::contract).
+    /// comparison with it by the [`contract`](mod@crate::contract).
     fn stated_moduli(&self) -> Option<Moduli> {
         None
     }
