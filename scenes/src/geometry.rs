@@ -54,7 +54,11 @@ impl Geometry {
         }
     }
 
-    fn of(body: Body) -> Result<Self, Error> {
+    /// One of the bodies that come with the program.
+    ///
+    /// # Errors
+    /// As [`Geometry::load`].
+    pub fn of(body: Body) -> Result<Self, Error> {
         match body.shape {
             Shape::Files { mesh: file, surface: skin } => {
                 let mesh = readable(parse_msh(file.text, Path::new(file.name)))?;

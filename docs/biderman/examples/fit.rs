@@ -1,0 +1,21 @@
+//! The parameters with which Biderman's energy agrees best with Treloar's rubber.
+
+use biderman::Biderman;
+use piola_laboratory::data::{Measurements, TRELOAR_1944};
+use piola_laboratory::fit::{Settings, fit};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // Where the search begins: a shear modulus of 0.4 MPa, and a little of each.
+    let start = Biderman::new(1.9e5, 1e4, 1e2, 1e2, 2e7)?;
+    let data = Measurements::read(TRELOAR_1944)?;
+    let fitted = fit(&start, &data, &Settings::default())?;
+
+    for number in &fitted.numbers {
+        println!("{:6} {:>10.3e} Pa", number.name, number.value);
+    }
+    println!("R²: {}", fitted.agreement);
+    for warning in &fitted.warnings {
+        println!("warning: {warning}");
+    }
+    Ok(())
+}
