@@ -90,6 +90,9 @@ pub use violation::{Violation, Violations};
 
 use judge::Judge;
 
+/// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without optimisation may need.
+pub const STACK: usize = 1 << 26;
+
 /// Which points are checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {

@@ -12,7 +12,7 @@ use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
 use crate::formula::formula;
 use crate::interpret::{Point, Value, evaluate};
-use crate::model::bounds;
+use crate::model::{Volume, bounds};
 use crate::parse::Declaration;
 use crate::rational::Rational;
 use crate::resolve::Nodes;
@@ -152,6 +152,45 @@ pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnos
     }
 }
 
+/// Where the domain does not say `J > 0.0`, inverted material has an energy, and where it does not say `J != 0.0`, what is flat.
+pub fn volume(
+    graph: &Graph,
+    written: &Written<'_>,
+    volume: Volume,
+    samples: &[Point],
+    diagnostics: &mut Diagnostics,
+) {
+    // What functions are defined for is their own affair.
+    if written.declaration.has_functions() {
+        return;
+    }
+    let has_no_value = |part: Id, sign: f64| {
+        let inverted = |point: &Point| {
+            let [l1, l2, l3] = point.stretches;
+            Point { stretches: [l1, l2, sign * l3.abs()], ..point.clone() }
+        };
+        let is_inside =
+            |point: &Point| written.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0);
+        let mut points = samples.iter().map(inverted).filter(is_inside).peekable();
+        points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
+    };
+    let cases = [
+        (-1.0, "where J < 0, in inverted material: declare `domain(J > 0.0)`"),
+        (0.0, "where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)`"),
+    ];
+    let count = match volume {
+        Volume::Positive => 0,
+        Volume::Nonzero => 1,
+        Volume::Any => 2,
+    };
+    for (sign, message) in cases.into_iter().take(count) {
+        if has_no_value(written.energy, sign) {
+            let culprit = written.culprit(|part| has_no_value(part, sign));
+            return diagnostics.error(culprit, format!("this has no value {message}"));
+        }
+    }
+}
+
 /// ψ1 must vanish at λ = 1.
 pub fn rest(
     graph: &mut Graph,
@@ -190,9 +229,13 @@ pub fn rest(
         });
         let stress = graph.substitute(gradient, [one; 3]);
         let stress = simplify(graph, stress);
-        let balance = if written.positive { "J.ln()" } else { "(J - 1.0)" };
+        let balance = if written.positive {
+            "`J.ln()`"
+        } else {
+            "`J.ln()` with `domain(J > 0.0)`, or times `(J - 1.0)` with any domain"
+        };
         let message = format!(
-            "this leaves the stress {} at rest: subtract that times `{balance}`, or say `prestressed` in the attribute",
+            "this leaves the stress {} at rest: subtract that times {balance}, or say `prestressed` in the attribute",
             formula(graph, written.declaration, stress)
         );
         diagnostics.error(culprit, message);

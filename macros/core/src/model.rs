@@ -166,6 +166,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if !options.prestressed && diagnostics.is_clean() {
         check::rest(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     }
+    if diagnostics.is_clean() {
+        check::volume(&graph, &written, volume, &samples, diagnostics);
+    }
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);

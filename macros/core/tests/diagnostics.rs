@@ -217,9 +217,26 @@ fn physics() {
         "fn E([a, b, c]: [f64; 3], mu: f64, kappa: f64) -> f64 { mu / 2.0 * (I1 - 3.0) + kappa * J * J }",
         &[(
             "mu / 2.0 * (I1 - 3.0) + kappa * J * J",
-            "leaves the stress μ + 2 κ at rest: subtract that times `(J - 1.0)`",
+            "leaves the stress μ + 2 κ at rest: subtract that times `J.ln()` with `domain(J > 0.0)`, or times `(J - 1.0)`",
         )],
     );
+    for (attribute, term, message) in [
+        (
+            "",
+            "I1 - 3.0 - 2.0 * J.ln()",
+            "no value where J < 0, in inverted material: declare `domain(J > 0.0)`",
+        ),
+        ("", "I1b - 3.0", "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or"),
+        (
+            "",
+            "I1 - 3.0 + J.powi(-2)",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or",
+        ),
+        ("domain(J != 0.0)", "I1 - 3.0 - 2.0 * J.ln()", "no value where J < 0, in inverted material"),
+    ] {
+        let item = format!("fn E([a, b, c]: [f64; 3], mu: f64) -> f64 {{ mu * ({term}) }}");
+        check(attribute, &item, &[(&format!("mu * ({term})"), message)]);
+    }
     check("prestressed", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * I1 }", &[]);
     check_added("mu * (I1 - 3.0).sqrt()", "mu * (I1 - 3.0).sqrt()", "is not finite at rest");
     check(
