@@ -40,16 +40,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let vertices = horse.surface_at(simulation.positions());
             frames.push(Frame { number, time: number as f64 * dt, vertices });
         }
-        simulation.step(dt)?;
+        simulation.step(dt).map_err(|error| format!("step {number}: {error}"))?;
+    }
+
+    if let Some(file) = std::env::args().nth(1) {
+        contact_sheet(&frames, &horse.triangles, &HORSE.style).write_png(File::create(file)?)?;
     }
 
     let top = |positions: &[[f64; 3]]| positions.iter().fold(0.0, |top: f64, [_, y, _]| top.max(*y));
     let [now, rest] = [simulation.positions(), simulation.body().rest()].map(top);
     println!("{now:.4} m high again, of {rest:.4} m");
     assert!((now - rest).abs() < 1e-3 * rest);
-
-    if let Some(file) = std::env::args().nth(1) {
-        contact_sheet(&frames, &horse.triangles, &HORSE.style).write_png(File::create(file)?)?;
-    }
     Ok(())
 }
