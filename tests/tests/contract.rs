@@ -30,13 +30,16 @@ const FURTHER: [(&str, &[&[f64]]); 9] = [
 
 struct Contract(Settings);
 
+/// A rule.
+type Check<M> = fn(&M, &Settings) -> Result<Finding, Violation>;
+
 impl Visitor for Contract {
     type Output = Result<(), Violation>;
 
     /// Every rule but that on lanes: `bits` and `reference` judge each material in each back end, and a further program for
     /// each of them takes minutes to compile.
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        let mut rules: Vec<fn(&M, &Settings) -> Result<Finding, Violation>> = vec![
+        let mut rules: Vec<Check<M>> = vec![
             rest,
             domain,
             objectivity,
