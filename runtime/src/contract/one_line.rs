@@ -20,7 +20,7 @@
 ///
 /// ```
 /// # /// A stiff exponential.
-/// # #[piola::material]
+/// # #[piola::material(domain(J > 0.0))]
 /// # pub fn Tissue([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ kappa: f64) -> f64 {
 /// #     mu / 2.0 * (I1b - 3.0).exp() + kappa / 2.0 * (J - 1.0).powi(2)
 /// # }
