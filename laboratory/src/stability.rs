@@ -205,6 +205,3 @@ fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, NoSurvey> {
     let mu: f64 = if specimen.admits([1.0; 3]) { 0.5 * (h11 - h12) } else { f64::NAN };
     if mu > 0.0 && mu.is_finite() { Ok(Moduli { mu, lambda: h12 }) } else { Err(NoSurvey::Rest { mu }) }
 }
-
-#[cfg(test)]
-mod tests;

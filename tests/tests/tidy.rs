@@ -48,8 +48,7 @@ fn imports_point_one_way() {
     forbid("macros/core/src", &["nalgebra", "piola_materials", "faer"]);
     forbid("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
     forbid("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]);
-    // The catalogue is no dependency of the laboratory but in its tests.
-    forbid("laboratory/src", &["piola_scenes", "piola_tests", "piola_codegen"]);
+    forbid("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
     forbid("scenes/src", &["piola_tests", "piola_codegen"]);
     // Inside the runtime: lanes and material below point, point below system, system below step.
     forbid(

@@ -76,7 +76,7 @@ const STEPS: u32 = 256;
 
 impl Walk {
     /// Walks from rest to a stretch.
-    pub(super) fn along(path: Path, specimen: &dyn Specimen, to: f64) -> Self {
+    pub fn along(path: Path, specimen: &dyn Specimen, to: f64) -> Self {
         let judged = |stretch: f64| Judgement::of(specimen, path.stretches(specimen, stretch)?);
         let mut walk = Self { path, to, reached: 1.0, lost: [None; 3] };
         for step in 0..=STEPS {

@@ -1,9 +1,10 @@
+//! Where energies of the catalogue keep the inequalities of a stable solid, beside searches and what is published of them.
+
 use piola::Material;
 use piola::material::{Blocks, Moduli};
 use piola::random::Random;
+use piola_laboratory::stability::*;
 use piola_materials::{BlatzKo, CiarletGeymonat, Gent, Hencky, NeoHookean, StVenantKirchhoff};
-
-use super::*;
 
 type Tested = Result<(), Box<dyn std::error::Error>>;
 
