@@ -37,18 +37,29 @@
 //! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
-//! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind;
+//! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
 //! * [`random`]: numbers for samples, the same on every machine;
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces;
-//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers;
-//! * [`step`]: implicit Euler by Newton's method.
+//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
+//!   (feature `system`);
+//! * [`step`]: implicit Euler by Newton's method (feature `system`).
+//!
+//! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
+//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch`, faer and nalgebra, and
+//! minutes. `nalgebra` has conversions of matrices only.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
 
+#![cfg_attr(
+    not(feature = "system"),
+    allow(unused, rustdoc::broken_intra_doc_links, reason = "what bodies and batches need")
+)]
+
 extern crate self as piola;
 
+#[cfg(feature = "batch")]
 pub mod batch;
 pub mod contract;
 #[cfg(test)]
@@ -59,7 +70,9 @@ pub mod mesh;
 pub mod point;
 pub mod quotient;
 pub mod random;
+#[cfg(feature = "system")]
 pub mod step;
+#[cfg(feature = "system")]
 pub mod system;
 pub mod univariate;
 

@@ -15,11 +15,13 @@ use std::{env, fs, io};
 const ROUNDS: usize = 3;
 
 /// The crates: what each is for, its dependencies and its source. All others are compared with the first.
-const SUBJECTS: [(&str, &str, &str); 4] = [
+const SUBJECTS: [(&str, &str, &str); 6] = [
     ("syn and quote", "syn = { version = \"3.0\", features = [\"full\"] }\nquote = \"1.0\"\n", ""),
     ("the macro", "piola-macros = { path = \"ROOT/macros\" }\n", ""),
     ("piola", "piola = { path = \"ROOT/runtime\" }\n", ""),
     ("piola, one material", "piola = { path = \"ROOT/runtime\" }\n", MATERIAL),
+    ("… and batches", "piola = { path = \"ROOT/runtime\", features = [\"batch\"] }\n", MATERIAL),
+    ("… and bodies", "piola = { path = \"ROOT/runtime\", features = [\"system\"] }\n", MATERIAL),
 ];
 
 const MATERIAL: &str = "
