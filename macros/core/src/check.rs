@@ -4,19 +4,21 @@
 //! Decided by evaluation at random points with random parameters, relative to what rounding could hide. A normal form
 //! would call (x + y)² and x² + 2xy + y² different.
 
+use quote::ToTokens;
 use syn::Expr;
 
 use crate::culprit::culprit;
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
-use crate::formula::formula;
 use crate::interpret::{Point, Value, evaluate};
 use crate::model::{Volume, bounds};
-use crate::parse::Declaration;
+use crate::parse::{Declaration, identifiers};
 use crate::rational::Rational;
-use crate::resolve::Nodes;
+use crate::resolve::{Nodes, Resolver};
 use crate::simplify::simplify;
+use crate::source::{factor, source};
+use crate::spelling::list;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
@@ -229,17 +231,50 @@ pub fn rest(
         });
         let stress = graph.substitute(gradient, [one; 3]);
         let stress = simplify(graph, stress);
-        let balance = if written.positive {
-            "`J.ln()`"
-        } else {
-            "`J.ln()` with `domain(J > 0.0)`, or times `(J - 1.0)` with any domain"
-        };
+        let mut ways = vec![balance(graph, written, stress)];
+        let isochoric = isochoric(graph, written);
+        let isochoric = first(graph, isochoric);
+        let names = invariants(written.declaration);
+        if !names.is_empty() && !is_stressed(graph, isochoric) {
+            let domain = if written.positive { "" } else { " with `domain(J > 0.0)`" };
+            let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
+            ways.push(format!("write {} for {}{domain}, which leaves none", list(&isochoric), list(&names)));
+        }
         let message = format!(
-            "this leaves the stress {} at rest: subtract that times {balance}, or say `prestressed` in the attribute",
-            formula(graph, written.declaration, stress)
+            "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute",
+            source(graph, written.declaration, stress),
+            ways.join("; or ")
         );
         diagnostics.error(culprit, message);
     }
+}
+
+/// What takes the stress at rest away, to be pasted.
+fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id) -> String {
+    let declaration = written.declaration;
+    let term = if source(graph, declaration, stress).starts_with('-') {
+        let negated = graph.neg(stress);
+        format!("+ {}", factor(graph, declaration, negated))
+    } else {
+        format!("- {}", factor(graph, declaration, stress))
+    };
+    if written.positive {
+        format!("append `{term} * J.ln()`")
+    } else {
+        format!("append `{term} * J.ln()` with `domain(J > 0.0)`, or `{term} * (J - 1.0)` with any domain")
+    }
+}
+
+/// The energy with I1b and I2b for I1 and I2.
+fn isochoric(graph: &mut Graph, written: &Written<'_>) -> Id {
+    // Its names are known to be understood.
+    Resolver::of_isochoric(written.declaration, graph, &mut Diagnostics::default()).energy()
+}
+
+/// Which of I1 and I2 are written in the energy.
+fn invariants(declaration: &Declaration) -> Vec<&'static str> {
+    let names = identifiers(declaration.body.to_token_stream());
+    ["I1", "I2"].into_iter().filter(|invariant| names.iter().any(|name| name == invariant)).collect()
 }
 
 /// Some shear modulus must be positive, or the constructor would refuse all parameters.

@@ -33,6 +33,7 @@ pub mod rational;
 pub mod resolve;
 pub mod schedule;
 pub mod simplify;
+pub mod source;
 mod spelling;
 #[cfg(test)]
 mod testing;

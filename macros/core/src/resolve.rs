@@ -40,6 +40,8 @@ pub struct Resolver<'a> {
 enum Scope {
     /// λ1, λ2, λ3 and the parameters.
     Stretches,
+    /// The same, with I1b and I2b wherever I1 and I2 are written.
+    Isochoric,
     /// I1, I2, J and the parameters.
     Invariants,
     /// The parameters alone, in a condition that is emitted as it is written, numbers apart.
@@ -84,6 +86,15 @@ impl<'a> Resolver<'a> {
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
         Self { scope: Scope::Invariants, ..Self::new(declaration, graph, diagnostics) }
+    }
+
+    /// The same with I1b, I2b in the places of I1, I2.
+    pub fn of_isochoric(
+        declaration: &'a Declaration,
+        graph: &'a mut Graph,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self { scope: Scope::Isochoric, ..Self::new(declaration, graph, diagnostics) }
     }
 
     /// The nodes of everything understood.

@@ -210,14 +210,15 @@ fn physics() {
     check_added(
         "mu * (l1 + l2 + l3)",
         "mu * (l1 + l2 + l3)",
-        "leaves the stress μ at rest: subtract that times `J.ln()`",
+        "leaves the stress `mu` at rest: append `- mu * J.ln()`; or say `prestressed`",
     );
     check(
         "",
         "fn E([a, b, c]: [f64; 3], mu: f64, kappa: f64) -> f64 { mu / 2.0 * (I1 - 3.0) + kappa * J * J }",
         &[(
             "mu / 2.0 * (I1 - 3.0) + kappa * J * J",
-            "leaves the stress μ + 2 κ at rest: subtract that times `J.ln()` with `domain(J > 0.0)`, or times `(J - 1.0)`",
+            "leaves the stress `mu + 2.0 * kappa` at rest: append `- (mu + 2.0 * kappa) * J.ln()` with `domain(J > 0.0)`, \
+             or `- (mu + 2.0 * kappa) * (J - 1.0)` with any domain; or say `prestressed`",
         )],
     );
     for (attribute, term, message) in [
@@ -249,6 +250,33 @@ fn physics() {
         "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 - 2.0 * J.ln()) }",
         &[("E", "no parameters were found")],
     );
+}
+
+#[test]
+fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
+    let check = |energy: &str, isochoric: Option<&str>| {
+        let declared = |energy: &str| {
+            let item = format!(
+                "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: [f64; N], a: [f64; N]) -> f64 {{ \
+                 b * (J - 1.0).powi(2) + mu * sum(|p| m[p] * a[p]) * (I1b - 3.0) + {energy} }}"
+            );
+            mistakes("domain(J > 0.0)", &item)
+        };
+        let found = declared(energy);
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        let (_, rest) = message.split_once("append `").expect(message);
+        let (term, rest) = rest.split_once('`').expect(message);
+        let balanced = format!("{energy} {term}");
+        assert_eq!(declared(&balanced), [], "{balanced}");
+        let said = rest.strip_prefix("; or write ").and_then(|rest| rest.split_once(", which leaves none"));
+        assert_eq!(said.map(|(said, _)| said), isochoric, "{message}");
+    };
+    check("mu * (I1 - 3) + b * (I2 - 3)", Some("`I1b`, `I2b` for `I1`, `I2`"));
+    check("-mu * (I1 - 3) / 2 - b * I1", Some("`I1b` for `I1`"));
+    check("mu * (I1 - 3) + b * J", None);
+    check("mu * (b.sqrt() * I1 / 3).powf(mu) + (b * J).exp()", None);
+    check("sum(|k| m[k] / a[k] * (l1.powf(a[k]) + l2.powf(a[k]) + l3.powf(a[k]) - 3))", None);
+    check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
 }
 
 #[test]

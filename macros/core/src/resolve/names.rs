@@ -20,7 +20,7 @@ impl Resolver<'_> {
         }
         if let Some(i) = self.declaration.stretches.iter().position(|stretch| stretch == name) {
             return match self.scope {
-                Scope::Stretches => self.graph.stretch(i),
+                Scope::Stretches | Scope::Isochoric => self.graph.stretch(i),
                 Scope::Invariants => self.mistake(name, &format!("`{text}` is no function of I1, I2 and J")),
                 Scope::Parameters => self.deformation(name),
             };
@@ -107,7 +107,7 @@ impl Resolver<'_> {
         let stretches = [0, 1, 2].map(|i| graph.stretch(i));
         let [i1, i2, j] = match self.scope {
             Scope::Invariants => stretches,
-            Scope::Stretches | Scope::Parameters => {
+            Scope::Stretches | Scope::Isochoric | Scope::Parameters => {
                 let squares = stretches.map(|stretch| graph.powi(stretch, 2));
                 let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
                 [graph.sum_of(&squares), graph.sum_of(&pairs), graph.product_of(&stretches)]
@@ -117,6 +117,11 @@ impl Resolver<'_> {
             let exponent = Rational::new(numerator, 3).map(Exponent::rational)?;
             let power = graph.power(j, exponent);
             Some(graph.mul(power, invariant))
+        };
+        let word = match (word, self.scope) {
+            ("I1", Scope::Isochoric) => "I1b",
+            ("I2", Scope::Isochoric) => "I2b",
+            (word, _) => word,
         };
         match word {
             "J" => Some(j),
