@@ -35,6 +35,9 @@ pub struct Resolver<'a> {
     nodes: Nodes,
 }
 
+/// NaN, which is no literal.
+const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
+
 /// What an expression is a function of.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Scope {
@@ -206,6 +209,10 @@ impl<'a> Resolver<'a> {
             return None;
         }
         self.bindings.insert(name.to_string(), value);
+        if self.is_unknown(value) {
+            self.mistaken.insert(name.to_string());
+            return None;
+        }
         Some(name.clone())
     }
 
@@ -250,6 +257,10 @@ impl<'a> Resolver<'a> {
                 self.error(return_token, "the last line of an energy is its value: write it without `return` and `;`");
                 self.expression(value)
             }
+            Expr::Array(_) | Expr::Repeat(_) => self.mistake(
+                expression,
+                "lists are parameters, as `mu: [f64; N]`: numbers of the energy's own are written out, term by term",
+            ),
             other => self.mistake(
                 other,
                 "an energy is made of numbers, parameters, stretches, `+ - * /`, `sum(|p| …)` and calls such as `x.ln()`",
@@ -303,7 +314,17 @@ impl<'a> Resolver<'a> {
 
     fn mistake(&mut self, tokens: impl ToTokens, message: &str) -> Id {
         self.error(tokens, message);
-        self.graph.integer(1)
+        self.unknown()
+    }
+
+    /// What stands for a mistake: a number that no literal is, so that nothing cancels it and no rule on numbers applies.
+    fn unknown(&mut self) -> Id {
+        self.graph.leaf(UNKNOWN)
+    }
+
+    /// Whether a value is or depends on what a mistake stands for.
+    fn is_unknown(&self, value: Id) -> bool {
+        self.graph.reachable(&[value]).into_iter().any(|id| *self.graph.node(id) == UNKNOWN)
     }
 
     fn error(&mut self, tokens: impl ToTokens, message: &str) {

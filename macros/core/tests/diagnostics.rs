@@ -98,6 +98,35 @@ fn one_mistake_gives_one_message() {
     check_added("sum(|p| mu[p])", "mu", "`mu` is not a list: write `mu`");
     check_added("sum(|p| n[p])", "n", "unknown name `n`");
     check_added("{ let (x, y) = 1.0; x * y }", "let (x, y) = 1.0;", "write `let name = expression;`");
+    // The index of a sum is misunderstood once, however often it is written.
+    check_added(
+        "sum(|n| m[n] / (2 * n) * (J.powf(n) + J.powi(n) - 2 * n.ln())) + sum(|n| n * m[n])",
+        "n",
+        "the index `n` only selects entries",
+    );
+    // What hangs on a mistaken binding is no mistake of its own.
+    for (binding, tokens, expected) in [
+        ("let n = [1.0, 2.0];", "[1.0, 2.0]", "written out, term by term"),
+        ("let n = vec![1.0, 2.0];", "vec![1.0, 2.0]", "an energy is made of numbers"),
+        ("let n = nu;", "nu", "did you mean `mu`?"),
+        ("let n: [f64; 2] = [1.0, 2.0];", "let n: [f64; 2] = [1.0, 2.0];", "write `let name = expression;`"),
+    ] {
+        let uses = [
+            "n",
+            "n[0]",
+            "sum(|p| m[p] * n[p])",
+            "sum(|p| n[p])",
+            "n(J)",
+            "mu / (n - 1.0)",
+            "(n - 1.0).ln()",
+            "J.powi(n) * J.powf(n)",
+            "{ let k = 2.0 * n; J.powi(k) + k[p] }",
+        ];
+        for used in uses {
+            check_body(&format!("{binding} {GOOD} + mu * {used}"), &[(tokens, expected)]);
+        }
+        check_body(&format!("{binding} {GOOD}"), &[(tokens, expected)]);
+    }
     for ty in ["f32", "&[f64]", "Vec<f64>", "[f64; 0]", "f46"] {
         let item = format!(
             "fn E([l1, l2, l3]: [f64; 3], m: {ty}) -> f64 {{ sum(|p| m[p]) * (I1 - 3.0) + m * m(l1) }}"
@@ -117,7 +146,7 @@ fn names() {
     check_added(
         "sum(|p| m[p] * p)",
         "p",
-        "selects entries, as in `m[p]`: give the numbers that it stands for as a list",
+        "selects entries, as in `m[p]`, and is no number: write the terms out",
     );
     check_added("I3", "I3", "write `J.powi(2)`");
     check_added("I1_bar", "I1_bar", "write `I1b`");
@@ -160,7 +189,7 @@ fn calls_and_operators() {
     check_added("match 1 { _ => J }", "match", "no branches");
     check_added("if mu > 0.0 { nu } else { 2.0 }", "if", "no branches");
     check_added("(J as f64)", "f64", "remove the cast");
-    check_added("[J]", "[J]", "an energy is made of numbers");
+    check_added("[J]", "[J]", "lists are parameters, as `mu: [f64; N]`");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
 }
 

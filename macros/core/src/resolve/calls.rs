@@ -89,6 +89,9 @@ impl Resolver<'_> {
 
     fn whole_power(&mut self, base: Id, argument: &Expr) -> Id {
         let exponent = self.expression(argument);
+        if self.is_unknown(exponent) {
+            return exponent;
+        }
         let Some(exponent) = self.graph.as_constant(exponent).filter(|exponent| exponent.denominator() == 1)
         else {
             return self.mistake(argument, "`powi` takes a whole number: for others use `.powf(…)`");
@@ -132,7 +135,7 @@ impl Resolver<'_> {
         let text = name.to_string();
         if self.mistaken.contains(&text) {
             self.excuse_names(call);
-            return self.graph.integer(1);
+            return self.unknown();
         }
         match self.declaration.parameters.iter().position(|parameter| parameter.name == name) {
             Some(k) if self.declaration.parameters[k].is_function() => return self.function(k, call),

@@ -13,7 +13,7 @@ impl Resolver<'_> {
         let text = name.to_string();
         self.used.insert(text.clone());
         if self.mistaken.contains(&text) {
-            return self.graph.integer(1);
+            return self.unknown();
         }
         if let Some(&bound) = self.bindings.get(&text) {
             return bound;
@@ -51,6 +51,8 @@ impl Resolver<'_> {
             return word;
         }
         if self.index.as_ref().is_some_and(|index| index.name == *name) {
+            // One message for the name, however often it stands there.
+            self.mistaken.insert(text.clone());
             return self.mistake(name, &self.index_as_number(&text));
         }
         if self.declaration.generics.contains(name) {
@@ -76,8 +78,9 @@ impl Resolver<'_> {
         let list = parameters.iter().find(|parameter| matches!(parameter.kind, Kind::List(_)));
         let list = list.map_or("mu".to_owned(), |parameter| parameter.name.to_string());
         format!(
-            "the index `{index}` only selects entries, as in `{list}[{index}]`: \
-             give the numbers that it stands for as a list of their own"
+            "the index `{index}` only selects entries, as in `{list}[{index}]`, and is no number: write the terms out, each with \
+             a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \
+             parameters too, which a fit changes"
         )
     }
 
