@@ -103,6 +103,13 @@ impl Marks {
     }
 }
 
+/// The points that are decomposed together. Each gets the same bits in any company.
+#[cfg(not(debug_assertions))]
+type Together<R> = <R as Lanes>::Interleaved;
+/// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved, where a thread has 2.
+#[cfg(debug_assertions)]
+type Together<R> = R;
+
 /// The deformation gradients of a tile into frames and stretches.
 pub(super) struct Decompose<'a, E> {
     pub(super) F: Source<'a, E, 9>,
@@ -119,12 +126,12 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
     fn run<R: Lanes<Element = E>>(self) {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
-            for_each_group!(R::Interleaved, count, |at| {
-                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<R::Interleaved>(at))));
+            for_each_group!(Together<R>, count, |at| {
+                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<Together<R>>(at))));
             });
         } else {
-            for_each_group!(R::Interleaved, count, |at| {
-                points.set(at, &svd(&to_matrix(F.get_all::<R::Interleaved>(at))));
+            for_each_group!(Together<R>, count, |at| {
+                points.set(at, &svd(&to_matrix(F.get_all::<Together<R>>(at))));
             });
         }
     }
