@@ -84,9 +84,18 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
+/// What allows names as papers have them, such as `K`, to the compiler's lint on their case.
+fn naming(declaration: &Declaration) -> Option<TokenStream> {
+    let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
+    let mut names = parameters.chain(&declaration.stretches).map(ToString::to_string);
+    names
+        .any(|name| name.contains(char::is_uppercase) || name.contains("__"))
+        .then(|| quote!(#[allow(non_snake_case)]))
+}
+
 fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
-    let documentation = doc(documentation);
+    let (documentation, naming) = (doc(documentation), naming(declaration));
     let (bounds, _) = generics(declaration);
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
@@ -97,6 +106,7 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
         #documentation
         #[derive(Clone, Debug, PartialEq)]
         #copy
+        #naming
         #visibility struct #name #bounds {
             #(#names: #types,)*
             #inversion

@@ -6,7 +6,7 @@ use quote::{ToTokens, quote};
 use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
-use super::{condition_text, doc, generics};
+use super::{condition_text, doc, generics, naming};
 use crate::literals::typed;
 use crate::model::{Model, indexed_lists};
 use crate::parse::{Declaration, Parameter, identifiers};
@@ -15,6 +15,7 @@ use crate::parse::{Declaration, Parameter, identifiers};
 pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
+    let naming = naming(declaration);
     let new = new(declaration);
     let determined = model.from_young_poisson.as_ref();
     let from_young_poisson = determined.map(|determined| from_young_poisson(declaration, determined));
@@ -22,6 +23,7 @@ pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStre
     let with_inversion = conditions.map(|conditions| with_inversion(declaration, conditions));
     let getters = declaration.parameters.iter().map(|parameter| getter(declaration, parameter));
     quote! {
+        #naming
         impl #bounds #name #arguments {
             #new
 

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::writer::Writer;
-use super::{Texts, condition_text, generics};
+use super::{Texts, condition_text, generics, naming};
 use crate::model::Model;
 use crate::parse::{Declaration, Kind};
 use crate::schedule::schedule;
@@ -13,6 +13,7 @@ use crate::schedule::schedule;
 pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
+    let naming = naming(declaration);
     let Texts { formula, domain, moduli, summary } = texts;
     let type_name = name.to_string();
     let parameters = declaration.parameters.iter().map(|parameter| {
@@ -79,6 +80,7 @@ pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Tex
     let (statements, outputs) = Writer::new(declaration).program(&program);
     let (mu, lambda) = (&outputs[0], &outputs[1]);
     quote! {
+        #naming
         impl #bounds ::piola::material::Declared for #name #arguments {
             const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
                 name: #type_name,

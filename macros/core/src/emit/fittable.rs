@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::generics;
 use super::writer::{Writer, free_name};
+use super::{generics, naming};
 use crate::expr::Length;
 use crate::model::Model;
 use crate::parse::{Declaration, Kind};
@@ -15,6 +15,7 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
     let Some(by_parameters) = model.by_parameters.clone() else { return TokenStream::new() };
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
+    let naming = naming(declaration);
     let values = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
         match parameter.kind {
@@ -48,6 +49,7 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
     let [l1, l2, l3] = &declaration.stretches;
     let count = Literal::usize_unsuffixed(by_parameters.len());
     quote! {
+        #naming
         impl #bounds ::piola::material::Fittable for #name #arguments {
             fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
                 ::std::vec![#(#values),*]

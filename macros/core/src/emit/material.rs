@@ -4,9 +4,9 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use syn::Ident;
 
-use super::generics;
 use super::invariants;
 use super::writer::Writer;
+use super::{generics, naming};
 use crate::expr::Id;
 use crate::model::{Model, Variant, Volume};
 use crate::parse::Declaration;
@@ -16,6 +16,7 @@ use crate::schedule::schedule;
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
+    let naming = naming(declaration);
     let constants = constants(declaration, model);
     // What is not inlined into the function of a back end is not compiled for its instructions.
     if declaration.has_functions() {
@@ -25,6 +26,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         let constants = [constants, invariants::constant(model)];
         return quote! {
             #[allow(unused_variables, clippy::all)]
+            #naming
             impl #bounds ::piola::Material for #name #arguments {
                 #computed
                 #by_invariants
@@ -42,6 +44,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     let uniform = quote!(&::piola::material::Uniform(self));
     let varying = quote!(<Self as ::piola::material::Varying>);
     quote! {
+        #naming
         impl #bounds ::piola::Material for #name #arguments {
             #[inline(always)]
             fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
@@ -73,6 +76,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         }
 
         #[allow(unused_variables, clippy::all)]
+        #naming
         impl #bounds ::piola::material::Varying for #name #arguments {
             #computed
             #by_invariants
