@@ -81,22 +81,37 @@ fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
 }
 
 fn inert_type(function: &Function) -> TokenStream {
-    let Function { visibility, signature, .. } = function;
+    let Function { attributes, visibility, signature, .. } = function;
     let name = &signature.ident;
     let generics = lengths(signature);
     let (types, methods) = parameters(signature, &generics);
+    // Two parameters are found from the stiffness; which two, only a correct declaration tells.
+    let from_young_poisson = types.len().checked_sub(2).map(|others| {
+        let others = vec![quote!(impl ::core::marker::Sized); others];
+        quote! {
+            #visibility fn from_young_poisson(
+                _: f64,
+                _: f64,
+                #(_: #others),*
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                ::core::unreachable!("this material does not compile")
+            }
+        }
+    });
     let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
     let unreachable = quote!(::core::unreachable!("this material does not compile"));
     quote! {
+        #(#attributes)*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs, non_camel_case_types)]
         #visibility struct #name<#(const #generics: usize),*> {}
 
-        #[allow(missing_docs, dead_code, unused_variables, clippy::too_many_arguments)]
+        #[allow(missing_docs, dead_code, non_snake_case, unused_variables, clippy::too_many_arguments)]
         impl<#(const #generics: usize),*> #name<#(#generics),*> {
             #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
                 #unreachable
             }
+            #from_young_poisson
             #visibility fn with_inversion(
                 self,
                 inversion: ::piola::Inversion,
