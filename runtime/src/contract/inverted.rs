@@ -45,7 +45,7 @@ pub fn extension(material: &impl Material, settings: &Settings) -> Result<Findin
             beside(&mut judge, material, [l1, l2, -depth], epsilon, &mut random)?;
         }
         for l3 in [epsilon * (1.0 - 1e-6), random.uniform(-0.95, -0.05) * l2, -l2] {
-            restoring(&mut judge, material, [l1, l2, l3])?;
+            restoring(&mut judge, material, [l1, l2, l3], epsilon)?;
         }
     }
     judge.finding()
@@ -77,15 +77,33 @@ fn beside(
     let approach = Approach::beside(epsilon, stretches);
     energy_along(judge, material, stretches, &approach, random)?;
     stress_along(judge, material, stretches, &approach, random)?;
-    if stretches[2] < epsilon { restoring(judge, material, stretches) } else { Ok(()) }
+    if stretches[2] < epsilon { restoring(judge, material, stretches, epsilon) } else { Ok(()) }
 }
 
-fn restoring(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+fn restoring(
+    judge: &mut Judge,
+    material: &impl Material,
+    stretches: [f64; 3],
+    epsilon: f64,
+) -> Result<(), Violation> {
     if stretches.iter().product::<f64>() >= 1.0 || !admitted(judge, material, stretches)? {
         return Ok(());
     }
+    let [l1, l2, _] = stretches;
     let found = -gradient_at(material, stretches)[2];
-    judge.positive(|| format!("negative {}", gradient_name(2)), stretches, found)
+    let component = || {
+        let at_threshold = gradient_at(material, [l1, l2, epsilon])[2];
+        // At the threshold the derivative is that of the energy as declared.
+        let remedy = if at_threshold < 0.0 {
+            "though the energy as declared pushes λ3 up from there: add a term that grows faster as J falls, such as one in \
+             `-J.ln()` or `J.powi(-2)`, state in `extend(…)` which parameters restore, or refuse inversion"
+        } else {
+            "and so does the energy as declared, which pulls λ3 down from there already: choose a smaller `epsilon` or a smaller \
+             upper end of `range`, or add a term that grows faster as J falls"
+        };
+        format!("negative {}, below epsilon = {epsilon}, {remedy}", gradient_name(2))
+    };
+    judge.positive(component, stretches, found)
 }
 
 /// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such as Gent's
@@ -96,6 +114,11 @@ fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) ->
         return Ok(false);
     }
     let admitted = if is_admitted(material, stretches) { 1.0 } else { -1.0 };
-    judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
+    let component = || {
+        "admission (1 or −1), which a limit of the domain other than J > 0 denies to an inverted point and grants to its mirror \
+         image: write that limit in what no sign changes, such as I1, I2 or J * J"
+            .into()
+    };
+    judge.positive(component, stretches, admitted)?;
     Ok(true)
 }

@@ -51,6 +51,7 @@ enum Defect {
     JumpingEnergy,
     LimitWhereAllAreClose,
     DeniesItsEnd,
+    EndsAtInversion,
     UnboundedPole,
 }
 
@@ -146,7 +147,8 @@ impl<M: Material> Material for Defective<M> {
             Defect::LinearInStrains
             | Defect::OverstatedShear
             | Defect::JumpingEnergy
-            | Defect::DeniesItsEnd => {}
+            | Defect::DeniesItsEnd
+            | Defect::EndsAtInversion => {}
         }
         blocks
     }
@@ -163,7 +165,10 @@ impl<M: Material> Material for Defective<M> {
     }
 
     fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
-        self.0.admits(l)
+        match self.1 {
+            Defect::EndsAtInversion => R::splat(0.0).less(l[2]),
+            _ => self.0.admits(l),
+        }
     }
 
     fn has_pole(&self) -> bool {
@@ -280,6 +285,21 @@ fn defects_are_named() {
     check_names(&plain(Defect::PrefersFirstStretch), Rule::Isotropy, "stretch 2");
     check_names(&extended(Defect::JumpingCurvature), Rule::TangentSlope, "stress");
     check_names(&extended(Defect::AttractsCollapse), Rule::Extension, "stretch 3");
+}
+
+#[test]
+fn an_extension_that_does_not_restore_says_what_to_change() {
+    let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
+    check_names(
+        &extended(Defect::AttractsCollapse),
+        Rule::Extension,
+        "state in `extend(…)` which parameters",
+    );
+    check_names(
+        &extended(Defect::EndsAtInversion),
+        Rule::Extension,
+        "write that limit in what no sign changes",
+    );
 }
 
 #[test]
