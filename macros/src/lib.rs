@@ -14,6 +14,13 @@ use proc_macro::TokenStream;
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`;
 /// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1, `I2b` = J^(−4/3) I2.
 ///
+/// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case. Where a crate's only Greek
+/// letters look like Latin ones, as β and α do, the compiler's `mixed_script_confusables` says so of the crate; calling the stretches
+/// `[λ1, λ2, λ3]` is enough for it.
+///
+/// A logarithm, a denominator or a real power of what vanishes inside the domain is refused where that is seen along the usual
+/// deformations, and so is a real power of what vanishes at rest, such as `(I1b - 3.0).powf(n)`.
+///
 /// Arguments of the attribute, all optional:
 ///
 /// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent;

@@ -20,6 +20,10 @@ use crate::simplify::simplify;
 use crate::source::{factor, source};
 use crate::spelling::list;
 
+mod arguments;
+
+pub use arguments::{limits, powers};
+
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
 
@@ -211,7 +215,8 @@ pub fn rest(
             !is_finite(graph, derivative)
         });
         return diagnostics
-            .error(culprit, "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: take what vanishes there to a power of one or more");
+            .error(culprit, "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by nothing that vanishes there, and take no \
+             logarithm of it");
     }
     let one = graph.constant(Rational::ONE);
     let is_stressed = |graph: &mut Graph, gradient| {

@@ -163,11 +163,17 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
     check::fractions(&graph, &written, diagnostics);
+    if diagnostics.is_clean() {
+        check::powers(&mut graph, &written, &samples, diagnostics);
+    }
     if !options.prestressed && diagnostics.is_clean() {
         check::rest(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     }
     if diagnostics.is_clean() {
         check::volume(&graph, &written, volume, &samples, diagnostics);
+    }
+    if diagnostics.is_clean() {
+        check::limits(&mut graph, &written, &samples, diagnostics);
     }
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {

@@ -58,8 +58,8 @@ fn check_signature(signature: &str, expected: &[(&str, &str)]) {
 #[test]
 fn a_good_energy_has_none() {
     check_body(GOOD, &[]);
-    // A power of what vanishes at rest is zero there, not unknown.
-    check_body(&format!("{GOOD} + mu * (I1b - 3.0).powf(2.5)"), &[]);
+    // A whole power of what vanishes at rest is zero there, not unknown.
+    check_body(&format!("{GOOD} + mu * (I1b - 3.0).powi(2) + mu * J.ln().powf(2.0)"), &[]);
     check_arguments(
         "domain(J > 0.0), admissible(m[p] * m[p] > -1.0, mu.powi(2.0) * 3.0.sqrt() >= 0), extend(mu > 0.0)",
         &[],
@@ -268,7 +268,7 @@ fn physics() {
         check(attribute, &item, &[(&format!("mu * ({term})"), message)]);
     }
     check("prestressed", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * I1 }", &[]);
-    check_added("mu * (I1 - 3.0).sqrt()", "mu * (I1 - 3.0).sqrt()", "is not finite at rest");
+    check_added("mu / (I1b - 3.0)", "mu / (I1b - 3.0)", "is not finite at rest");
     check(
         "",
         "fn E([a, b, c]: [f64; 3], kappa: f64) -> f64 { kappa * (J - 1.0).powi(2) }",
@@ -306,6 +306,52 @@ fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
     check("mu * (b.sqrt() * I1 / 3).powf(mu) + (b * J).exp()", None);
     check("sum(|k| m[k] / a[k] * (l1.powf(a[k]) + l2.powf(a[k]) + l3.powf(a[k]) - 3))", None);
     check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
+}
+
+/// Beside rest, rounding leaves what vanishes there of either sign.
+#[test]
+fn what_vanishes_at_rest_has_whole_powers() {
+    for (term, power) in [
+        ("mu * (I1 - 3.0).sqrt()", "(I1 - 3.0).sqrt()"),
+        ("mu * (J - 1.0).cbrt()", "(J - 1.0).cbrt()"),
+        ("mu * (I1b - 3.0).powf(2.5)", "(I1b - 3.0).powf(5.0 / 2.0)"),
+        ("mu * (mu * (I1b - 3.0)).powf(2.0 * mu)", "(mu * (I1b - 3.0)).powf(2.0 * mu)"),
+        ("sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))", "(2.0 * J.ln()).powf(m[p])"),
+    ] {
+        check_added(term, term, &format!("`{power}` is of what vanishes at rest"));
+    }
+    check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
+}
+
+#[test]
+fn what_vanishes_elsewhere_is_a_limit() {
+    let energy = |term: &str| {
+        format!(
+            "fn E([l1, l2, l3]: [f64; 3], mu: f64, b: f64) -> f64 {{ mu * b * (J - 1.0).powi(2) + {term} }}"
+        )
+    };
+    for (term, limit) in [
+        ("mu / (1 - b * I1b / 3)", "1.0 - b * I1b / 3.0 > 0.0"),
+        ("-mu * b * (1 - (I1b - 3) / b).ln()", "1.0 - (I1b - 3.0) / b > 0.0"),
+        ("mu * (I1b - 4 - b).recip()", "I1b - b - 4.0 < 0.0"),
+        ("mu * (I1b - 3) + mu * (1 - b * (J - 1).powi(2)).sqrt()", "1.0 - b * (J - 1.0).powi(2) > 0.0"),
+        ("mu * (4 + b - I2b).powf(b)", "b + 4.0 - I2b > 0.0"),
+    ] {
+        let [(_, message)] = &mistakes("domain(J > 0.0)", &energy(term))[..] else { panic!("{term}") };
+        let domain = format!("domain(J > 0.0, {limit})");
+        assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
+        check(&domain, &energy(term), &[]);
+    }
+    // Parameters that are admissible decide.
+    let term = "mu * (1 + b * (I1b - 3)).ln()";
+    check("domain(J > 0.0)", &energy(term), &[]);
+    check("domain(J > 0.0), admissible(b < 0.0)", &energy(term), &[(term, "inside the domain")]);
+    // It is the denominator that vanishes, and the whole term that has none.
+    check(
+        "",
+        "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 * J) + mu / (2.0 - J) }",
+        &[("mu / (2.0 - J)", "declare `domain(2.0 - J > 0.0)`")],
+    );
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub fn Shifted(
     sum(|k| mu[k] * (1.0 + b[k] * I1).powf(n * b[k]))
 }
 
-/// A power of what vanishes at rest.
+/// A real power, whose logarithm vanishes at rest.
 #[material(domain(J > 0.0), admissible(n > 2.0), fit)]
 pub fn Stiffening(
     [l1, l2, l3]: [f64; 3],
@@ -50,7 +50,7 @@ pub fn Stiffening(
     /// Its exponent.
     n: f64,
 ) -> f64 {
-    mu / 2.0 * (I1b - 3.0) + c * (I1b - 3.0).powf(n) + mu * (J - 1.0).powi(2)
+    mu / 2.0 * (I1b - 3.0) + c * (1.0 + (I1b - 3.0)).powf(n) + mu * (J - 1.0).powi(2)
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn powers_that_differ_from_entry_to_entry() -> Result<(), Inadmissible> {
 }
 
 #[test]
-fn powers_of_what_vanishes_at_rest() -> Result<(), Inadmissible> {
+fn powers_whose_logarithm_vanishes_at_rest() -> Result<(), Inadmissible> {
     let solid = Stiffening::new(1.0, 2.0, 2.5)?;
     Slopes("Stiffening").visit(solid)?;
     assert_eq!(solid.gradient_by_parameters([1.0; 3]), [[0.0; 3]; 3]);

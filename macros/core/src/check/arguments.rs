@@ -1,0 +1,161 @@
+//! What denominators, logarithms, roots and real powers are of: numbers that stay clear of zero, at rest and wherever the
+//! domain reaches.
+
+use quote::ToTokens;
+
+use super::{NOISE, Written, at_rest};
+use crate::diagnostics::Diagnostics;
+use crate::expr::{Exponent, Graph, Id, Node};
+use crate::hash::HashMap;
+use crate::interpret::{Point, Value, evaluate, evaluate_with};
+use crate::source::source;
+
+/// Ways away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and all there is of one, two
+/// and three stretches that grow or shrink together.
+const WAYS: [[f64; 3]; 9] = [
+    [1.0, -0.5, -0.5],
+    [0.5, 0.5, -1.0],
+    [1.0, 0.0, -1.0],
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 0.0, -1.0],
+    [0.0, -1.0, -1.0],
+    [-1.0, -1.0, -1.0],
+];
+
+/// Points of each way, the last of which is at a stretch of 10 or 1/10.
+const STEPS: usize = 20;
+
+/// Draws of the parameters that are tried, of [`samples`](super::samples) that need far more points than this needs draws.
+const DRAWS: usize = 3;
+
+/// Something that has a value only where another is not zero.
+#[derive(Clone, Copy)]
+struct Argument {
+    of: Id,
+    /// `None` for a logarithm.
+    exponent: Option<Exponent>,
+}
+
+impl Argument {
+    /// Those of an expression that depend on the stretches.
+    fn all(graph: &Graph, id: Id) -> Vec<Self> {
+        let mut found = Vec::new();
+        for id in graph.reachable(&[id]) {
+            match graph.node(id) {
+                Node::Ln(of) => found.push(Self { of: *of, exponent: None }),
+                Node::Product(factors) => found.extend(
+                    factors
+                        .iter()
+                        .filter(|(_, exponent)| exponent.as_integer().is_none_or(|n| n < 0))
+                        .map(|&(of, exponent)| Self { of, exponent: Some(exponent) }),
+                ),
+                _ => {}
+            }
+        }
+        found.retain(|argument| argument.depends_on(graph, |node| matches!(node, Node::Stretch(_))));
+        found
+    }
+
+    fn depends_on(&self, graph: &Graph, is: impl Fn(&Node) -> bool) -> bool {
+        graph.reachable(&[self.of]).into_iter().any(|id| is(graph.node(id)))
+    }
+
+    /// Whether it is a real power, a root among them.
+    fn is_real_power(&self) -> bool {
+        self.exponent.is_some_and(|exponent| exponent.as_integer().is_none())
+    }
+}
+
+/// Beside rest, rounding leaves what vanishes there of either sign, and powers that are not whole have no value for one of them.
+pub fn powers(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+    let vanishes = |graph: &Graph, of: Id| {
+        samples.iter().all(|point| {
+            let Value { value, magnitude } = evaluate(graph, of, &at_rest(point));
+            value.abs() <= NOISE * magnitude
+        })
+    };
+    let arguments = Argument::all(graph, written.energy);
+    let found =
+        arguments.into_iter().find(|argument| argument.is_real_power() && vanishes(graph, argument.of));
+    let Some(Argument { of, exponent: Some(exponent) }) = found else { return };
+    let power = graph.power(of, exponent);
+    let message = format!(
+        "`{}` is of what vanishes at rest and is negative beside it, if only by rounding, where no power but a whole one has a \
+         value: write a whole power, such as `.powi(2)`, or one of what stays positive, such as \
+         `(1.0 + b * (I1b - 3.0)).powf(n)`",
+        source(graph, written.declaration, power)
+    );
+    let is_it = |part| {
+        Argument::all(graph, part).iter().any(|argument| argument.is_real_power() && argument.of == of)
+    };
+    diagnostics.error(written.culprit(is_it), message);
+}
+
+/// What vanishes within the domain, away from rest, is a limit of it.
+pub fn limits(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+    // What functions are defined for is their own affair.
+    if written.declaration.has_functions() {
+        return;
+    }
+    let arguments = Argument::all(graph, written.energy);
+    let found = arguments.into_iter().find(|argument| {
+        // No condition of a domain is on each entry of a list.
+        !is_positive(graph, argument.of)
+            && !argument.depends_on(graph, |node| matches!(node, Node::Entry(_)))
+            && samples.iter().take(DRAWS).any(|point| changes_sign(graph, written, argument.of, point))
+    });
+    let Some(Argument { of, .. }) = found else { return };
+    let declaration = written.declaration;
+    let is_positive_at_rest =
+        samples.first().is_some_and(|point| evaluate(graph, of, &at_rest(point)).value > 0.0);
+    let text = source(graph, declaration, of);
+    let limit = format!("{text} {} 0.0", if is_positive_at_rest { '>' } else { '<' });
+    let conditions =
+        declaration.options.domain.iter().map(|condition| condition.to_token_stream().to_string());
+    let conditions: Vec<_> = conditions.chain([limit]).collect();
+    let message = format!(
+        "`{text}` vanishes inside the domain, and there this has no value: declare `domain({})`, or by `admissible(…)` \
+         parameters for which it does not",
+        conditions.join(", ")
+    );
+    let is_it = |part| Argument::all(graph, part).iter().any(|argument| argument.of == of);
+    diagnostics.error(written.culprit(is_it), message);
+}
+
+/// Whether it is seen by its form that an expression is positive for positive stretches.
+fn is_positive(graph: &Graph, id: Id) -> bool {
+    match graph.node(id) {
+        Node::Stretch(_) | Node::Exp(_) => true,
+        Node::Linear { constant, terms } => {
+            !constant.is_negative()
+                && terms.iter().all(|&(term, c)| !c.is_negative() && is_positive(graph, term))
+                && !graph.is_zero(id)
+        }
+        Node::Product(factors) => factors.iter().all(|&(base, _)| is_positive(graph, base)),
+        _ => false,
+    }
+}
+
+/// Whether it does so on one of the [`WAYS`], with the parameters of the point, before the domain ends.
+fn changes_sign(graph: &Graph, written: &Written<'_>, id: Id, point: &Point) -> bool {
+    let sign = evaluate(graph, id, &at_rest(point)).value.signum();
+    WAYS.into_iter().any(|way| {
+        for step in 1..=STEPS {
+            let length = step as f64 / STEPS as f64 * std::f64::consts::LN_10;
+            let point = Point { stretches: way.map(|exponent| (length * exponent).exp()), ..point.clone() };
+            let mut memo = HashMap::default();
+            let mut value = |id| evaluate_with(graph, id, &point, &mut memo);
+            let is_inside = written.bounds.iter().all(|&bound| value(bound).value > 0.0);
+            let Value { value, magnitude } = value(id);
+            if !is_inside || !value.is_finite() {
+                return false;
+            }
+            if sign * value < -NOISE * magnitude {
+                return true;
+            }
+        }
+        false
+    })
+}
