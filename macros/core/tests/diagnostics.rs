@@ -170,7 +170,9 @@ fn calls_and_operators() {
     check_added("J.abs()", "abs", "`abs` has a kink");
     check_added("J.ln(2.0)", "ln", "`ln` takes no argument");
     check_added("J.powi()", "powi", "one argument, the exponent");
-    check_added("J.powi(0.5)", "0.5", "`powi` takes a whole number");
+    check_added("J.powi(0.5)", "0.5", "`powi` takes a whole number: for this one write `.powf(0.5)`");
+    check_added("J.powi(2 * mu)", "2 * mu", "for this one write `.powf(2 * mu)`");
+    check_added("sum(|p| J.powi(m[p]))", "m[p]", "for this one write `.powf(m[p])`");
     check_added("J.powi(1000)", "1000", "at most 64");
     check_added("J.powi(99999999999999999999)", "99999999999999999999", "at most 64");
     check_added("J.powf(l1)", "l1", "not of stretches");

@@ -25,10 +25,10 @@ const WAYS: [[f64; 3]; 9] = [
 ];
 
 /// Points of each way, the last of which is at a stretch of 10 or 1/10.
-const STEPS: usize = 20;
+const STEPS: usize = 8;
 
-/// Draws of the parameters that are tried, of [`samples`](super::samples) that need far more points than this needs draws.
-const DRAWS: usize = 3;
+/// Draws of the parameters that are tried: each is one of the [`samples`](super::samples).
+const DRAWS: usize = 2;
 
 /// Something that has a value only where another is not zero.
 #[derive(Clone, Copy)]

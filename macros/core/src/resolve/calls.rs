@@ -1,5 +1,6 @@
 //! Functions: those of numbers, and those that are parameters.
 
+use quote::ToTokens;
 use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
 use super::{Resolver, Scope, literature};
@@ -94,7 +95,9 @@ impl Resolver<'_> {
         }
         let Some(exponent) = self.graph.as_constant(exponent).filter(|exponent| exponent.denominator() == 1)
         else {
-            return self.mistake(argument, "`powi` takes a whole number: for others use `.powf(…)`");
+            let exponent = argument.to_token_stream().to_string().replace(" [", "[");
+            let message = format!("`powi` takes a whole number: for this one write `.powf({exponent})`");
+            return self.mistake(argument, &message);
         };
         if self.scope == Scope::Parameters && !is_number(argument) {
             return self.mistake(argument, "in a condition `powi` takes one number, such as `2`");
