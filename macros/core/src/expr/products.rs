@@ -1,7 +1,5 @@
 //! Products with exponents: what writes them, and their normal form.
 
-use std::collections::BTreeMap;
-
 use super::{Exponent, Graph, Id, Node};
 use crate::rational::Rational;
 
@@ -35,16 +33,15 @@ impl Graph {
     /// Π base^exponent, brought to normal form.
     pub fn product(&mut self, factors: &[(Id, Exponent)]) -> Id {
         let mut coefficient = Rational::ONE;
-        let mut collected: BTreeMap<Id, Exponent> = BTreeMap::new();
+        let mut collected = Vec::with_capacity(factors.len());
         for &(base, exponent) in factors {
             self.gather(base, exponent, &mut coefficient, &mut collected);
         }
-        collected.retain(|_, exponent| !exponent.is_zero());
-        let factors: Vec<_> = collected.into_iter().collect();
-        let product = match factors[..] {
+        collected.retain(|(_, exponent)| !exponent.is_zero());
+        let product = match collected[..] {
             [] => return self.constant(coefficient),
             [(base, Exponent::ONE)] => base,
-            _ => self.leaf(Node::Product(factors)),
+            _ => self.leaf(Node::Product(collected)),
         };
         if coefficient == Rational::ONE { product } else { self.scale(product, coefficient) }
     }
@@ -54,7 +51,7 @@ impl Graph {
         base: Id,
         exponent: Exponent,
         coefficient: &mut Rational,
-        into: &mut BTreeMap<Id, Exponent>,
+        into: &mut Vec<(Id, Exponent)>,
     ) {
         match self.node(base).clone() {
             // Numbers: 0 and 1 have every power, others the whole ones.
@@ -97,12 +94,12 @@ impl Graph {
         self.gather_one(base, exponent, into);
     }
 
-    fn gather_one(&mut self, base: Id, exponent: Exponent, into: &mut BTreeMap<Id, Exponent>) {
-        let sum = match into.get(&base) {
-            Some(&old) => self.add_exponents(old, exponent),
-            None => exponent,
-        };
-        into.insert(base, sum);
+    /// Bases are kept in order.
+    fn gather_one(&mut self, base: Id, exponent: Exponent, into: &mut Vec<(Id, Exponent)>) {
+        match into.binary_search_by_key(&base, |factor| factor.0) {
+            Ok(k) => into[k].1 = self.add_exponents(into[k].1, exponent),
+            Err(k) => into.insert(k, (base, exponent)),
+        }
     }
 
     /// The factors of a node, itself if it is not a product; without its rational coefficient, which comes first.

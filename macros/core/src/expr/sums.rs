@@ -1,7 +1,5 @@
 //! Sums with rational coefficients: what writes them, and their normal form.
 
-use std::collections::BTreeMap;
-
 use super::{Graph, Id, Node};
 use crate::rational::Rational;
 
@@ -35,25 +33,18 @@ impl Graph {
     /// constant + Σ coefficient · term, brought to normal form.
     pub fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Id {
         let mut total = constant;
-        let mut collected: BTreeMap<Id, Rational> = BTreeMap::new();
+        let mut collected = Vec::with_capacity(terms.len());
         for &(term, factor) in terms {
             self.collect(term, factor, &mut total, &mut collected);
         }
-        collected.retain(|_, coefficient| !coefficient.is_zero());
-        let terms: Vec<_> = collected.into_iter().collect();
-        match terms[..] {
+        collected.retain(|(_, coefficient)| !coefficient.is_zero());
+        match collected[..] {
             [(term, Rational::ONE)] if total.is_zero() => term,
-            _ => self.leaf(Node::Linear { constant: total, terms }),
+            _ => self.leaf(Node::Linear { constant: total, terms: collected }),
         }
     }
 
-    fn collect(
-        &mut self,
-        term: Id,
-        factor: Rational,
-        total: &mut Rational,
-        into: &mut BTreeMap<Id, Rational>,
-    ) {
+    fn collect(&mut self, term: Id, factor: Rational, total: &mut Rational, into: &mut Vec<(Id, Rational)>) {
         if let Node::Linear { constant, terms } = self.node(term).clone() {
             let is_plain_multiple = constant.is_zero() && terms.len() == 1;
             let is_unit = factor == Rational::ONE || factor == Rational::integer(-1);
@@ -74,9 +65,11 @@ impl Graph {
         self.collect_one(term, factor, into);
     }
 
-    fn collect_one(&mut self, term: Id, coefficient: Rational, into: &mut BTreeMap<Id, Rational>) {
-        let old = into.get(&term).copied().unwrap_or(Rational::ZERO);
-        let new = self.exact(old.checked_add(coefficient));
-        into.insert(term, new);
+    /// Terms are kept in order.
+    fn collect_one(&mut self, term: Id, coefficient: Rational, into: &mut Vec<(Id, Rational)>) {
+        match into.binary_search_by_key(&term, |part| part.0) {
+            Ok(k) => into[k].1 = self.exact(into[k].1.checked_add(coefficient)),
+            Err(k) => into.insert(k, (term, coefficient)),
+        }
     }
 }

@@ -35,15 +35,22 @@ impl Graph {
             }
             None => e,
         };
+        // Most children of most nodes stay, and the node with them.
+        let mut is_changed = false;
+        let map = &mut |graph: &mut Self, child| {
+            let mapped = map(graph, child);
+            is_changed |= mapped != child;
+            mapped
+        };
         match self.node(id).clone() {
             Node::Linear { constant, terms } => {
                 let terms: Vec<_> = terms.into_iter().map(|(term, c)| (map(self, term), c)).collect();
-                self.linear(constant, &terms)
+                if is_changed { self.linear(constant, &terms) } else { id }
             }
             Node::Product(factors) => {
                 let factors: Vec<_> =
                     factors.into_iter().map(|(base, e)| (map(self, base), exponent(self, e, map))).collect();
-                self.product(&factors)
+                if is_changed { self.product(&factors) } else { id }
             }
             Node::Ln(a) => {
                 let a = map(self, a);
