@@ -24,9 +24,9 @@ pub fn extend(graph: &mut Graph, energy: Id) -> Id {
     rewrite(graph, separated, &mut HashMap::default(), &extend_node)
 }
 
-/// The expression with its extended functions written out.
-pub fn lower(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut HashMap::default(), &|graph, id| match *graph.node(id) {
+/// The expression with its extended functions written out; `memo` keeps what has been written out of the same graph.
+pub fn lower(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+    rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Extended(function, order, i) => Some(polynomial(graph, function, order, i)),
         _ => None,
     })

@@ -19,7 +19,7 @@ use crate::parse::Declaration;
 use crate::quotient::Quotients;
 use crate::rational::Rational;
 use crate::resolve::Resolver;
-use crate::schedule::{Program, schedule};
+use crate::schedule::{Collector, Program, schedule};
 use crate::simplify::simplify;
 use crate::volume::{Purpose, separate};
 use crate::young_poisson::{YoungPoisson, young_poisson};
@@ -56,6 +56,7 @@ pub struct Model {
     pub samples: Vec<Point>,
     /// What has been scheduled.
     programs: HashMap<Vec<Id>, Rc<Program>>,
+    collector: Collector,
 }
 
 impl Model {
@@ -64,7 +65,7 @@ impl Model {
         if let Some(done) = self.programs.get(roots) {
             return done.clone();
         }
-        let program = Rc::new(schedule(&mut self.graph, roots));
+        let program = Rc::new(schedule(&mut self.graph, &mut self.collector, roots));
         self.programs.insert(roots.to_vec(), program.clone());
         program
     }
@@ -198,7 +199,6 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     check::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     let from_young_poisson = young_poisson(&graph, declaration, moduli);
-    let programs = HashMap::default();
     Some(Model {
         graph,
         energy,
@@ -212,7 +212,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         by_parameters,
         from_young_poisson,
         samples,
-        programs,
+        programs: HashMap::default(),
+        collector: Collector::default(),
     })
 }
 
@@ -235,7 +236,8 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
-    let mut lower = |id| extension::lower(graph, id);
+    let mut lowered = HashMap::default();
+    let mut lower = |id| extension::lower(graph, id, &mut lowered);
     Variant {
         energy: lower(energy),
         gradient: gradient.map(&mut lower),

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::hash::{HashMap, HashSet};
 use crate::rational::Rational;
+pub use collect::Collector;
 use order::Order;
 use parts::Parts;
 use passes::{fuse_multiply_add, renumber};
@@ -98,11 +99,13 @@ impl Op {
     /// The values it reads.
     #[must_use]
     pub fn operands(mut self) -> Vec<Value> {
-        self.operands_mut().into_iter().map(|value| *value).collect()
+        let mut all = Vec::new();
+        self.each_operand(|value| all.push(*value));
+        all
     }
 
-    /// The same, to be replaced.
-    fn operands_mut(&mut self) -> Vec<&mut Value> {
+    /// Shows each value it reads, to be counted or replaced.
+    fn each_operand(&mut self, mut show: impl FnMut(&mut Value)) {
         match self {
             Self::Literal(_)
             | Self::Stretch(_)
@@ -110,7 +113,7 @@ impl Op {
             | Self::Parameter(_)
             | Self::Entry(_)
             | Self::Epsilon
-            | Self::PoleFloor => vec![],
+            | Self::PoleFloor => {}
             Self::Neg(a)
             | Self::Sqrt(a)
             | Self::Cbrt(a)
@@ -118,7 +121,7 @@ impl Op {
             | Self::Logarithm(a)
             | Self::Exp(a)
             | Self::LnQuotient(a)
-            | Self::Function(.., a) => vec![a],
+            | Self::Function(.., a) => show(a),
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
@@ -126,19 +129,30 @@ impl Op {
             | Self::Power(a, b)
             | Self::Max(a, b)
             | Self::Below(a, b)
-            | Self::FunctionQuotient(.., a, b) => vec![a, b],
+            | Self::FunctionQuotient(.., a, b) => {
+                show(a);
+                show(b);
+            }
             Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
             | Self::NegMulAdd(a, b, c)
             | Self::MulSub(a, b, c)
             | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
-            | Self::ShareBelow(a, b, c) => vec![a, b, c],
-            Self::Pair { values, reciprocals, logarithms } => {
-                values.iter_mut().chain(reciprocals).chain(logarithms).collect()
+            | Self::ShareBelow(a, b, c) => {
+                show(a);
+                show(b);
+                show(c);
             }
-            Self::PowerQuotient { pair, powers: [a, b], exponent } => vec![pair, a, b, exponent],
-            Self::ExpQuotient { values, exponentials } => values.iter_mut().chain(exponentials).collect(),
+            Self::Pair { values, reciprocals, logarithms } => {
+                [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
+            }
+            Self::PowerQuotient { pair, powers: [a, b], exponent } => {
+                [pair, a, b, exponent].into_iter().for_each(show);
+            }
+            Self::ExpQuotient { values, exponentials } => {
+                [values, exponentials].into_iter().flatten().for_each(show);
+            }
         }
     }
 }
@@ -168,19 +182,21 @@ pub struct Program {
     pub outputs: Vec<Value>,
 }
 
-/// Orders the computation of the roots and of nothing else.
+/// Orders the computation of the roots and of nothing else. The collector keeps what it finds for the next program of the same
+/// graph.
 #[must_use]
-pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
+pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> Program {
     let powers = Powers::used_by(graph, &graph.reachable(roots));
-    let mut roots = collect::collect(graph, roots);
+    let mut roots = collector.collect(graph, roots);
     let mut reachable = graph.reachable(&roots);
-    if reachable.iter().any(|&id| matches!(graph.node(id), Node::Sum(..))) {
+    let has_sums = reachable.iter().any(|&id| matches!(graph.node(id), Node::Sum(..)));
+    if has_sums {
         roots = shifts::take_out(graph, &powers, &roots);
         // Once more, for what has come out of sums over lists.
-        roots = collect::collect(graph, &roots);
+        roots = collector.collect(graph, &roots);
         reachable = graph.reachable(&roots);
     }
-    let order = Order::of(graph, &reachable);
+    let order = Order::of(graph, &mut collector.degrees, &reachable);
     let parts = Parts::of(graph, &reachable);
     let mut scheduler = Scheduler {
         graph,
@@ -193,15 +209,18 @@ pub fn schedule(graph: &mut Graph, roots: &[Id]) -> Program {
         values: HashMap::default(),
         open_loop: None,
     };
-    scheduler.loops(&reachable);
+    if has_sums {
+        scheduler.loops(&reachable);
+    }
     let outputs = roots.into_iter().map(|root| scheduler.value(root)).collect();
-    renumber(fuse_multiply_add(Program { statements: scheduler.statements, outputs }))
+    let Scheduler { statements, count, .. } = scheduler;
+    renumber(fuse_multiply_add(Program { statements, outputs }, count), count)
 }
 
 struct Scheduler<'g> {
     graph: &'g mut Graph,
     powers: Powers,
-    order: Order,
+    order: Order<'g>,
     parts: Parts,
     count: usize,
     statements: Vec<Statement>,
@@ -264,7 +283,8 @@ impl Scheduler<'_> {
             Op::Mul(a, b) if b < a => Op::Mul(b, a),
             op => op,
         };
-        let varies = matches!(op, Op::Entry(_)) || op.operands().iter().any(|&value| self.varies(value));
+        let varies = self.open_loop.is_some()
+            && (matches!(op, Op::Entry(_)) || op.operands().into_iter().any(|value| self.varies(value)));
         let known = match &self.open_loop {
             Some(open) if varies => open.numbers.get(&op),
             _ => self.numbers.get(&op),
@@ -314,8 +334,8 @@ impl Scheduler<'_> {
             Node::Float(bits) => self.push(Op::Literal(bits)),
             Node::Epsilon => self.push(Op::Epsilon),
             Node::Linear { constant, terms } => self.linear(constant, &terms),
-            Node::Product(factors) => {
-                let factors = self.order.balanced(self.graph, &factors);
+            Node::Product(_) => {
+                let factors = self.order.balanced(self.graph, id);
                 let powers: Vec<_> = factors.iter().map(|&(base, e)| self.power(base, e)).collect();
                 powers
                     .into_iter()

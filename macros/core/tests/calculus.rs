@@ -4,7 +4,7 @@ use piola_codegen::expr::{Graph, Id};
 use piola_codegen::interpret::{Point, evaluate};
 use piola_codegen::model::{Model, PAIRS, Variant, model};
 use piola_codegen::parse::parse;
-use piola_codegen::schedule::{Op, Statement, schedule};
+use piola_codegen::schedule::{Op, Statement};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -237,7 +237,7 @@ fn nothing_is_divided_by_a_difference_of_stretches() {
         let mut model = compile(name, &arguments, &item);
         for variant in [Some(model.plain.clone()), model.extended.clone()].into_iter().flatten() {
             let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
-            let program = schedule(&mut model.graph, &roots);
+            let program = model.program(&roots);
             let operations: Vec<_> = program
                 .statements
                 .iter()
@@ -264,9 +264,9 @@ fn ogden_needs_three_powers_for_each_term_and_energy_alone_no_quotient() {
     let mut model = compile("Ogden", &arguments, &item);
     let variant = model.plain.clone();
     let mut count = |roots: &[Id]| {
-        let program = schedule(&mut model.graph, roots);
+        let program = model.program(roots);
         let (mut powers, mut quotients) = (0, 0);
-        for statement in program.statements {
+        for statement in &program.statements {
             if let Statement::Loop { body, .. } = statement {
                 powers += body.iter().filter(|(_, op)| matches!(op, Op::Power(..))).count();
                 quotients += body.iter().filter(|(_, op)| matches!(op, Op::PowerQuotient { .. })).count();
@@ -317,7 +317,7 @@ fn literal_exponents_are_real_powers_unless_they_are_simple_fractions() {
     let mut model = compile("literal exponents", &quote!(domain(J > 0.0), prestressed), &item);
     let variant = model.plain.clone();
     let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
-    let program = schedule(&mut model.graph, &roots);
+    let program = model.program(&roots);
     let count = |matches: fn(&Op) -> bool| {
         let is_match = |statement: &&Statement| matches!(statement, Statement::Let(_, op) if matches(op));
         program.statements.iter().filter(is_match).count()

@@ -2,7 +2,6 @@
 
 use piola_codegen::count::{Count, Kind};
 use piola_codegen::model::Variant;
-use piola_codegen::schedule::schedule;
 use piola_codegen::understand;
 
 /// Operations and real powers of ψ with its three first and six second derivatives, where lists have three entries.
@@ -16,7 +15,7 @@ fn check(declaration: &str, operations: usize, powers: usize) {
     let (_, mut model) = understand(arguments, item).expect("an energy without mistakes");
     let Variant { energy, gradient, hessian, .. } = &model.plain;
     let roots = [&[*energy], &gradient[..], hessian].concat();
-    let count = Count::of(&schedule(&mut model.graph, &roots));
+    let count = Count::of(&model.program(&roots));
     let number = |is_asked: fn(Kind) -> bool| count.number(&[3], is_asked);
     assert_eq!((number(|_| true), number(|kind| kind == Kind::Power)), (operations, powers));
 }

@@ -7,7 +7,6 @@ use super::writer::Writer;
 use super::{Texts, condition_text, generics, naming};
 use crate::model::Model;
 use crate::parse::{Declaration, Kind};
-use crate::schedule::schedule;
 
 /// `impl Declared`.
 pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {
@@ -76,7 +75,7 @@ pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Tex
         }
     };
 
-    let program = schedule(&mut model.graph, &model.moduli);
+    let program = model.program(&model.moduli.clone());
     let (statements, outputs) = Writer::new(declaration).program(&program);
     let (mu, lambda) = (&outputs[0], &outputs[1]);
     quote! {
@@ -109,7 +108,7 @@ pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Tex
             fn moduli(&self) -> ::piola::material::Moduli {
                 use ::piola::Real;
                 type R = f64;
-                #(#statements)*
+                #statements
                 ::piola::material::Moduli { mu: #mu, lambda: #lambda }
             }
         }

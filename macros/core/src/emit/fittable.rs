@@ -8,7 +8,6 @@ use super::{generics, naming};
 use crate::expr::Length;
 use crate::model::Model;
 use crate::parse::{Declaration, Kind};
-use crate::schedule::schedule;
 
 /// `impl Fittable`, where it is asked for.
 pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStream {
@@ -31,12 +30,12 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
         let members: Vec<usize> =
             (0..by_parameters.len()).filter(|&k| declaration.parameters[k].length() == length).collect();
         let roots: Vec<_> = members.iter().flat_map(|&k| by_parameters[k]).collect();
-        let (statements, outputs) = writer.program(&schedule(&mut model.graph, &roots));
+        let (statements, outputs) = writer.program(&model.program(&roots));
         let triples = members.iter().zip(outputs.chunks(3)).map(|(&k, triple)| {
             let k = Literal::usize_unsuffixed(k);
             quote!(#derivatives[#k].push([#(#triple),*]);)
         });
-        quote!(#(#statements)* #(#triples)*)
+        quote!(#statements #(#triples)*)
     };
     let numbers = program(None);
     // A program reads entry q of a list outside its sums, and sums have an index of their own.

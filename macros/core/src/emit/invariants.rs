@@ -5,7 +5,6 @@ use quote::{format_ident, quote};
 
 use super::writer::Writer;
 use crate::model::{Model, Volume};
-use crate::schedule::schedule;
 
 /// Says that there are such methods.
 pub(super) fn constant(model: &Model) -> TokenStream {
@@ -57,7 +56,7 @@ pub(super) fn methods(
     let [i1, i2, j] = &variables;
     let arguments = quote!([#i1, #i2, #j]: [R; 3]);
     let named = writer.with_variables(variables.clone());
-    let mut program = |roots: &[_]| named.program(&schedule(&mut model.graph, roots));
+    let mut program = |roots: &[_]| named.program(&model.program(roots));
     let (energy, energy_output) = program(&[invariants.energy]);
     let (gradient, gradient_outputs) = program(&invariants.gradient);
     let (bounds, bound_outputs) = program(&invariants.bounds);
@@ -90,21 +89,21 @@ pub(super) fn methods(
         #[inline(always)]
         #[allow(non_snake_case)]
         fn #energy_of<R: ::piola::Real>(#receiver, #arguments) -> R {
-            #(#energy)*
+            #energy
             #(#energy_output)*
         }
 
         #[inline(always)]
         #[allow(non_snake_case)]
         fn #gradient_of<R: ::piola::Real>(#receiver, #arguments) -> [R; 3] {
-            #(#gradient)*
+            #gradient
             [#(#gradient_outputs),*]
         }
 
         #[inline(always)]
         #[allow(non_snake_case)]
         fn #admits_of<R: ::piola::Real>(#receiver, #arguments) -> R::Mask {
-            #(#bounds)*
+            #bounds
             #admits
         }
     }

@@ -10,7 +10,6 @@ use super::{generics, naming};
 use crate::expr::Id;
 use crate::model::{Model, Variant, Volume};
 use crate::parse::Declaration;
-use crate::schedule::schedule;
 
 /// `impl Material`, and `impl Varying` where all parameters are numbers.
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
@@ -154,9 +153,9 @@ impl<'a> Bodies<'a> {
                           result: &dyn Fn(&[TokenStream]) -> TokenStream| {
             let body = |model: &mut Model, roots: &[Id]| {
                 let program = model.program(roots);
-                let (statements, outputs) = writer.program(&program);
-                let result = result(&outputs);
-                quote!(#(#statements)* #result)
+                let (mut body, outputs) = writer.program(&program);
+                body.extend(result(&outputs));
+                body
             };
             let plain = body(model, &select(&model.plain));
             match model.extended.as_ref().map(select) {
@@ -234,14 +233,14 @@ impl<'a> Bodies<'a> {
 
 /// Below the threshold of an extension strains are not small, and the gradient by stretches is as good.
 fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3]) -> TokenStream {
-    let program = schedule(&mut model.graph, &model.at_strains);
+    let program = model.program(&model.at_strains.clone());
     let (statements, outputs) = writer.program(&program);
     let (strains, threshold) = (&writer.strains, &writer.threshold);
     let one = quote!(R::splat(1.0));
     let stretches = quote!([#one + #strains[0], #one + #strains[1], #one + #strains[2]]);
     let inside = quote! {
         let [#l1, #l2, #l3] = #stretches;
-        #(#statements)*
+        #statements
     };
     if model.extended.is_none() {
         return quote!(#inside [#(#outputs),*]);
@@ -274,7 +273,7 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
 /// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the other bounds are
 /// positive expressions.
 fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
-    let program = schedule(&mut model.graph, &model.bounds);
+    let program = model.program(&model.bounds.clone());
     let (statements, outputs) = writer.program(&program);
     let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
     let mut conditions: Vec<TokenStream> = bounds.collect();
@@ -296,5 +295,5 @@ fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> Tok
     }));
     let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
     let all = all.unwrap_or_else(|| quote!(<R::Mask as ::piola::lanes::Mask>::splat(true)));
-    quote!(#(#statements)* #all)
+    quote!(#statements #all)
 }

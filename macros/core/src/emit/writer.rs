@@ -79,9 +79,9 @@ impl<'a> Writer<'a> {
     }
 
     /// The statements of a program and its outputs as expressions.
-    pub(super) fn program(&self, program: &Program) -> (Vec<TokenStream>, Vec<TokenStream>) {
+    pub(super) fn program(&self, program: &Program) -> (TokenStream, Vec<TokenStream>) {
         let mut names = Names::default();
-        let mut statements = Vec::new();
+        let mut statements = TokenStream::new();
         for statement in &program.statements {
             match statement {
                 Statement::Let(value, op) => statements.extend(self.binding(*value, op, &mut names)),
@@ -98,7 +98,7 @@ impl<'a> Writer<'a> {
                         additions.push(quote!(#name = #name + #term;));
                         names.set(total, quote!(#name));
                     }
-                    statements.push(quote! {
+                    statements.extend(quote! {
                         #(#starts)*
                         for #index in 0..#length {
                             #(#body)*
@@ -108,7 +108,7 @@ impl<'a> Writer<'a> {
                 }
             }
         }
-        let outputs = program.outputs.iter().map(|&output| names.get(output)).collect();
+        let outputs = program.outputs.iter().map(|&output| names.get(output).to_token_stream()).collect();
         (statements, outputs)
     }
 
@@ -155,10 +155,22 @@ impl<'a> Writer<'a> {
                 let a = n(a);
                 quote!(-#a)
             }
-            Op::Add(a, b) => infix(&n(a), quote!(+), &n(b)),
-            Op::Sub(a, b) => infix(&n(a), quote!(-), &n(b)),
-            Op::Mul(a, b) => infix(&n(a), quote!(*), &n(b)),
-            Op::Div(a, b) => infix(&n(a), quote!(/), &n(b)),
+            Op::Add(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a + #b)
+            }
+            Op::Sub(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a - #b)
+            }
+            Op::Mul(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a * #b)
+            }
+            Op::Div(a, b) => {
+                let (a, b) = (n(a), n(b));
+                quote!(#a / #b)
+            }
             Op::MulAdd(a, b, c) => {
                 let (a, b, c) = (n(a), n(b), n(c));
                 quote!(#a.mul_add(#b, #c))
@@ -172,15 +184,15 @@ impl<'a> Writer<'a> {
                 let (a, b, c) = (n(a), n(b), n(c));
                 quote!(#a.mul_add(#b, -#c))
             }
-            Op::Sqrt(a) => method(&n(a), "sqrt"),
-            Op::Cbrt(a) => method(&n(a), "cbrt"),
-            Op::Ln(a) => method(&n(a), "ln"),
-            Op::Exp(a) => method(&n(a), "exp"),
+            Op::Sqrt(a) => method(n(a), "sqrt"),
+            Op::Cbrt(a) => method(n(a), "cbrt"),
+            Op::Ln(a) => method(n(a), "ln"),
+            Op::Exp(a) => method(n(a), "exp"),
             Op::LnProduct(factors) => {
                 let factors = factors.map(n);
                 self.call("ln_product", &[quote!([#(#factors),*])])
             }
-            Op::Logarithm(a) => method(&n(a), "logarithm"),
+            Op::Logarithm(a) => method(n(a), "logarithm"),
             Op::Power(logarithm, exponent) => {
                 let (logarithm, exponent) = (n(logarithm), n(exponent));
                 quote!(R::power(#logarithm, #exponent))
@@ -211,7 +223,7 @@ impl<'a> Writer<'a> {
                 let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
                 quote!(::piola::quotient::Pair::new(#(#arguments),*))
             }
-            Op::LnQuotient(pair) => method(&n(pair), "ln_quotient"),
+            Op::LnQuotient(pair) => method(n(pair), "ln_quotient"),
             Op::PowerQuotient { pair, powers, exponent } => {
                 let (pair, powers, exponent) = (n(pair), self.two(powers, names), n(exponent));
                 quote!(#pair.power_quotient(#powers, #exponent))
@@ -234,7 +246,7 @@ impl<'a> Writer<'a> {
 
     /// A call of a function that is a parameter. No expression needs a higher derivative than there is; NaN would not go
     /// unnoticed.
-    fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[TokenStream]) -> TokenStream {
+    fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[impl ToTokens]) -> TokenStream {
         let Some(method) = method else { return literal(f64::NAN) };
         let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));
         quote!(::piola::Univariate::#method(&self.#name, #(#arguments),*))
@@ -245,7 +257,7 @@ impl<'a> Writer<'a> {
         quote!([#a, #b])
     }
 
-    fn call(&self, kernel: &str, arguments: &[TokenStream]) -> TokenStream {
+    fn call(&self, kernel: &str, arguments: &[impl ToTokens]) -> TokenStream {
         let kernel = format_ident!("{kernel}");
         quote!(::piola::quotient::#kernel(#(#arguments),*))
     }
@@ -268,8 +280,8 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
 struct Names(crate::hash::HashMap<Value, TokenStream>);
 
 impl Names {
-    fn get(&self, value: Value) -> TokenStream {
-        self.0.get(&value).cloned().unwrap_or_default()
+    fn get(&self, value: Value) -> Option<&TokenStream> {
+        self.0.get(&value)
     }
 
     fn set(&mut self, value: Value, text: TokenStream) {
@@ -277,11 +289,7 @@ impl Names {
     }
 }
 
-fn infix(a: &TokenStream, operator: TokenStream, b: &TokenStream) -> TokenStream {
-    quote!(#a #operator #b)
-}
-
-fn method(receiver: &TokenStream, name: &str) -> TokenStream {
+fn method(receiver: impl ToTokens, name: &str) -> TokenStream {
     let name = format_ident!("{name}");
     quote!(#receiver.#name())
 }

@@ -12,22 +12,30 @@ use crate::expr::{Exponent, Graph, Id, Node};
 use crate::hash::HashMap;
 use crate::rational::Rational;
 
-/// The roots with common factors taken out.
-pub(super) fn collect(graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
-    let (mut degrees, mut memo) = (Degrees::default(), HashMap::default());
-    roots.iter().map(|&root| rewrite(graph, &mut degrees, root, &mut memo)).collect()
+/// What expressions become, each found once for all programs of a graph.
+#[derive(Debug, Default)]
+pub struct Collector {
+    pub(super) degrees: Degrees,
+    memo: HashMap<Id, Id>,
 }
 
-fn rewrite(graph: &mut Graph, degrees: &mut Degrees, id: Id, memo: &mut HashMap<Id, Id>) -> Id {
-    if let Some(&done) = memo.get(&id) {
-        return done;
+impl Collector {
+    /// The roots with common factors taken out.
+    pub(super) fn collect(&mut self, graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
+        roots.iter().map(|&root| self.rewrite(graph, root)).collect()
     }
-    let mut result = graph.map_children(id, &mut |graph, child| rewrite(graph, degrees, child, memo));
-    if let Node::Linear { constant, terms } = graph.node(result).clone() {
-        result = collected(graph, degrees, constant, &terms);
+
+    fn rewrite(&mut self, graph: &mut Graph, id: Id) -> Id {
+        if let Some(&done) = self.memo.get(&id) {
+            return done;
+        }
+        let mut result = graph.map_children(id, &mut |graph, child| self.rewrite(graph, child));
+        if let Node::Linear { constant, terms } = graph.node(result).clone() {
+            result = collected(graph, &mut self.degrees, constant, &terms);
+        }
+        self.memo.insert(id, result);
+        result
     }
-    memo.insert(id, result);
-    result
 }
 
 /// A sum whose terms share factors.

@@ -7,7 +7,7 @@ use crate::hash::HashMap;
 pub(super) type Degree = [f64; 2];
 
 /// Degrees of expressions, each found once.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Degrees {
     memo: HashMap<Id, Degree>,
 }

@@ -16,10 +16,11 @@ use crate::rational::Rational;
 type Factor = (Id, Exponent);
 
 /// What decides on the order: degrees, and the products of a program.
-pub(super) struct Order {
-    degrees: Degrees,
-    /// The products that have a factor once or more, twice or more, and so on.
-    with_factor: HashMap<Factor, Vec<Set>>,
+pub(super) struct Order<'d> {
+    degrees: &'d mut Degrees,
+    /// The factors of each product; beside the n-th of one kind the place of those products that have n or more of it.
+    products: HashMap<Id, Vec<(Factor, usize)>>,
+    sets: Vec<Set>,
     /// All products.
     all: Set,
 }
@@ -27,89 +28,94 @@ pub(super) struct Order {
 /// Products of a program, each by a bit.
 type Set = Vec<u64>;
 
-impl Order {
+impl<'d> Order<'d> {
     /// For products among these nodes.
-    pub(super) fn of(graph: &Graph, reachable: &[Id]) -> Self {
+    pub(super) fn of(graph: &Graph, degrees: &'d mut Degrees, reachable: &[Id]) -> Self {
         let factors = |&id: &Id| match graph.node(id) {
-            Node::Product(factors) => Some(apart(factors)),
+            Node::Product(factors) => Some((id, apart(factors))),
             _ => None,
         };
-        let products: Vec<_> = reachable.iter().filter_map(factors).collect();
-        let words = products.len().div_ceil(64);
-        let mut with_factor: HashMap<Factor, Vec<Set>> = HashMap::default();
-        for (product, factors) in products.iter().enumerate() {
-            for (k, factor) in factors.iter().enumerate() {
-                let earlier = factors[..k].iter().filter(|&other| other == factor).count();
-                let sets = with_factor.entry(*factor).or_default();
-                if sets.len() == earlier {
+        let found: Vec<_> = reachable.iter().filter_map(factors).collect();
+        let words = found.len().div_ceil(64);
+        let (mut products, mut sets) = (HashMap::default(), Vec::new());
+        let mut places: HashMap<(Factor, usize), usize> = HashMap::default();
+        for (product, (id, factors)) in found.into_iter().enumerate() {
+            let mut placed: Vec<(Factor, usize)> = Vec::with_capacity(factors.len());
+            for factor in factors {
+                let earlier = placed.iter().filter(|other| other.0 == factor).count();
+                let place = *places.entry((factor, earlier)).or_insert_with(|| {
                     sets.push(vec![0; words]);
-                }
-                sets[earlier][product / 64] |= 1 << (product % 64);
+                    sets.len() - 1
+                });
+                sets[place][product / 64] |= 1 << (product % 64);
+                placed.push((factor, place));
             }
+            products.insert(id, placed);
         }
-        Self { degrees: Degrees::default(), with_factor, all: vec![u64::MAX; words] }
+        Self { degrees, products, sets, all: vec![u64::MAX; words] }
     }
 
-    /// The factors in the order of multiplication, parameters first.
-    pub(super) fn balanced(&mut self, graph: &Graph, factors: &[Factor]) -> Vec<Factor> {
-        let mut left: Vec<(Degree, Factor)> = Vec::new();
-        for factor @ (base, exponent) in apart(factors) {
-            left.push((power(self.degrees.of(graph, base), exponent), factor));
+    /// The factors of a product in the order of multiplication, parameters first.
+    pub(super) fn balanced(&mut self, graph: &Graph, product: Id) -> Vec<Factor> {
+        let mut left = self.products.get(&product).cloned().unwrap_or_default();
+        let mut degrees: Vec<Degree> = Vec::with_capacity(left.len());
+        for &((base, exponent), _) in &left {
+            degrees.push(power(self.degrees.of(graph, base), exponent));
         }
-        let mut order: Vec<Factor> = Vec::new();
+        let mut order: Vec<Factor> = Vec::with_capacity(left.len());
         let mut total = [0.0; 2];
         // The products of which what has been multiplied is a part.
         let mut alike = self.all.clone();
         while !left.is_empty() {
             let size = |[low, high]: Degree| (total[0] + low).abs() + (total[1] + high).abs();
-            let smallest = left.iter().map(|&(degrees, _)| size(degrees)).fold(f64::INFINITY, f64::min);
+            let smallest = degrees.iter().copied().map(size).fold(f64::INFINITY, f64::min);
             // The first of the most shared of the smallest.
-            let mut best: Option<(usize, u32, Set)> = None;
-            for (k, &(degrees, factor)) in left.iter().enumerate() {
-                if size(degrees) > smallest || left[..k].iter().any(|other| other.1 == factor) {
+            let mut best: Option<(usize, u32)> = None;
+            for (k, &(factor, place)) in left.iter().enumerate() {
+                if size(degrees[k]) > smallest || left[..k].iter().any(|other| other.0 == factor) {
                     continue;
                 }
-                let earlier = order.iter().filter(|&&other| other == factor).count();
-                let set = self.with_factor.get(&factor).and_then(|sets| sets.get(earlier));
-                let sharing: Set = alike.iter().zip(set.into_iter().flatten()).map(|(a, b)| a & b).collect();
-                let number = sharing.iter().map(|word| word.count_ones()).sum();
-                if best.as_ref().is_none_or(|&(_, most, _)| number > most) {
-                    best = Some((k, number, sharing));
+                let sharing = alike.iter().zip(&self.sets[place]);
+                let number = sharing.map(|(a, b)| (a & b).count_ones()).sum();
+                if best.is_none_or(|(_, most)| number > most) {
+                    best = Some((k, number));
                 }
             }
             // A degree that is no number is as good as any.
-            let (k, _, sharing) = best.unwrap_or_default();
-            let (degrees, factor) = left.remove(k);
-            total = sum(total, degrees);
+            let (k, _) = best.unwrap_or_default();
+            let (factor, place) = left.remove(k);
+            total = sum(total, degrees.remove(k));
             order.push(factor);
-            alike = sharing;
+            alike.iter_mut().zip(&self.sets[place]).for_each(|(a, b)| *a &= b);
         }
         order
     }
 }
 
-/// Factors such that no power of one base leaves the range when their product does not.
+/// Factors such that no power of one base leaves the range when their product does not: x^(−7/3) may where x^(−1/3) and x^(−1)
+/// do not.
 fn apart(factors: &[Factor]) -> Vec<Factor> {
-    let apart = |&(base, exponent): &Factor| parts(exponent).into_iter().map(move |part| (base, part));
-    factors.iter().flat_map(apart).collect()
+    let mut apart = Vec::with_capacity(factors.len());
+    for &(base, exponent) in factors {
+        let Some((fraction, whole)) = parts(exponent) else {
+            apart.push((base, exponent));
+            continue;
+        };
+        if !fraction.is_zero() {
+            apart.push((base, Exponent::rational(fraction)));
+        }
+        let unit = (base, Exponent::integer(whole.signum()));
+        (0..whole.unsigned_abs()).for_each(|_| apart.push(unit));
+    }
+    apart
 }
 
-/// x^(−7/3) may leave the range where x^(−1/3) and x^(−1) do not.
-fn parts(exponent: Exponent) -> Vec<Exponent> {
-    let Exponent { real, rational } = exponent;
-    let Ok(mut whole) = i64::try_from(rational.numerator() / rational.denominator()) else {
-        return vec![exponent];
-    };
-    let fraction = rational.checked_add(Rational::integer(-whole));
-    let (None, Some(fraction)) = (real, fraction) else { return vec![exponent] };
-    let mut parts = Vec::new();
-    if !fraction.is_zero() {
-        parts.push(Exponent::rational(fraction));
+/// A rational exponent as a fraction between −1 and 1 and a whole number.
+fn parts(exponent: Exponent) -> Option<(Rational, i64)> {
+    if let Some(whole) = exponent.as_integer() {
+        return Some((Rational::ZERO, whole));
     }
-    while whole != 0 {
-        let part = whole.signum();
-        parts.push(Exponent::integer(part));
-        whole -= part;
-    }
-    parts
+    let Exponent { real: None, rational } = exponent else { return None };
+    let whole = i64::try_from(rational.numerator() / rational.denominator()).ok()?;
+    Some((rational.checked_add(Rational::integer(-whole))?, whole))
 }

@@ -1,13 +1,12 @@
 //! What is done to a program once its operations are in order.
 
 use super::{Op, Program, Statement, Value};
-use crate::hash::{HashMap, HashSet};
 
-/// a b + c, c − a b and a b − c in one operation where the product is used nowhere else.
-pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
-    let mut uses: HashMap<Value, usize> = HashMap::default();
-    let mut products: HashMap<Value, (Value, Value)> = HashMap::default();
-    let mut count = |value: Value| *uses.entry(value).or_default() += 1;
+/// a b + c, c − a b and a b − c in one operation where the product is used nowhere else; of a program with so many values.
+pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program {
+    let mut uses = vec![0; values];
+    let mut products = vec![None; values];
+    let mut count = |value: Value| uses[value.0] += 1;
     program.outputs.iter().copied().for_each(&mut count);
     for statement in &program.statements {
         let lets: &[_] = match statement {
@@ -17,14 +16,14 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
                 body
             }
         };
-        for &(value, op) in lets {
-            op.operands().into_iter().for_each(&mut count);
+        for &(value, mut op) in lets {
+            op.each_operand(|operand| count(*operand));
             if let Op::Mul(a, b) = op {
-                products.insert(value, (a, b));
+                products[value.0] = Some((a, b));
             }
         }
     }
-    let mut fused: HashSet<Value> = HashSet::default();
+    let mut is_fused = vec![false; values];
     let mut fuse = |op: &mut Op| {
         type Fuse = fn(Value, Value, Value) -> Op;
         let candidates: &[(Value, Fuse, Value)] = match *op {
@@ -33,11 +32,11 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
             _ => &[],
         };
         for &(product, fuse, other) in candidates {
-            if uses[&product] == 1
-                && let Some(&(x, y)) = products.get(&product)
+            if uses[product.0] == 1
+                && let Some((x, y)) = products[product.0]
             {
                 *op = fuse(x, y, other);
-                fused.insert(product);
+                is_fused[product.0] = true;
                 return;
             }
         }
@@ -50,26 +49,21 @@ pub(super) fn fuse_multiply_add(mut program: Program) -> Program {
     }
     for statement in &mut program.statements {
         if let Statement::Loop { body, .. } = statement {
-            body.retain(|(value, _)| !fused.contains(value));
+            body.retain(|(value, _)| !is_fused[value.0]);
         }
     }
     program
         .statements
-        .retain(|statement| !matches!(statement, Statement::Let(value, _) if fused.contains(value)));
+        .retain(|statement| !matches!(statement, Statement::Let(value, _) if is_fused[value.0]));
     program
 }
 
 /// Numbers values in the order in which they are computed; literals and inputs, which are written where they are used,
 /// come after all others.
-pub(super) fn renumber(mut program: Program) -> Program {
-    let mut names: HashMap<Value, Value> = HashMap::default();
-    let mut inlined = Vec::new();
+pub(super) fn renumber(mut program: Program, values: usize) -> Program {
+    let (mut named, mut inlined) = (Vec::new(), Vec::new());
     let mut name = |value: Value, op: Option<Op>| {
-        if matches!(op, Some(op) if op.operands().is_empty() && op != Op::PoleFloor) {
-            inlined.push(value);
-        } else {
-            names.insert(value, Value(names.len()));
-        }
+        if op.is_some_and(is_inlined) { inlined.push(value) } else { named.push(value) }
     };
     for statement in &program.statements {
         match statement {
@@ -80,20 +74,21 @@ pub(super) fn renumber(mut program: Program) -> Program {
             }
         }
     }
-    for value in inlined {
-        names.insert(value, Value(names.len()));
+    let mut names = vec![Value(0); values];
+    for (k, value) in named.into_iter().chain(inlined).enumerate() {
+        names[value.0] = Value(k);
     }
-    let new = |value: &mut Value| *value = names[value];
+    let new = |value: &mut Value| *value = names[value.0];
     for statement in &mut program.statements {
         match statement {
             Statement::Let(value, op) => {
                 new(value);
-                op.operands_mut().into_iter().for_each(new);
+                op.each_operand(new);
             }
             Statement::Loop { body, totals, .. } => {
                 for (value, op) in body {
                     new(value);
-                    op.operands_mut().into_iter().for_each(new);
+                    op.each_operand(new);
                 }
                 for (total, term) in totals {
                     new(total);
@@ -104,4 +99,12 @@ pub(super) fn renumber(mut program: Program) -> Program {
     }
     program.outputs.iter_mut().for_each(new);
     program
+}
+
+/// Whether it is written where it is used.
+fn is_inlined(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Literal(_) | Op::Stretch(_) | Op::Strain(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon
+    )
 }
