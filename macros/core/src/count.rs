@@ -4,8 +4,6 @@
 //! share a logarithm, which counts once beside them; so does what the divided differences of two numbers share. Literals,
 //! parameters and stretches cost nothing. A total over a list takes one addition for each entry.
 
-use std::collections::BTreeMap;
-
 use quote::ToTokens;
 use syn::Expr;
 
@@ -13,6 +11,7 @@ use crate::expr::Length;
 use crate::model::{Model, Variant};
 use crate::parse::Declaration;
 use crate::schedule::{Op, Program, Statement};
+use crate::sorted::{Sorted, entry};
 
 /// The operations that each result of a material takes by itself, by its name: inside the domain, and last the blocks of an
 /// energy continued beyond that. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
@@ -81,7 +80,7 @@ pub const LEGEND: &str = "A fused multiplication and addition counts as two oper
 
 /// The operations of a program: those done once, and those done for each entry of lists of one length.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Count(BTreeMap<(Kind, Option<Length>), usize>);
+pub struct Count(Sorted<(Kind, Option<Length>), usize>);
 
 impl Count {
     /// Of everything that a program does.
@@ -94,7 +93,7 @@ impl Count {
                 Statement::Loop { length, body, totals } => {
                     body.iter().for_each(|(_, op)| count.add(op, Some(*length)));
                     if !totals.is_empty() {
-                        *count.0.entry((Kind::Addition, Some(*length))).or_default() += totals.len();
+                        *entry(&mut count.0, (Kind::Addition, Some(*length))) += totals.len();
                     }
                 }
             }
@@ -104,7 +103,7 @@ impl Count {
 
     fn add(&mut self, op: &Op, length: Option<Length>) {
         for &kind in kinds(op) {
-            *self.0.entry((kind, length)).or_default() += 1;
+            *entry(&mut self.0, (kind, length)) += 1;
         }
     }
 
@@ -119,7 +118,7 @@ impl Count {
     fn summary(&self, declaration: &Declaration) -> String {
         let all = self.text(declaration, |_| true);
         let costly = COSTLY.into_iter().filter_map(|(kind, sign)| {
-            let is_used = self.0.keys().any(|&(used, _)| used == kind);
+            let is_used = self.0.iter().any(|((used, _), _)| *used == kind);
             is_used.then(|| format!("{} {sign}", self.text(declaration, |asked| asked == kind)))
         });
         let costly: Vec<_> = costly.collect();
@@ -129,11 +128,11 @@ impl Count {
     /// Those of the kinds asked for, such as `12 + 31 N`.
     fn text(&self, declaration: &Declaration, is_asked: impl Fn(Kind) -> bool) -> String {
         let mut once = 0;
-        let mut each: BTreeMap<Length, usize> = BTreeMap::new();
-        for (&(kind, length), &number) in &self.0 {
+        let mut each: Sorted<Length, usize> = Sorted::new();
+        for &((kind, length), number) in &self.0 {
             match length {
                 _ if !is_asked(kind) => {}
-                Some(length) => *each.entry(length).or_default() += number,
+                Some(length) => *entry(&mut each, length) += number,
                 None => once += number,
             }
         }

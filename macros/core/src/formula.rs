@@ -214,9 +214,10 @@ pub fn combination(terms: &[(&str, Rational)], constant: Rational) -> String {
 }
 
 /// Terms, each with whether it is subtracted, and a constant: whether that is more than one term without sign, and its text.
-fn signed(mut parts: Vec<(bool, String)>, constant: Rational) -> (bool, String) {
+fn signed(parts: Vec<(bool, String)>, constant: Rational) -> (bool, String) {
     // Σ first reads better than − first.
-    parts.sort_by_key(|&(is_negative, _)| is_negative);
+    let (subtracted, mut parts): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| part.0);
+    parts.extend(subtracted);
     if !constant.is_zero() || parts.is_empty() {
         parts.push((constant.is_negative(), magnitude(constant)));
     }

@@ -33,6 +33,7 @@ pub mod rational;
 pub mod resolve;
 pub mod schedule;
 pub mod simplify;
+mod sorted;
 pub mod source;
 mod spelling;
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use std::rc::Rc;
 
-use syn::{BinOp, Expr};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::{BinOp, Expr, Ident};
 
 use crate::by_parameters::by_parameters;
 use crate::check::{self, Written};
@@ -279,25 +281,31 @@ pub(crate) fn volume_condition(condition: &Expr) -> Option<Volume> {
     }
 }
 
-/// The lists of an expression with the index that stands for all entries.
+/// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
 #[must_use]
-pub fn indexed_lists(condition: &Expr) -> Vec<(syn::Ident, syn::Ident)> {
-    struct Lists(Vec<(syn::Ident, syn::Ident)>);
-    impl<'ast> syn::visit::Visit<'ast> for Lists {
-        fn visit_expr_index(&mut self, node: &'ast syn::ExprIndex) {
-            if let (Expr::Path(list), Expr::Path(index)) = (&*node.expr, &*node.index)
-                && let (Some(list), Some(index)) = (list.path.get_ident(), index.path.get_ident())
-            {
-                self.0.push((list.clone(), index.clone()));
+pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
+    fn find(tokens: TokenStream) -> Option<(Ident, Ident)> {
+        let mut list = None;
+        for token in tokens {
+            match token {
+                TokenTree::Ident(name) => list = Some(name),
+                TokenTree::Group(group) => {
+                    let is_index = group.delimiter() == Delimiter::Bracket;
+                    let index = syn::parse2(group.stream()).ok().filter(|_| is_index);
+                    let found = list.take().zip(index).or_else(|| find(group.stream()));
+                    if found.is_some() {
+                        return found;
+                    }
+                }
+                _ => list = None,
             }
         }
+        None
     }
-    let mut lists = Lists(Vec::new());
-    syn::visit::visit_expr(&mut lists, condition);
-    lists.0
+    find(condition.to_token_stream())
 }
 
 /// What stands for all entries in a condition on them.
-fn index(condition: &Expr) -> Option<syn::Ident> {
-    indexed_lists(condition).into_iter().next().map(|(_, index)| index)
+fn index(condition: &Expr) -> Option<Ident> {
+    indexed_list(condition).map(|(_, index)| index)
 }

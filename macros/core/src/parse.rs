@@ -24,7 +24,6 @@ mod options;
 mod signature;
 
 /// An energy as declared.
-#[derive(Debug)]
 pub struct Declaration {
     /// Documentation and other attributes of the item.
     pub attributes: Vec<Attribute>,
@@ -49,7 +48,6 @@ pub struct Declaration {
 }
 
 /// A parameter of the energy.
-#[derive(Debug)]
 pub struct Parameter {
     /// Its name.
     pub name: Ident,
@@ -62,7 +60,6 @@ pub struct Parameter {
 }
 
 /// What a parameter is.
-#[derive(Debug)]
 pub enum Kind {
     /// A number.
     Number,

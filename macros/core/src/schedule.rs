@@ -7,11 +7,10 @@
 //! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
 //! base are made from one logarithm.
 
-use std::collections::BTreeMap;
-
 use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
 use crate::hash::{HashMap, HashSet};
 use crate::rational::Rational;
+use crate::sorted::{Sorted, entry};
 pub use collect::Collector;
 use order::Order;
 use parts::Parts;
@@ -242,11 +241,11 @@ impl Scheduler<'_> {
     /// Sums first, in the order in which they need each other, those of one length together.
     fn loops(&mut self, reachable: &[Id]) {
         let mut depth: HashMap<Id, usize> = HashMap::default();
-        let mut sums: BTreeMap<(usize, Length), Vec<(Id, Id)>> = BTreeMap::new();
+        let mut sums: Sorted<(usize, Length), Vec<(Id, Id)>> = Sorted::new();
         for &id in reachable {
             let inner = self.graph.children(id).iter().map(|child| depth[child]).max().unwrap_or(0);
             let own = if let Node::Sum(length, body) = *self.graph.node(id) {
-                sums.entry((inner, length)).or_default().push((id, body));
+                entry(&mut sums, (inner, length)).push((id, body));
                 inner + 1
             } else {
                 inner

@@ -8,7 +8,7 @@ use syn::Expr;
 use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
 use crate::literals::typed;
-use crate::model::{Model, indexed_lists};
+use crate::model::{Model, indexed_list};
 use crate::parse::{Declaration, Parameter, identifiers};
 
 /// The inherent methods.
@@ -144,14 +144,13 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
 /// Returns an error unless a condition holds, for every entry if it is written for one.
 fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> TokenStream {
     let text = condition_text(condition);
-    let lists = indexed_lists(condition);
-    let index = lists.first().map(|(_, index)| index.clone());
+    let list = indexed_list(condition);
     let names = identifiers(condition.to_token_stream());
     let given =
         declaration.parameters.iter().filter(|parameter| names.contains(&parameter.name)).map(|parameter| {
             let name = &parameter.name;
-            match &index {
-                Some(index) if parameter.length().is_some() => {
+            match &list {
+                Some((_, index)) if parameter.length().is_some() => {
                     let format = format!("{name}[{{}}] = {{}}");
                     quote!(::std::format!(#format, #index, #name[#index]))
                 }
@@ -171,7 +170,7 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
             });
         }
     };
-    match lists.first() {
+    match &list {
         Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
         None => test,
     }

@@ -9,7 +9,7 @@ use crate::diagnostics::Diagnostics;
 use crate::spelling::nearest;
 
 /// The arguments of the attribute.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Options {
     /// Comparisons in stretches, invariants and parameters that bound the domain.
     pub domain: Vec<Expr>,

@@ -1,7 +1,5 @@
 //! Which powers of each base are needed, and which one of them is computed.
 
-use std::collections::BTreeMap;
-
 use crate::divided::LARGEST_ROOT;
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::hash::HashMap;
@@ -31,7 +29,7 @@ impl Powers {
     /// Those that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
         let mut denominators: HashMap<Id, i128> = HashMap::default();
-        let mut used: BTreeMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = BTreeMap::new();
+        let mut used: HashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = HashMap::default();
         for &id in reachable {
             match graph.node(id) {
                 Node::Product(factors) => {

@@ -8,16 +8,15 @@
 //! multiplied once, not for every entry; and so is a whole power of a stretch itself. What is left in the sum is what other
 //! sums have computed already.
 
-use std::collections::BTreeMap;
-
 use super::powers::{Powers, Way};
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::hash::HashMap;
 use crate::rational::Rational;
+use crate::sorted::{Sorted, entry};
 use crate::volume::rewrite;
 
 /// Bases with the whole exponents to which they are factors.
-type Shifts = BTreeMap<Id, i64>;
+type Shifts = Sorted<Id, i64>;
 
 /// The roots with shared powers before their sums.
 pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<Id> {
@@ -38,12 +37,12 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
             let (mut shifts, mut left) = (Shifts::new(), Vec::new());
             for (base, exponent) in factors {
                 if let (Node::Stretch(_), Some(n)) = (graph.node(base), exponent.as_integer()) {
-                    *shifts.entry(base).or_default() += n;
+                    *entry(&mut shifts, base) += n;
                     continue;
                 }
                 if exponent == Exponent::ONE {
                     let (inner, rest) = split(graph, powers, base);
-                    inner.into_iter().for_each(|(base, n)| *shifts.entry(base).or_default() += n);
+                    inner.into_iter().for_each(|(base, n)| *entry(&mut shifts, base) += n);
                     left.push((rest, Exponent::ONE));
                     continue;
                 }
@@ -55,7 +54,7 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                 };
                 match shift.and_then(Rational::as_integer) {
                     Some(n) if n != 0 && exponent.real.is_some() => {
-                        *shifts.entry(base).or_default() += n;
+                        *entry(&mut shifts, base) += n;
                         let rational = exponent.rational.checked_add(Rational::integer(-n));
                         left.push((
                             base,
@@ -70,11 +69,11 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
         Node::Linear { constant, terms } if constant.is_zero() => {
             let split: Vec<_> = terms.iter().map(|&(term, c)| (split(graph, powers, term), c)).collect();
             let mut shared = split.first().map(|((shifts, _), _)| shifts.clone()).unwrap_or_default();
-            shared.retain(|base, n| split.iter().all(|((shifts, _), _)| shifts.get(base) == Some(n)));
+            shared.retain(|shift| split.iter().all(|((shifts, _), _)| shifts.contains(shift)));
             let terms: Vec<_> = split
                 .into_iter()
                 .map(|((mut shifts, rest), c)| {
-                    shifts.retain(|base, _| !shared.contains_key(base));
+                    shifts.retain(|shift| !shared.contains(shift));
                     (times(graph, rest, &shifts), c)
                 })
                 .collect();
@@ -91,6 +90,6 @@ fn varies(graph: &Graph, id: Id) -> bool {
 
 fn times(graph: &mut Graph, id: Id, shifts: &Shifts) -> Id {
     let mut factors = vec![(id, Exponent::ONE)];
-    factors.extend(shifts.iter().map(|(&base, &n)| (base, Exponent::integer(n))));
+    factors.extend(shifts.iter().map(|&(base, n)| (base, Exponent::integer(n))));
     graph.product(&factors)
 }
