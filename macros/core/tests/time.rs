@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use piola_codegen::{declarations, expand};
 
-/// With optimisation; without, an expansion takes several times as long: see the bench `expansion`.
+/// With or without optimisation. Without, the slowest take nearly as long on a processor that nothing else uses: see the bench
+/// `expansion`.
 const LONGEST: Duration = Duration::from_millis(50);
 
 /// An expansion that something else on the machine slows down is repeated.
