@@ -51,10 +51,12 @@ use std::fmt;
 use crate::lanes::{Backend, PastCaches};
 use crate::point::Filter;
 
+#[cfg(feature = "system")]
 pub(crate) mod element;
 mod energy;
 mod form;
 mod jobs;
+#[cfg(feature = "system")]
 pub(crate) mod operator;
 mod sink;
 mod stage;

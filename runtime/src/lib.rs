@@ -40,7 +40,7 @@
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
 //! * [`random`]: numbers for samples, the same on every machine;
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
-//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces;
+//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `system`);
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
 //!   (feature `system`);
 //! * [`step`]: implicit Euler by Newton's method (feature `system`).
@@ -66,6 +66,7 @@ pub mod contract;
 mod hand_written;
 pub mod lanes;
 pub mod material;
+#[cfg(feature = "system")]
 pub mod mesh;
 pub mod point;
 pub mod quotient;
