@@ -7,7 +7,7 @@ use piola::material::Declared;
 
 /// Letters of either case, Greek ones among them.
 #[piola::material(
-    domain(J > 0.0, I1b - 3.0 < Jm),
+    domain(J > 0.0, I1 - 3.0 < Jm),
     admissible(Jm > 0.0, β[p] > 0.0),
     extend(K >= 0.0),
     fit
@@ -22,11 +22,11 @@ pub fn Solid<const N: usize>(
     C: [f64; N],
     /// Modulus, Pa.
     C10: f64,
-    /// Limit of I1b − 3.
+    /// Limit of I1 − 3.
     Jm: f64,
 ) -> f64 {
     let Shape = sum(|p| C[p] / β[p] * (λ1.powf(β[p]) + λ2.powf(β[p]) + λ3.powf(β[p]) - 3.0 - β[p] * J.ln()));
-    Shape - C10 * Jm * (1.0 - (I1b - 3.0) / Jm).ln() + K / 2.0 * (J - 1.0).powi(2)
+    Shape - C10 * (Jm * (1.0 - (I1 - 3.0) / Jm).ln() + 2.0 * J.ln()) + K / 2.0 * (J - 1.0).powi(2)
 }
 
 /// The same of one by invariants, with what follows from a pair of moduli.

@@ -7,7 +7,7 @@
 use quote::ToTokens;
 use syn::Expr;
 
-use crate::culprit::culprit;
+use crate::culprit::{culprit, holder};
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
 use crate::expr::{Graph, Id};
@@ -22,6 +22,7 @@ use crate::spelling::list;
 
 mod arguments;
 
+use arguments::Remedy;
 pub use arguments::{limits, powers};
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
@@ -60,6 +61,11 @@ impl Written<'_> {
     /// The term that alone breaks a rule, or all of them.
     fn culprit(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&Expr> {
         culprit(&self.declaration.body, |part| self.nodes.of(part).is_some_and(&mut breaks))
+    }
+
+    /// The smallest part that alone holds something, or all of them.
+    fn holder(&self, mut holds: impl FnMut(Id) -> bool) -> Option<&Expr> {
+        holder(&self.declaration.body, |part| self.nodes.of(part).is_some_and(&mut holds))
     }
 }
 
@@ -236,26 +242,30 @@ pub fn rest(
         });
         let stress = graph.substitute(gradient, [one; 3]);
         let stress = simplify(graph, stress);
-        let mut ways = vec![balance(graph, written, stress)];
+        let remedy = arguments::vanishing(graph, written).map(|(_, remedy)| remedy);
         let isochoric = isochoric(graph, written);
         let isochoric = first(graph, isochoric);
         let names = invariants(written.declaration);
-        if !names.is_empty() && !is_stressed(graph, isochoric) {
-            let domain = if written.positive { "" } else { " with `domain(J > 0.0)`" };
-            let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
-            ways.push(format!("write {} for {}{domain}, which leaves none", list(&isochoric), list(&names)));
-        }
+        let domain = if written.positive { "" } else { " with `domain(J > 0.0)`" };
+        let instead = (!names.is_empty() && !is_stressed(graph, isochoric))
+            .then(|| format!("write {}{domain}, which leaves none", in_place(&names)));
+        let ways = match (remedy, instead) {
+            (Some(Remedy::Isochoric), Some(instead)) => format!("{instead} and has a value wherever J > 0"),
+            (Some(Remedy::Limit(limit)), _) => balance(graph, written, stress, &[limit]),
+            (_, Some(instead)) => format!("{}; or {instead}", balance(graph, written, stress, &[])),
+            (_, None) => balance(graph, written, stress, &[]),
+        };
         let message = format!(
             "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute",
             source(graph, written.declaration, stress),
-            ways.join("; or ")
+            ways
         );
         diagnostics.error(culprit, message);
     }
 }
 
-/// What takes the stress at rest away, to be pasted.
-fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id) -> String {
+/// What takes the stress at rest away, to be pasted, with what else the domain wants.
+fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id, limits: &[String]) -> String {
     let declaration = written.declaration;
     let term = if source(graph, declaration, stress).starts_with('-') {
         let negated = graph.neg(stress);
@@ -263,11 +273,36 @@ fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id) -> String {
     } else {
         format!("- {}", factor(graph, declaration, stress))
     };
-    if written.positive {
+    let conditions = bounds(declaration).map(|condition| condition.to_token_stream().to_string());
+    let conditions: Vec<_> =
+        std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits.iter().cloned()).collect();
+    let domain = format!(" with `domain({})`", conditions.join(", "));
+    if cancels(graph, written.energy, stress) {
+        format!("append `{term} * (J - 1.0)`, or remove the term in `J.ln()`")
+    } else if !limits.is_empty() {
+        format!("append `{term} * J.ln()`{domain}")
+    } else if written.positive {
         format!("append `{term} * J.ln()`")
     } else {
-        format!("append `{term} * J.ln()` with `domain(J > 0.0)`, or `{term} * (J - 1.0)` with any domain")
+        format!("append `{term} * J.ln()`{domain}, or `{term} * (J - 1.0)` with any domain")
     }
+}
+
+/// Whether the energy has the stress times ln J already, so that to subtract it would take that back.
+fn cancels(graph: &mut Graph, energy: Id, stress: Id) -> bool {
+    let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+    let volume = graph.product_of(&stretches);
+    let logarithm = graph.ln(volume);
+    let term = graph.mul(stress, logarithm);
+    let rest = graph.sub(energy, term);
+    let holds = |id| graph.reachable(&[id]).contains(&logarithm);
+    holds(energy) && !holds(rest)
+}
+
+/// `I1b` for `I1`, or both.
+fn in_place(names: &[&str]) -> String {
+    let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
+    format!("{} for {}", list(&isochoric), list(names))
 }
 
 /// The energy with I1b and I2b for I1 and I2.
@@ -280,6 +315,27 @@ fn isochoric(graph: &mut Graph, written: &Written<'_>) -> Id {
 fn invariants(declaration: &Declaration) -> Vec<&'static str> {
     let names = identifiers(declaration.body.to_token_stream());
     ["I1", "I2"].into_iter().filter(|invariant| names.iter().any(|name| name == invariant)).collect()
+}
+
+/// Elements so flat that what grows without bound where the volume vanishes is beyond all limits.
+const FLAT: [[f64; 3]; 2] = [[1.0, 1.0, 1e-30], [0.7, 1.0, 1e-30]];
+
+/// Conditions that exclude what is flat leave nothing to an extension, which begins there.
+pub fn flat(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+    for (&bound, condition) in written.bounds.iter().zip(bounds(written.declaration)) {
+        let excludes = |stretches: [f64; 3]| {
+            let flat = |point: &Point| Point { stretches, ..point.clone() };
+            let is_inside = |point: &Point| evaluate(graph, bound, &flat(point)).value > 0.0;
+            !samples.iter().any(is_inside)
+        };
+        if let Some([l1, l2, _]) = FLAT.into_iter().find(|&flat| excludes(flat)) {
+            let message = format!(
+                "`extend` continues the energy beyond J > 0, but where elements are flat, such as at the stretches {l1}, {l2} and 0, \
+                 this does not hold: remove `extend`, or bound what stays moderate there, such as I1 in place of I1b"
+            );
+            diagnostics.error(condition, message);
+        }
+    }
 }
 
 /// Some shear modulus must be positive, or the constructor would refuse all parameters.

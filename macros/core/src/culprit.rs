@@ -7,7 +7,20 @@ use syn::{BinOp, Block, Expr, Local, Pat, Stmt, UnOp};
 /// The smallest part that alone breaks the rule, on the way down through sums and the names of their terms.
 ///
 /// Terms that break a rule together, such as two that should cancel, are not taken apart.
-pub(crate) fn culprit(body: &Block, mut breaks: impl FnMut(&Expr) -> bool) -> Option<&Expr> {
+pub(crate) fn culprit(body: &Block, breaks: impl FnMut(&Expr) -> bool) -> Option<&Expr> {
+    smallest(body, breaks, terms)
+}
+
+/// The smallest part that alone holds something, down to the operands of operators and functions.
+pub(crate) fn holder(body: &Block, holds: impl FnMut(&Expr) -> bool) -> Option<&Expr> {
+    smallest(body, holds, operands)
+}
+
+fn smallest<'b>(
+    body: &'b Block,
+    mut breaks: impl FnMut(&Expr) -> bool,
+    parts: impl Fn(&'b Expr, &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr>,
+) -> Option<&'b Expr> {
     let mut definitions = HashMap::new();
     let mut guilty = value(body, &mut definitions)?;
     loop {
@@ -21,7 +34,7 @@ pub(crate) fn culprit(body: &Block, mut breaks: impl FnMut(&Expr) -> bool) -> Op
 }
 
 /// The terms of a sum, or what a name or parentheses stand for.
-fn parts<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
+fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
     match expression {
         Expr::Paren(inner) => vec![&*inner.expr],
         Expr::Group(inner) => vec![&*inner.expr],
@@ -35,6 +48,17 @@ fn parts<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) 
             name.and_then(|name| definitions.get(&name).copied()).into_iter().collect()
         }
         _ => Vec::new(),
+    }
+}
+
+/// What an operator, a method or a function is applied to, or what a name or parentheses stand for.
+fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
+    match expression {
+        Expr::Unary(unary) => vec![&*unary.expr],
+        Expr::Binary(binary) => vec![&*binary.left, &*binary.right],
+        Expr::MethodCall(call) => std::iter::once(&*call.receiver).chain(&call.args).collect(),
+        Expr::Call(call) => call.args.iter().collect(),
+        _ => terms(expression, definitions),
     }
 }
 

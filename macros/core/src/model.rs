@@ -176,7 +176,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         check::volume(&graph, &written, volume, &samples, diagnostics);
     }
     if diagnostics.is_clean() {
-        check::limits(&mut graph, &written, &samples, diagnostics);
+        check::limits(&mut graph, &written, diagnostics);
+    }
+    if options.extend.is_some() {
+        check::flat(&graph, &written, &samples, diagnostics);
     }
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {

@@ -313,15 +313,18 @@ fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
 /// Beside rest, rounding leaves what vanishes there of either sign.
 #[test]
 fn what_vanishes_at_rest_has_whole_powers() {
-    for (term, power) in [
-        ("mu * (I1 - 3.0).sqrt()", "(I1 - 3.0).sqrt()"),
-        ("mu * (J - 1.0).cbrt()", "(J - 1.0).cbrt()"),
-        ("mu * (I1b - 3.0).powf(2.5)", "(I1b - 3.0).powf(5.0 / 2.0)"),
-        ("mu * (mu * (I1b - 3.0)).powf(2.0 * mu)", "(mu * (I1b - 3.0)).powf(2.0 * mu)"),
-        ("sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))", "(2.0 * J.ln()).powf(m[p])"),
+    for (factor, written, power) in [
+        ("mu", "(I1 - 3.0).sqrt()", "(I1 - 3.0).sqrt()"),
+        ("mu", "(J - 1.0).cbrt()", "(J - 1.0).cbrt()"),
+        ("mu", "(I1b - 3.0).powf(2.5)", "(I1b - 3.0).powf(5.0 / 2.0)"),
+        ("mu", "(mu * (I1b - 3.0)).powf(2.0 * mu)", "(mu * (I1b - 3.0)).powf(2.0 * mu)"),
+        ("sum(|p| m[p])", "(2.0 * J.ln()).powf(mu)", "(2.0 * J.ln()).powf(mu)"),
     ] {
-        check_added(term, term, &format!("`{power}` is of what vanishes at rest"));
+        let term = format!("{factor} * {written}");
+        check_added(&term, written, &format!("`{power}` is of what vanishes at rest"));
     }
+    let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
+    check_added(of_entries, of_entries, "`(2.0 * J.ln()).powf(m[p])` is of what vanishes at rest");
     check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
 }
 
@@ -345,15 +348,45 @@ fn what_vanishes_elsewhere_is_a_limit() {
         check(&domain, &energy(term), &[]);
     }
     // Parameters that are admissible decide.
-    let term = "mu * (1 + b * (I1b - 3)).ln()";
-    check("domain(J > 0.0)", &energy(term), &[]);
-    check("domain(J > 0.0), admissible(b < 0.0)", &energy(term), &[(term, "inside the domain")]);
+    let logarithm = "(1 + b * (I1b - 3)).ln()";
+    let term = format!("mu * {logarithm}");
+    check("domain(J > 0.0)", &energy(&term), &[]);
+    check("domain(J > 0.0), admissible(b < 0.0)", &energy(&term), &[(logarithm, "inside the domain")]);
+    // What I1 leaves when volume is lost, I1b keeps.
+    for term in
+        ["mu * (I1 - 3 + b).powf(b)", "mu * (b + b * (I1 - 2).ln())", "mu * (I1 - 3 + b.powi(2)).sqrt()"]
+    {
+        let [(_, message)] = &mistakes("domain(J > 0.0), prestressed", &energy(term))[..] else {
+            panic!("{term}")
+        };
+        assert!(
+            message.contains(": write `I1b` for `I1`, which is at least 3 wherever J > 0"),
+            "{term}: {message}"
+        );
+        let [(_, message)] = &mistakes("", &energy(term))[..] else { panic!("{term}") };
+        let way = ": write `I1b` for `I1` with `domain(J > 0.0)`, which leaves none and has a value wherever J > 0; or";
+        assert!(message.contains(way), "{term}: {message}");
+        check("domain(J > 0.0)", &energy(&term.replace("I1", "I1b")), &[]);
+    }
     // It is the denominator that vanishes, and the whole term that has none.
     check(
         "",
         "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 * J) + mu / (2.0 - J) }",
         &[("mu / (2.0 - J)", "declare `domain(2.0 - J > 0.0)`")],
     );
+}
+
+/// Conditions that exclude what is flat are none of an energy that is continued from there.
+#[test]
+fn what_is_extended_has_room_for_flat_elements() {
+    let energy =
+        "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { mu * (I1b - 3) + m * (J - 1).powi(2) }";
+    for condition in ["I1b - 3.0 < m", "I1 > 2.0"] {
+        let domain = format!("domain(J > 0.0, {condition})");
+        check(&domain, energy, &[]);
+        check(&format!("{domain}, extend"), energy, &[(condition, "where elements are flat")]);
+    }
+    check("domain(J > 0.0, I1 - 3.0 < m), extend", energy, &[]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use quote::ToTokens;
 
-use super::{NOISE, Written, at_rest};
+use super::{CANDIDATES, NOISE, Random, Written, at_rest, candidate, in_place, invariants, isochoric};
 use crate::diagnostics::Diagnostics;
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::hash::HashMap;
@@ -27,8 +27,8 @@ const WAYS: [[f64; 3]; 9] = [
 /// Points of each way, the last of which is at a stretch of 10 or 1/10.
 const STEPS: usize = 8;
 
-/// Draws of the parameters that are tried: each is one of the [`samples`](super::samples).
-const DRAWS: usize = 2;
+/// Draws of the parameters that are tried.
+const DRAWS: usize = 6;
 
 /// Something that has a value only where another is not zero.
 #[derive(Clone, Copy)]
@@ -90,38 +90,83 @@ pub fn powers(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagn
     let is_it = |part| {
         Argument::all(graph, part).iter().any(|argument| argument.is_real_power() && argument.of == of)
     };
-    diagnostics.error(written.culprit(is_it), message);
+    diagnostics.error(written.holder(is_it), message);
 }
 
-/// What vanishes within the domain, away from rest, is a limit of it.
-pub fn limits(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+/// What would do to something that vanishes inside the domain.
+pub(super) enum Remedy {
+    /// I1b, I2b in the places of I1, I2.
+    Isochoric,
+    /// This as a condition of the domain.
+    Limit(String),
+}
+
+/// What vanishes within the domain, away from rest, is a limit of it, or wants other invariants.
+pub fn limits(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) {
+    let Some((of, remedy)) = vanishing(graph, written) else { return };
+    let declaration = written.declaration;
+    let names = invariants(declaration);
+    let remedy = match remedy {
+        Remedy::Isochoric => {
+            let is = if names.len() == 1 { "is" } else { "are" };
+            format!("write {}, which {is} at least 3 wherever J > 0", in_place(&names))
+        }
+        Remedy::Limit(limit) => {
+            let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
+            let conditions: Vec<_> = conditions.chain([limit]).collect();
+            let is_parameter = |id| matches!(graph.node(id), Node::Parameter(_));
+            let has_parameters = graph.reachable(&[of]).into_iter().any(is_parameter);
+            let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
+            format!("declare `domain({})`{or}", conditions.join(", "))
+        }
+    };
+    let text = source(graph, declaration, of);
+    let message = format!("`{text}` vanishes inside the domain, and there this has no value: {remedy}");
+    let is_it = |part| Argument::all(graph, part).iter().any(|argument| argument.of == of);
+    diagnostics.error(written.holder(is_it), message);
+}
+
+/// What vanishes inside the domain and must not, and what would do.
+pub(super) fn vanishing(graph: &mut Graph, written: &Written<'_>) -> Option<(Id, Remedy)> {
+    let draws = draws(graph, written);
+    let of = vanishing_in(graph, written, written.energy, &draws)?;
+    let isochoric = isochoric(graph, written);
+    if !invariants(written.declaration).is_empty()
+        && vanishing_in(graph, written, isochoric, &draws).is_none()
+    {
+        return Some((of, Remedy::Isochoric));
+    }
+    let is_positive_at_rest = draws.iter().any(|point| evaluate(graph, of, &at_rest(point)).value > 0.0);
+    let side = if is_positive_at_rest { '>' } else { '<' };
+    let limit = format!("{} {side} 0.0", source(graph, written.declaration, of));
+    Some((of, Remedy::Limit(limit)))
+}
+
+fn vanishing_in(graph: &Graph, written: &Written<'_>, energy: Id, draws: &[Point]) -> Option<Id> {
     // What functions are defined for is their own affair.
     if written.declaration.has_functions() {
-        return;
+        return None;
     }
-    let arguments = Argument::all(graph, written.energy);
+    let arguments = Argument::all(graph, energy);
     let found = arguments.into_iter().find(|argument| {
         // No condition of a domain is on each entry of a list.
         !is_positive(graph, argument.of)
             && !argument.depends_on(graph, |node| matches!(node, Node::Entry(_)))
-            && samples.iter().take(DRAWS).any(|point| changes_sign(graph, written, argument.of, point))
+            && draws.iter().any(|point| changes_sign(graph, written, argument.of, point))
     });
-    let Some(Argument { of, .. }) = found else { return };
-    let declaration = written.declaration;
-    let is_positive_at_rest =
-        samples.first().is_some_and(|point| evaluate(graph, of, &at_rest(point)).value > 0.0);
-    let text = source(graph, declaration, of);
-    let limit = format!("{text} {} 0.0", if is_positive_at_rest { '>' } else { '<' });
-    let conditions =
-        declaration.options.domain.iter().map(|condition| condition.to_token_stream().to_string());
-    let conditions: Vec<_> = conditions.chain([limit]).collect();
-    let message = format!(
-        "`{text}` vanishes inside the domain, and there this has no value: declare `domain({})`, or by `admissible(…)` \
-         parameters for which it does not",
-        conditions.join(", ")
-    );
-    let is_it = |part| Argument::all(graph, part).iter().any(|argument| argument.of == of);
-    diagnostics.error(written.culprit(is_it), message);
+    found.map(|argument| argument.of)
+}
+
+/// Parameters with which the energy has a value at rest. Further stretches are not asked: that they have none may be the mistake.
+fn draws(graph: &Graph, written: &Written<'_>) -> Vec<Point> {
+    let mut random = Random(0xD1B5_4A32_D192_ED03);
+    let is_good = |point: &Point| {
+        let value = |id| evaluate(graph, id, &at_rest(point)).value;
+        written.admissible.iter().chain(written.bounds).all(|&id| value(id) > 0.0)
+            && value(written.energy).is_finite()
+    };
+    let draw = |attempt| candidate(written.declaration, &mut random, attempt, written.positive);
+    (0..CANDIDATES).map(draw).filter(is_good).take(DRAWS).collect()
 }
 
 /// Whether it is seen by its form that an expression is positive for positive stretches.
