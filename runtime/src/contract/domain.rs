@@ -1,41 +1,60 @@
 //! The rule on what a material says of its own domain, which decides how exactly a sign is found.
 
-use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
+use super::evaluation::{energy_at, gradient_at, is_admitted, is_judged};
+use super::numbers::{name, numbers_alone};
 use super::samples::at_samples;
-use super::{Finding, Rule, Settings, Violation};
+use super::{Finding, Rule, Settings, Violation, gradient_name};
 use crate::material::Material;
 
 /// Where the material is defined, its numbers are, and it says truly whether the sign of λ3 decides:
 ///
 /// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is only 2⁻¹⁰, 2⁻²⁰ and
 ///   2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
+/// * but ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the range of numbers ends and not the domain.
+///   The status of a point says so, and a solver takes a shorter step. Where ψ > 2⁵¹² Pa, the root of the largest number,
+///   derivatives are not looked at, and no rule looks at such samples. NaN and −∞ are violations;
 /// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not, [`ends_at_zero_volume`](Material::ends_at_zero_volume) holds.
 ///
 /// # Errors
 /// The first violation.
 pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
-        let mut finite = |what: &str, stretches, is_finite| {
-            let name = || format!("finiteness (1 or −1) of the {what}");
-            judge.positive(name, stretches, if is_finite { 1.0 } else { -1.0 })
-        };
-        let blocks = blocks_at(material, stretches);
-        let mut seconds = blocks.hessian.iter().chain(&blocks.flip).chain(&blocks.twist);
-        finite("second derivatives and quotients", stretches, seconds.all(|x| x.is_finite()))?;
+        for (k, number) in numbers_alone(material, stretches).into_iter().enumerate() {
+            judge.finite(|| name(k), stretches, number, remedy(number))?;
+        }
         let [l1, l2, l3] = stretches;
         let flat = [-10, -20, -30].map(|k| l1 * 2f64.powi(k));
         for l3 in flat.into_iter().flat_map(|l3| [l3, -l3]).chain([l3]) {
             let stretches = [l1, l2, l3];
             if l2 >= l3.abs() && is_admitted(material, stretches) {
-                finite("energy", stretches, energy_at(material, stretches).is_finite())?;
-                let gradient = gradient_at(material, stretches);
-                finite("gradient", stretches, gradient.iter().all(|x| x.is_finite()))?;
+                let energy = energy_at(material, stretches);
+                if energy != f64::INFINITY {
+                    judge.finite(|| "energy".into(), stretches, energy, remedy(energy))?;
+                }
+                if is_judged(material, stretches) {
+                    for (k, slope) in gradient_at(material, stretches).into_iter().enumerate() {
+                        judge.finite(|| gradient_name(k), stretches, slope, remedy(slope))?;
+                    }
+                }
             }
         }
         let tiny = 2f64.powi(-1000);
         let decides = is_admitted(material, [l1, l2, tiny]) != is_admitted(material, [l1, l2, -tiny]);
-        let told = if decides && !material.ends_at_zero_volume() { -1.0 } else { 1.0 };
-        let name = || "`ends_at_zero_volume` (1 where it tells the truth, else −1)".into();
-        judge.positive(name, [l1, l2, tiny], told)
+        let is_true = !decides || material.ends_at_zero_volume();
+        let name = || "truth of `ends_at_zero_volume`".into();
+        let advice = "the material admits these stretches or their mirror image, but not both: let `ends_at_zero_volume` give `true`";
+        judge.holds(name, [l1, l2, tiny], is_true, advice)
     })
+}
+
+/// What to do about an energy or derivative that is no finite number.
+fn remedy(found: f64) -> &'static str {
+    if found.is_nan() {
+        "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of something \
+         negative?): write `I1b` for `I1` in it, which is 3 or more wherever J > 0, or add a condition to `domain(…)`"
+    } else {
+        "the domain admits these stretches, but the number overflows there: where a denominator or the argument of a logarithm \
+         vanishes, add a condition to `domain(…)`; else choose smaller parameters, or narrow the stretches of the test, as in \
+         `range: (0.7, 1.4)`"
+    }
 }

@@ -23,8 +23,10 @@ pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Find
         if !material.admits_invariants(invariants) {
             return Ok(());
         }
-        let admitted = if is_admitted(material, stretches) { 1.0 } else { -1.0 };
-        judge.positive(|| "admission (1 or −1)".into(), stretches, admitted)?;
+        let is_admitted = is_admitted(material, stretches);
+        let remedy =
+            "the invariants of these stretches are admitted: narrow `admits_invariants`, or widen `admits`";
+        judge.holds(|| "admission of the stretches".into(), stretches, is_admitted, remedy)?;
 
         let scale = stress_scale(&blocks_at(material, stretches), stretches);
         let expected = energy_at(material, stretches);

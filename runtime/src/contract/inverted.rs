@@ -90,20 +90,23 @@ fn restoring(
         return Ok(());
     }
     let [l1, l2, _] = stretches;
-    let found = -gradient_at(material, stretches)[2];
-    let component = || {
+    let found = gradient_at(material, stretches)[2];
+    let remedy = || {
         let at_threshold = gradient_at(material, [l1, l2, epsilon])[2];
         // At the threshold the derivative is that of the energy as declared.
-        let remedy = if at_threshold < 0.0 {
-            "though the energy as declared pushes λ3 up from there: add a term that grows faster as J falls, such as one in \
-             `-J.ln()` or `J.powi(-2)`, state in `extend(…)` which parameters restore, or refuse inversion"
+        let (declared, first) = if at_threshold < 0.0 {
+            ("does push λ3 up at epsilon", "")
         } else {
-            "and so does the energy as declared, which pulls λ3 down from there already: choose a smaller `epsilon` or a smaller \
-             upper end of `range`, or add a term that grows faster as J falls"
+            ("falls there, too", "choose a smaller `epsilon`, or ")
         };
-        format!("negative {}, below epsilon = {epsilon}, {remedy}", gradient_name(2))
+        format!(
+            "below epsilon = {epsilon} the extended energy falls as λ3 falls, so that nothing brings a flattened element back; the \
+             energy as declared {declared}: {first}add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater \
+             one, if it has such a term), and state which parameters restore, as in `extend(kappa > 0.0)`; or narrow the \
+             stretches of the test, as in `range: (0.7, 1.4)`; or refuse inversion, by `refuse(\"why\")` in place of `extend`"
+        )
     };
-    judge.positive(component, stretches, found)
+    judge.negative(|| gradient_name(2), stretches, found, remedy)
 }
 
 /// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such as Gent's
@@ -113,12 +116,8 @@ fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) ->
     if !is_admitted(material, [l1, l2, l3.abs()]) {
         return Ok(false);
     }
-    let admitted = if is_admitted(material, stretches) { 1.0 } else { -1.0 };
-    let component = || {
-        "admission (1 or −1), which a limit of the domain other than J > 0 denies to an inverted point and grants to its mirror \
-         image: write that limit in what no sign changes, such as I1, I2 or J * J"
-            .into()
-    };
-    judge.positive(component, stretches, admitted)?;
+    let remedy = "a limit of the domain other than J > 0 denies this inverted point and grants its mirror image: write that limit \
+                  in what no sign changes, such as I1, I2 or J * J";
+    judge.holds(|| "admission".into(), stretches, is_admitted(material, stretches), remedy)?;
     Ok(true)
 }

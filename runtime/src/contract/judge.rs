@@ -2,6 +2,9 @@
 
 use super::{Finding, Rule, Violation};
 
+/// What a number is that is neither infinite nor NaN.
+pub(super) const FINITE: &str = "a finite number";
+
 /// The state of one rule.
 pub(super) struct Judge {
     rule: Rule,
@@ -59,11 +62,60 @@ impl Judge {
         stretches: [f64; 3],
         found: f64,
     ) -> Result<(), Violation> {
+        self.demand(found > 0.0, "a positive number", || (component(), None), stretches, found)
+    }
+
+    /// Whether something holds, as 1 or 0.
+    pub(super) fn holds(
+        &mut self,
+        component: impl FnOnce() -> String,
+        stretches: [f64; 3],
+        found: bool,
+        remedy: &str,
+    ) -> Result<(), Violation> {
+        let words = || (format!("{} (1 or 0)", component()), Some(remedy.into()));
+        self.demand(found, "1", words, stretches, if found { 1.0 } else { 0.0 })
+    }
+
+    /// found < 0.
+    pub(super) fn negative(
+        &mut self,
+        component: impl FnOnce() -> String,
+        stretches: [f64; 3],
+        found: f64,
+        remedy: impl FnOnce() -> String,
+    ) -> Result<(), Violation> {
+        let words = || (component(), Some(remedy()));
+        self.demand(found < 0.0, "a negative number", words, stretches, found)
+    }
+
+    /// Neither infinite nor NaN.
+    pub(super) fn finite(
+        &mut self,
+        component: impl FnOnce() -> String,
+        stretches: [f64; 3],
+        found: f64,
+        remedy: &str,
+    ) -> Result<(), Violation> {
+        let words = || (component(), Some(remedy.into()));
+        self.demand(found.is_finite(), FINITE, words, stretches, found)
+    }
+
+    /// That a value is what is expected of it; component and remedy are put into words where it isn't.
+    fn demand(
+        &mut self,
+        is_met: bool,
+        expected: &'static str,
+        words: impl FnOnce() -> (String, Option<String>),
+        stretches: [f64; 3],
+        found: f64,
+    ) -> Result<(), Violation> {
         self.comparisons += 1;
-        if found > 0.0 {
+        if is_met {
             return Ok(());
         }
-        Err(Violation::WrongSign { rule: self.rule, component: component(), stretches, found })
+        let (component, remedy) = words();
+        Err(Violation::WrongKind { rule: self.rule, component, stretches, found, expected, remedy })
     }
 
     pub(super) fn finding(self) -> Result<Finding, Violation> {

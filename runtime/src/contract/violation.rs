@@ -4,10 +4,11 @@ use std::error::Error;
 use std::fmt;
 
 use super::Rule;
+use super::judge::FINITE;
 
 /// A broken promise.
 ///
-/// As text it has a line for the rule and one for each of the facts:
+/// As text it has a line for the rule, one for each of the facts and, where one is known, one for the remedy:
 ///
 /// ```text
 /// quotients: flips and twists keep their digits at every gap between stretches, zero included
@@ -35,8 +36,8 @@ pub enum Violation {
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
     },
-    /// A value that must be positive, or negative, isn't.
-    WrongSign {
+    /// A value that must be positive, negative or finite isn't.
+    WrongKind {
         /// The rule.
         rule: Rule,
         /// What was looked at.
@@ -45,8 +46,12 @@ pub enum Violation {
         stretches: [f64; 3],
         /// The material's value.
         found: f64,
+        /// What the rule demands, such as `a positive number`.
+        expected: &'static str,
+        /// What to write instead, where the rule knows.
+        remedy: Option<String>,
     },
-    /// The material admits none of the sampled points, or has nothing that the rule is about.
+    /// The material has numbers at none of the sampled points, or has nothing that the rule is about.
     NothingToCheck {
         /// The rule.
         rule: Rule,
@@ -58,7 +63,7 @@ impl Violation {
     #[must_use]
     pub fn rule(&self) -> Rule {
         match self {
-            Self::Differs { rule, .. } | Self::WrongSign { rule, .. } | Self::NothingToCheck { rule } => {
+            Self::Differs { rule, .. } | Self::WrongKind { rule, .. } | Self::NothingToCheck { rule } => {
                 *rule
             }
         }
@@ -73,25 +78,37 @@ impl fmt::Display for Violation {
             |f: &mut fmt::Formatter<'_>, component: &str, [l1, l2, l3]: [f64; 3], found: f64| {
                 writeln!(f, "    component   {component}")?;
                 writeln!(f, "    stretches   {l1}, {l2}, {l3}")?;
-                writeln!(f, "    found       {found:e}")
+                write!(f, "    found       {found:e}")
             };
+        // Of no use beside numbers that are none: a difference, or a remedy for their sign.
+        let see_domain = "not a finite number, here or near by; see the rule `domain`";
         match self {
             Self::Differs { component, stretches, found, expected, tolerance, .. } => {
                 where_and_what(f, component, *stretches, *found)?;
-                writeln!(f, "    expected    {expected:e}")?;
                 let difference = (found - expected).abs();
+                if difference.is_nan() || tolerance.is_nan() {
+                    return write!(f, ", where {expected:e} is expected: {see_domain}");
+                }
+                writeln!(f, "\n    expected    {expected:e}")?;
                 if *tolerance == 0.0 {
                     write!(f, "    difference  {difference:.1e}, where both must have the same bits")
                 } else {
                     write!(f, "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}")
                 }
             }
-            Self::WrongSign { component, stretches, found, .. } => {
+            Self::WrongKind { component, stretches, found, expected, remedy, .. } => {
                 where_and_what(f, component, *stretches, *found)?;
-                write!(f, "    expected    a positive number")
+                if found.is_nan() && *expected != FINITE {
+                    return write!(f, ", where {expected} is expected: {see_domain}");
+                }
+                write!(f, "\n    expected    {expected}")?;
+                remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
             }
             Self::NothingToCheck { .. } => {
-                write!(f, "    the material admits none of the sampled stretches: choose another `range`")
+                write!(
+                    f,
+                    "    the material has numbers at none of the sampled stretches: choose another `range`"
+                )
             }
         }
     }
