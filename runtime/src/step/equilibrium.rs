@@ -23,7 +23,7 @@ use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Element, Pins};
 
 use super::implicit_euler::Simulation;
-use super::newton::{NewtonError, inadmissible};
+use super::newton::{NewtonError, demand_admissible};
 use super::objective::{Objective, Quadratic};
 
 mod rigid;
@@ -95,9 +95,9 @@ impl Equilibrium {
         let mut elastic = Elastic::new(body);
         let mut stiffnesses = ElementStiffnesses::new(body);
         let survey = elastic.evaluate(body, positions);
-        inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+        demand_admissible(&survey, body, &elastic)?;
         let tangents = elastic.linearise(body, Filter::None, &mut stiffnesses);
-        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+        demand_admissible(&tangents, body, &elastic)?;
 
         let quadratic = Quadratic {
             masses: body.masses(),

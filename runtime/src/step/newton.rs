@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::point::Filter;
+use crate::system::assemble::Elastic;
 use crate::system::element::Survey;
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
@@ -145,7 +146,7 @@ pub(crate) fn minimize(
     settings: &NewtonSettings,
     line_search: &LineSearchSettings,
 ) -> Result<(NewtonReport, Survey), NewtonError> {
-    inadmissible(&survey).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+    demand_admissible(&survey, objective.body, objective.elastic)?;
     let report = NewtonReport::before(settings);
     Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
 }
@@ -289,7 +290,7 @@ impl Iteration<'_, '_> {
         pins_move: Option<&[[f64; 3]]>,
     ) -> Result<(), NewtonError> {
         let tangents = self.workspace.solver.linearise(self.objective, filter);
-        inadmissible(&tangents).map_or(Ok(()), |element| Err(NewtonError::Inadmissible { element }))?;
+        demand_admissible(&tangents, self.objective.body, self.objective.elastic)?;
         self.report.filtered = self.report.filtered.max(tangents.filtered);
         self.report.bounded = self.report.bounded.max(tangents.bounded);
         let Workspace { solver, gradient, .. } = &mut *self.workspace;
@@ -396,8 +397,17 @@ impl NewtonReport {
     }
 }
 
+/// That all elements are admissible where the energies were evaluated last.
+pub(super) fn demand_admissible(survey: &Survey, body: &Body, elastic: &Elastic) -> Result<(), NewtonError> {
+    let Some(element) = inadmissible(survey) else { return Ok(()) };
+    let mut all = body.elements().iter().zip(elastic.stretches());
+    let stretches =
+        all.find(|(other, _)| other.tag == element).map_or([f64::NAN; 3], |(_, stretches)| stretches);
+    Err(NewtonError::Inadmissible { element, stretches })
+}
+
 /// The element that has no meaningful energy, if there is one.
-pub(super) fn inadmissible(survey: &Survey) -> Option<usize> {
+fn inadmissible(survey: &Survey) -> Option<usize> {
     (!survey.is_admissible()).then_some(survey.first_offender.unwrap_or_default())
 }
 
@@ -409,6 +419,8 @@ pub enum NewtonError {
     Inadmissible {
         /// Its tag.
         element: usize,
+        /// Its principal stretches; NaN where they are not known.
+        stretches: [f64; 3],
     },
     /// The motion of the pins alone takes an element out of the domain of its material.
     PinsMoveTooFar {
@@ -440,9 +452,11 @@ pub enum NewtonError {
 impl fmt::Display for NewtonError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Inadmissible { element } => {
-                write!(f, "element {element} is outside the domain of its material before the step")
-            }
+            Self::Inadmissible { element, stretches: [l1, l2, l3] } => write!(
+                f,
+                "element {element} is outside the domain of its material before the step: its stretches are {l1}, {l2}, {l3} \
+                 (`Inversion::Extend` continues an energy beyond J > 0 only: other conditions of its domain must hold)"
+            ),
             Self::PinsMoveTooFar { element } => write!(
                 f,
                 "the motion of the pins takes element {element} out of the domain of its material; take shorter time steps"

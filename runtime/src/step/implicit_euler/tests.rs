@@ -290,6 +290,24 @@ fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
 }
 
 #[test]
+fn a_start_outside_the_domain_is_told_with_its_stretches() {
+    let mesh = beam(3);
+    let mut body = simulation(&mesh, NEO_HOOKEAN, &left_end(&mesh), settings(NewtonSettings::single()));
+    let inverted = mesh.positions.iter().map(|[x, y, z]| [2.0 * x, *y, -0.5 * z]);
+    body.set_positions(&inverted.collect::<Vec<_>>()).expect("finite");
+    let error = body.step(0.01).expect_err("inverted");
+    let StepError::Newton(NewtonError::Inadmissible { element, stretches }) = error else {
+        panic!("{error}")
+    };
+    assert_eq!(element, body.body().elements()[0].tag);
+    for (found, expected) in stretches.into_iter().zip([2.0, 1.0, -0.5]) {
+        assert!((found - expected).abs() <= 1e-13, "some hundred u: {found}");
+    }
+    let text = error.to_string();
+    assert!(text.contains("beyond J > 0 only"), "{text}");
+}
+
+#[test]
 fn an_indefinite_matrix_is_shifted_and_reported() {
     let mesh = beam(3);
     let newton = NewtonSettings {
