@@ -114,7 +114,7 @@ pub trait Material: Send + Sync {
     /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact determinant.
     fn ends_at_zero_volume(&self) -> bool;
 
-    /// What the material does outside its domain.
+    /// What the material does beyond J > 0, where its domain ends there.
     fn inversion(&self) -> Inversion {
         Inversion::Refuse
     }
@@ -126,7 +126,10 @@ pub trait Material: Send + Sync {
     }
 }
 
-/// What a material with a domain does outside it.
+/// What a material does beyond J > 0, or J ≠ 0, where its domain ends there.
+///
+/// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a point is refused
+/// whatever is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Inversion {
     /// The point's status says so, and a line search takes a shorter step.
