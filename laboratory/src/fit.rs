@@ -6,14 +6,17 @@
 //! ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some combination
-//! of parameters only, and there may be several minima. All three are looked for and said: [`Warning`].
+//! of parameters only, and there may be several minima; or the energy refuses the best parameters. All four are looked for
+//! and said: [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
 
 mod candidate;
+mod edge;
 mod minimum;
 mod problem;
+mod refusal;
 mod report;
 mod starts;
 mod uniqueness;
@@ -22,6 +25,7 @@ use crate::curve::Volume;
 use crate::data::{Measured, Measurements};
 
 pub use candidate::Candidate;
+pub use refusal::Refusal;
 pub use report::{Ended, Fit, FitError, Number, Standing, Warning};
 
 use candidate::Numbers;
@@ -71,7 +75,8 @@ impl Default for Settings {
 
 /// The parameters with which an energy agrees best with data, sought from those that it has.
 ///
-/// Trials stay where the constructor accepts the parameters and every measured point has a stress.
+/// Trials stay where the constructor accepts the parameters and every measured point has a stress. Where the best fit is
+/// beyond that, the search goes along the edge to the best fit there, and says so: [`Warning::Edge`].
 ///
 /// # Errors
 /// Where nothing can be fitted: see [`FitError`].
@@ -109,7 +114,7 @@ pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> R
     let is_least = |minimum: &&Minimum<'_>| minimum.squares <= least * (1.0 + 1e-9);
     let best = minima.iter().find(is_least).ok_or(FitError::NoMinimum)?;
     let agreement = data.agreement(best.problem.specimen(), settings.volume);
-    let agreement = agreement.map_err(|unanswered| FitError::Start(Some(unanswered)))?;
+    let agreement = agreement.map_err(|unanswered| FitError::Start(Refusal::Unanswered(unanswered)))?;
     let analysis = uniqueness::analyse(&best.problem, &numbers);
     Ok(report::report(&numbers, &held, &minima, best, agreement, analysis))
 }

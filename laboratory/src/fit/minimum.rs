@@ -1,12 +1,16 @@
-//! One descent.
+//! One descent: down to a minimum, and along the edges of what the energy accepts where these are in the way.
 
 use levenberg_marquardt::{LevenbergMarquardt, TerminationReason};
 
+use super::edge::{self, Stop};
 use super::problem::Problem;
+use super::refusal::Refusal;
 use super::report::Ended;
 
-/// Evaluations before a descent is given up, by the number of unknowns.
+/// Evaluations before a search is given up, by the number of unknowns.
 const PATIENCE: usize = 400;
+/// How often a descent that an edge stops is taken up again along it: two or three times do where it is flat.
+const WAYS: usize = 12;
 
 pub(super) struct Minimum<'a> {
     pub(super) problem: Problem<'a>,
@@ -14,12 +18,45 @@ pub(super) struct Minimum<'a> {
     pub(super) squares: f64,
     pub(super) evaluations: usize,
     pub(super) ended: Ended,
+    /// Why the energy refuses to go on, at the edges where that is what ended it.
+    pub(super) edges: Vec<Refusal>,
+    /// Whether it is one: no step is worth taking, or none that the energy accepts.
+    pub(super) is_least: bool,
     /// Of which start: 0 is the one given.
     pub(super) start: usize,
 }
 
 /// To the minimum below where the problem stands; `None` where numbers leave their range on the way.
 pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
+    let mut minimum = search(problem, start)?;
+    let mut stop = edge::stop(&minimum.problem);
+    let mut has_settled = false;
+    for _ in 0..WAYS {
+        let Some(Stop { ways, .. }) = &stop else { break };
+        let nexts = ways.iter().filter_map(|way| {
+            let along = minimum.problem.within(way.from.clone(), way.basis.clone());
+            let slid = search(along, start)?;
+            // In all directions again: the edge may end, or turn away.
+            let next = search(slid.problem.anew(), start)?;
+            Some(Minimum { evaluations: next.evaluations + slid.evaluations, ..next })
+        });
+        let Some(mut next) = nexts.min_by(|a, b| a.squares.total_cmp(&b.squares)) else { break };
+        if edge::is_no_gain(minimum.squares - next.squares, minimum.squares) {
+            has_settled = true;
+            break;
+        }
+        next.evaluations += minimum.evaluations;
+        minimum = next;
+        stop = edge::stop(&minimum.problem);
+    }
+    if let Some(stop) = stop {
+        minimum.is_least = stop.is_least || has_settled;
+        (minimum.ended, minimum.edges) = (Ended::Edge, stop.refusals);
+    }
+    Some(minimum)
+}
+
+fn search(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
     let (problem, report) = LevenbergMarquardt::new().with_patience(PATIENCE).minimize(problem);
     let ended = match report.termination {
         TerminationReason::ResidualsZero => Ended::Exact,
@@ -30,5 +67,6 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
     };
     let is_sound = problem.answers().is_ok() && report.objective_function.is_finite();
     let (squares, evaluations) = (2.0 * report.objective_function, report.number_of_evaluations);
-    is_sound.then_some(Minimum { problem, squares, evaluations, ended, start })
+    let is_least = ended != Ended::Unfinished;
+    is_sound.then_some(Minimum { problem, squares, evaluations, ended, edges: Vec::new(), is_least, start })
 }

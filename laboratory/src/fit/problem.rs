@@ -4,6 +4,7 @@ use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_34::{DMatrix, DVector, Dyn, Owned};
 
 use super::candidate::{Candidate, Numbers};
+use super::refusal::Refusal;
 use crate::curve::{Response, Volume, respond};
 use crate::data::{Measured, Unanswered};
 use crate::specimen::Ordered;
@@ -22,19 +23,26 @@ pub(super) struct Problem<'a> {
     pub(super) free: Vec<usize>,
     /// All numbers, those held included.
     pub(super) values: Vec<f64>,
-    /// The free numbers are sought in units of their values at the start.
-    units: Vec<f64>,
+    /// What the method sees of the free numbers.
+    coordinates: Coordinates,
     trial: Trial,
+}
+
+/// The free numbers are `origin` + `basis` · `place`, and `place` is what the method changes.
+struct Coordinates {
+    origin: DVector<f64>,
+    basis: DMatrix<f64>,
+    place: DVector<f64>,
 }
 
 /// The energy with its parameters and what it answers at each point, or why it does not.
 enum Trial {
     Answers(Box<dyn Candidate>, Vec<Response>),
-    /// A point without an answer, where the parameters are not to blame.
-    Refused(Option<Unanswered>),
+    Refused(Refusal),
 }
 
 impl<'a> Problem<'a> {
+    /// Each free number is sought in units of its value here.
     pub(super) fn new(
         start: &'a dyn Candidate,
         numbers: &'a Numbers,
@@ -44,32 +52,62 @@ impl<'a> Problem<'a> {
         values: Vec<f64>,
     ) -> Self {
         let unit = |&number: &usize| if values[number] == 0.0 { 1.0 } else { values[number].abs() };
-        let units = free.iter().map(unit).collect();
-        let mut problem =
-            Self { start, numbers, points, volume, free, values, units, trial: Trial::Refused(None) };
-        problem.trial = problem.attempt();
-        problem
+        let units = DVector::from_iterator(free.len(), free.iter().map(unit));
+        let coordinates = Coordinates {
+            origin: DVector::zeros(free.len()),
+            place: DVector::from_fn(free.len(), |k, _| values[free[k]] / units[k]),
+            basis: DMatrix::from_diagonal(&units),
+        };
+        let trial = attempt(start, numbers, points, volume, &values);
+        Self { start, numbers, points, volume, free, values, coordinates, trial }
     }
 
-    fn attempt(&self) -> Trial {
-        let Ok(candidate) = self.start.with_values(&self.numbers.lists(&self.values)) else {
-            return Trial::Refused(None);
-        };
-        let mut responses = Vec::with_capacity(self.points.len());
-        for &(point, _) in self.points {
-            match respond(candidate.as_ref(), point.mode, self.volume, point.control) {
-                Ok(response) => responses.push(response),
-                Err(reason) => return Trial::Refused(Some(Unanswered { point, reason })),
-            }
+    /// The same from where it stands, all free numbers in units of what they are now.
+    pub(super) fn anew(&self) -> Self {
+        let (free, values) = (self.free.clone(), self.values.clone());
+        Self::new(self.start, self.numbers, self.points, self.volume, free, values)
+    }
+
+    /// The same with the free numbers `origin` plus whatever the columns of `basis` span.
+    pub(super) fn within(&self, origin: DVector<f64>, basis: DMatrix<f64>) -> Self {
+        let values = self.with_free(&origin);
+        let trial = self.attempt(&values);
+        let place = DVector::zeros(basis.ncols());
+        let coordinates = Coordinates { origin, basis, place };
+        Self { free: self.free.clone(), values, coordinates, trial, ..*self }
+    }
+
+    fn attempt(&self, values: &[f64]) -> Trial {
+        attempt(self.start, self.numbers, self.points, self.volume, values)
+    }
+
+    /// All numbers, with these for the free ones.
+    fn with_free(&self, free: &DVector<f64>) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for (&number, &value) in self.free.iter().zip(free.iter()) {
+            values[number] = value;
         }
-        Trial::Answers(candidate, responses)
+        values
+    }
+
+    /// The free numbers where it stands.
+    pub(super) fn place(&self) -> DVector<f64> {
+        DVector::from_iterator(self.free.len(), self.free.iter().map(|&number| self.values[number]))
+    }
+
+    /// Whether there would be a residual at each point with these free numbers.
+    pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), Refusal> {
+        match self.attempt(&self.with_free(free)) {
+            Trial::Answers(..) => Ok(()),
+            Trial::Refused(refusal) => Err(refusal),
+        }
     }
 
     /// Whether there is a residual at each point.
-    pub(super) fn answers(&self) -> Result<(), Option<Unanswered>> {
+    pub(super) fn answers(&self) -> Result<(), Refusal> {
         match &self.trial {
             Trial::Answers(..) => Ok(()),
-            Trial::Refused(reason) => Err(*reason),
+            Trial::Refused(refusal) => Err(refusal.clone()),
         }
     }
 
@@ -108,15 +146,15 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type JacobianStorage = Owned<f64, Dyn, Dyn>;
     type ParameterStorage = Owned<f64, Dyn>;
 
-    fn set_params(&mut self, multiples: &DVector<f64>) {
-        for (k, &number) in self.free.iter().enumerate() {
-            self.values[number] = multiples[k] * self.units[k];
-        }
-        self.trial = self.attempt();
+    fn set_params(&mut self, place: &DVector<f64>) {
+        let Coordinates { origin, basis, .. } = &self.coordinates;
+        self.values = self.with_free(&(origin + basis * place));
+        self.trial = self.attempt(&self.values);
+        self.coordinates.place.copy_from(place);
     }
 
     fn params(&self) -> DVector<f64> {
-        DVector::from_fn(self.free.len(), |k, _| self.values[self.free[k]] / self.units[k])
+        self.coordinates.place.clone()
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
@@ -130,10 +168,27 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let mut jacobian = self.slopes()?;
-        for (mut column, unit) in jacobian.column_iter_mut().zip(&self.units) {
-            column *= *unit;
-        }
-        Some(jacobian)
+        Some(self.slopes()? * &self.coordinates.basis)
     }
+}
+
+fn attempt(
+    start: &dyn Candidate,
+    numbers: &Numbers,
+    points: &[(Measured, f64)],
+    volume: Volume,
+    values: &[f64],
+) -> Trial {
+    let candidate = match start.with_values(&numbers.lists(values)) {
+        Ok(candidate) => candidate,
+        Err(reason) => return Trial::Refused(Refusal::Inadmissible(reason)),
+    };
+    let mut responses = Vec::with_capacity(points.len());
+    for &(point, _) in points {
+        match respond(candidate.as_ref(), point.mode, volume, point.control) {
+            Ok(response) => responses.push(response),
+            Err(reason) => return Trial::Refused(Refusal::Unanswered(Unanswered { point, reason })),
+        }
+    }
+    Trial::Answers(candidate, responses)
 }

@@ -4,13 +4,16 @@ use std::fmt;
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
+use super::refusal::Refusal;
 use super::uniqueness::Analysis;
-use crate::data::{Agreement, Unanswered};
+use crate::data::Agreement;
 
 /// Another minimum is about as good if its differences are at most this much greater than those of the best.
 const ABOUT_AS_GOOD: f64 = 1.1;
 /// Two minima are the same if no parameter differs by more than this share of itself.
 const SAME: f64 = 0.01;
+/// A parameter that is less than this share of the one given is zero, which it comes to be at an edge.
+const ZERO: f64 = 1e-9;
 /// Other minima that are reported: in a flat valley there would be one for each descent.
 const OTHERS: usize = 5;
 
@@ -36,7 +39,7 @@ pub struct Fit {
     pub evaluations: usize,
     /// Why the search ended there.
     pub ended: Ended,
-    /// Why other parameters might do as well.
+    /// Why other parameters might do as well, or better.
     pub warnings: Vec<Warning>,
 }
 
@@ -50,7 +53,7 @@ pub struct Number {
     /// Whether it was sought.
     pub standing: Standing,
     /// Standard error of the value to first order, the differences being independent and alike, if it was sought from more
-    /// points than unknowns.
+    /// points than unknowns, and no edge of what the energy accepts ended the search.
     pub error: Option<f64>,
 }
 
@@ -74,6 +77,8 @@ pub enum Ended {
     Stationary,
     /// Neither parameters nor differences change any more but by rounding.
     Settled,
+    /// The energy refuses the parameters on the way to a better fit: [`Warning::Edge`].
+    Edge,
     /// The number of evaluations was exhausted before.
     Unfinished,
 }
@@ -84,12 +89,13 @@ impl fmt::Display for Ended {
             Self::Exact => "the curves go through the data",
             Self::Stationary => "no change of the parameters improves the fit",
             Self::Settled => "the parameters change no more but by rounding",
+            Self::Edge => "at an edge of what the energy accepts",
             Self::Unfinished => "not at a minimum yet when the evaluations were exhausted",
         })
     }
 }
 
-/// Why other parameters might fit as well.
+/// Why other parameters might fit as well, or better.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
@@ -100,7 +106,8 @@ pub enum Warning {
     },
     /// The data say little about a combination of parameters.
     Dependent {
-        /// Relative changes of parameters that make up for each other, the greatest being 1; absolute where one is zero.
+        /// Relative changes of parameters that make up for each other, the greatest being 1; absolute where one is zero. A
+        /// single one where no other makes up for it.
         changes: Vec<(String, f64)>,
         /// The root of the mean square of what such a change changes of the differences, to first order.
         effect: f64,
@@ -109,8 +116,21 @@ pub enum Warning {
     OtherMinimum {
         /// Its parameters, as [`Fit::values`].
         values: Vec<Vec<f64>>,
+        /// The same one by one, by the names of [`Fit::numbers`].
+        numbers: Vec<(String, f64)>,
         /// As [`Fit::difference`].
         difference: f64,
+    },
+    /// A better fit is beyond an edge of what the energy accepts: these are the best parameters along it. One warning for each
+    /// edge.
+    Edge {
+        /// Why the parameters next beyond are refused.
+        reason: Refusal,
+    },
+    /// The mean of the measured stresses would be a better guess than the curves.
+    Poor {
+        /// R² of all points, below 0.
+        determination: f64,
     },
     /// The best that was found is no minimum yet.
     Unfinished,
@@ -122,23 +142,58 @@ impl fmt::Display for Warning {
             Self::Indifferent { parameter } => {
                 write!(f, "the data say nothing about {parameter}, which keeps its value")
             }
-            Self::Dependent { changes, effect } => {
-                let changes: Vec<_> =
-                    changes.iter().map(|(name, change)| format!("{name} {:+.3} %", change)).collect();
+            Self::Dependent { changes, effect } => match changes.as_slice() {
+                [(name, _)] => write!(
+                    f,
+                    "the data say little about {name}: a change by 1 % changes the fit by {}; hold it (`--hold {name}`, \
+                     `Settings::held`), or add data of other tests",
+                    Percent(*effect)
+                ),
+                changes => {
+                    let together: Vec<_> =
+                        changes.iter().map(|(name, change)| format!("{name} {change:+.3} %")).collect();
+                    let name = changes.first().map_or("", |(name, _)| name);
+                    write!(
+                        f,
+                        "the data say little about {}: changed together in this proportion, they change the fit by {}; \
+                         hold one of them (such as `--hold {name}`, `Settings::held`), or add data of other tests",
+                        together.join(", "),
+                        Percent(*effect)
+                    )
+                }
+            },
+            Self::OtherMinimum { numbers, difference, .. } => {
+                let numbers: Vec<_> =
+                    numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
                 write!(
                     f,
-                    "the data say little about {}: together they change the fit by {:.1e} %",
-                    changes.join(", "),
-                    effect
+                    "another minimum has differences of {:.3} %: {}",
+                    100.0 * difference,
+                    numbers.join(", ")
                 )
             }
-            Self::OtherMinimum { values, difference } => {
-                write!(f, "another minimum has differences of {:.3} %: {values:?}", 100.0 * difference)
-            }
-            Self::Unfinished => {
-                write!(f, "this is no minimum yet: {}; start from these parameters", Ended::Unfinished)
-            }
+            Self::Edge { reason } => write!(
+                f,
+                "the search ended at an edge of what the energy accepts, and a better fit is beyond: there {reason}; \
+                 hold a parameter, start elsewhere, add data of other tests, or, if the bound is one of `admissible` and \
+                 not of physics, move it"
+            ),
+            Self::Poor { determination } => write!(
+                f,
+                "R² of all points is {determination:.3}, below 0: the mean of the measured stresses would be a better \
+                 guess than these curves"
+            ),
+            Self::Unfinished => f.write_str("this is no minimum yet: start from these parameters"),
         }
+    }
+}
+
+/// A small number of percent, for readers who need no more than that it is small.
+struct Percent(f64);
+
+impl fmt::Display for Percent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 < 1e-4 { f.write_str("less than 0.0001 %") } else { write!(f, "{:.4} %", self.0) }
     }
 }
 
@@ -164,10 +219,10 @@ pub enum FitError {
         /// Parameters that are sought.
         free: usize,
     },
-    /// With the parameters to start from, the energy has no stress at a measured point, or, where none is named, is refused.
+    /// With the parameters to start from, the energy is refused, or has no stress at a measured point.
     Start(
-        /// Which.
-        Option<Unanswered>,
+        /// Why.
+        Refusal,
     ),
     /// Numbers left their range from every start.
     NoMinimum,
@@ -186,10 +241,12 @@ impl fmt::Display for FitError {
             Self::TooFewPoints { points, free } => {
                 write!(f, "{points} points cannot determine {free} parameters; hold some, or add data")
             }
-            Self::Start(Some(unanswered)) => {
+            Self::Start(Refusal::Unanswered(unanswered)) => {
                 write!(f, "the parameters to start from must reach all points, but {unanswered}")
             }
-            Self::Start(None) => f.write_str("the parameters to start from are refused without an extension"),
+            Self::Start(Refusal::Inadmissible(reason)) => {
+                write!(f, "the parameters to start from are refused without an extension: {reason}")
+            }
             Self::NoMinimum => {
                 f.write_str("numbers leave their range on the way; start nearer to the solution")
             }
@@ -212,7 +269,7 @@ pub(super) fn report(
     let deviation = (count > free).then(|| (best.squares / (count - free) as f64).sqrt());
     let error = |number: usize| {
         let place = best.problem.free.iter().position(|&other| other == number)?;
-        Some(deviation? * analysis.errors.get(place)?)
+        Some(deviation? * analysis.errors.get(place)?).filter(|_| best.ended != Ended::Edge)
     };
     let number = |(number, standing): (usize, &Option<Standing>)| Number {
         name: numbers.names[number].clone(),
@@ -225,12 +282,17 @@ pub(super) fn report(
     let silent = fitted.iter().filter(|number| number.standing == Standing::Indifferent);
     let mut warnings: Vec<_> =
         silent.map(|number| Warning::Indifferent { parameter: number.name.clone() }).collect();
-    if best.ended == Ended::Unfinished {
+    if agreement.total.is_finite() && agreement.total < 0.0 {
+        warnings.push(Warning::Poor { determination: agreement.total });
+    }
+    warnings.extend(best.edges.iter().map(|reason| Warning::Edge { reason: reason.clone() }));
+    if !best.is_least {
         warnings.push(Warning::Unfinished);
     }
     warnings.extend(analysis.warnings);
     let others = others(numbers, minima, best).into_iter().map(|minimum| Warning::OtherMinimum {
         values: numbers.lists(&minimum.problem.values),
+        numbers: numbers.names.iter().cloned().zip(minimum.problem.values.iter().copied()).collect(),
         difference: difference(minimum),
     });
     warnings.extend(others);
@@ -252,9 +314,13 @@ pub(super) fn report(
 fn others<'a, 'b>(numbers: &Numbers, minima: &'a [Minimum<'b>], best: &Minimum<'b>) -> Vec<&'a Minimum<'b>> {
     // What is exact but for rounding is as good as what is exact.
     let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
-    let good = minima.iter().filter(|minimum| minimum.ended != Ended::Unfinished && minimum.squares <= limit);
+    let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
     let mut good: Vec<_> = good.collect();
     good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
+    let is_same = |one: &Vec<f64>, other: &Vec<f64>| {
+        let mut pairs = one.iter().zip(other).zip(&numbers.values);
+        pairs.all(|((a, b), start)| (a - b).abs() <= SAME * a.abs().max(b.abs()) + ZERO * start.abs())
+    };
     let mut seen = vec![numbers.sorted(&best.problem.values)];
     good.retain(|minimum| {
         let values = numbers.sorted(&minimum.problem.values);
@@ -266,8 +332,4 @@ fn others<'a, 'b>(numbers: &Numbers, minima: &'a [Minimum<'b>], best: &Minimum<'
     });
     good.truncate(OTHERS);
     good
-}
-
-fn is_same(one: &[f64], other: &[f64]) -> bool {
-    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * a.abs().max(b.abs()))
 }

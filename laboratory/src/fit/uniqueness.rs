@@ -58,7 +58,7 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     let greatest = singular.max();
 
     let mut errors = vec![0.0_f64; lengths.len()];
-    let mut warnings = Vec::new();
+    let mut combinations = Vec::new();
     for (direction, &value) in directions.row_iter().zip(singular) {
         for (error, component) in errors.iter_mut().zip(direction.iter()) {
             *error += (component / value).powi(2);
@@ -76,7 +76,7 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
         let most = changes.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         let named = problem.free.iter().zip(&changes);
         let part = named.filter(|(_, change)| change.abs() >= SHARE * most.abs());
-        warnings.push(Warning::Dependent {
+        combinations.push(Combination {
             changes: part.map(|(&number, change)| (numbers.names[number].clone(), change / most)).collect(),
             effect: value / most.abs() / rows.sqrt(),
         });
@@ -84,7 +84,27 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     for (error, length) in errors.iter_mut().zip(&lengths) {
         *error = error.sqrt() / length;
     }
-    Analysis { errors, condition: greatest / singular.min(), warnings }
+    Analysis { errors, condition: greatest / singular.min(), warnings: warnings(combinations) }
+}
+
+/// Changes of parameters by name, and what they change of the differences, as [`Warning::Dependent`] has them.
+struct Combination {
+    changes: Vec<(String, f64)>,
+    effect: f64,
+}
+
+/// One for each set of parameters: of combinations of the same ones that which changes least.
+fn warnings(mut combinations: Vec<Combination>) -> Vec<Warning> {
+    combinations.sort_by(|a, b| a.effect.total_cmp(&b.effect));
+    let mut seen: Vec<Vec<String>> = Vec::new();
+    combinations.retain(|combination| {
+        let names: Vec<_> = combination.changes.iter().map(|(name, _)| name.clone()).collect();
+        let is_new = !seen.contains(&names);
+        seen.push(names);
+        is_new
+    });
+    let warning = |Combination { changes, effect }| Warning::Dependent { changes, effect };
+    combinations.into_iter().map(warning).collect()
 }
 
 /// The length of each column.

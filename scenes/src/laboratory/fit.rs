@@ -129,7 +129,7 @@ impl fmt::Display for FitReport {
         )?;
         for warning in &fit.warnings {
             match warning {
-                Warning::OtherMinimum { values, difference } => {
+                Warning::OtherMinimum { values, difference, .. } => {
                     let options = self.options(values);
                     writeln!(f, "warning: as good within {:.3} %: {options}", 100.0 * difference)?;
                 }

@@ -1,0 +1,207 @@
+//! Edges of what the energy accepts, where they keep a search from its minimum.
+//!
+//! An energy tells only whether it accepts parameters, not how far from the edge they are. Where the Gauss–Newton step d
+//! that minimises |r + J d| is worth taking and is refused however short, the search stands at an edge, whose
+//! [`normal`] is found by trying. Then d is sought in what the edges leave free, each kept only for as long as its Lagrange
+//! multiplier says that the step would cross it: the active-set method of quadratic programming \[NW06, section 16.5\].
+//!
+//! All of it in coordinates in which each parameter changes the residuals by the length one.
+//!
+//! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006.
+
+mod normal;
+
+use levenberg_marquardt::LeastSquaresProblem;
+use nalgebra_34::{DMatrix, DVector};
+
+use super::problem::Problem;
+use super::refusal::Refusal;
+
+/// What would lessen Σ r² by a smaller share than this is not worth a step. The method stops at 1e-14 by itself.
+const GAIN: f64 = 1e-10;
+/// Beside this square of each residual all are rounding.
+const EXACT: f64 = 1e-24;
+/// A step is refused at once if this share of it is.
+const PROBE: f64 = 1e-3;
+/// What is kept from the edge, by the length of the step: far above the error of the normal, far below what shows; and what
+/// leaves room to go along a curved edge.
+const MARGINS: [f64; 2] = [1e-7, 1e-3];
+/// Normals that have less than this outside the span of others belong to one curved edge.
+const TURN: f64 = 1e-3;
+/// Singular values below this by the greatest belong to directions that the residuals do not feel.
+const SILENCE: f64 = 1e-10;
+
+/// What stopped a search.
+pub(super) struct Stop {
+    /// Why each edge refuses.
+    pub(super) refusals: Vec<Refusal>,
+    /// Where it goes on downwards along the edges: next to them, and at a distance that leaves room where they are curved.
+    pub(super) ways: Vec<Way>,
+    /// Whether it goes on nowhere, so that this is the best that the edges allow.
+    pub(super) is_least: bool,
+}
+
+/// A place next to the edges, and the directions along them.
+pub(super) struct Way {
+    pub(super) from: DVector<f64>,
+    pub(super) basis: DMatrix<f64>,
+}
+
+struct Edge {
+    /// Outwards, of the length one.
+    normal: DVector<f64>,
+    refusal: Refusal,
+}
+
+/// Whether Σ r² becomes less by nothing worth a step.
+pub(super) fn is_no_gain(gain: f64, squares: f64) -> bool {
+    gain <= GAIN * squares
+}
+
+/// What keeps the problem from a better fit where it stands; `None` where no edge does.
+pub(super) fn stop(problem: &Problem<'_>) -> Option<Stop> {
+    let surroundings = Surroundings::of(problem)?;
+    let [mut near, far] = MARGINS.map(|margin| surroundings.stop(margin));
+    if let (Some(near), Some(far)) = (&mut near, far) {
+        near.ways.extend(far.ways);
+    }
+    near
+}
+
+fn refusals(edges: Vec<Edge>) -> Vec<Refusal> {
+    edges.into_iter().map(|edge| edge.refusal).collect()
+}
+
+/// One in each column.
+fn normals(edges: &[Edge]) -> DMatrix<f64> {
+    let normals: Vec<_> = edges.iter().map(|edge| edge.normal.clone()).collect();
+    DMatrix::from_columns(&normals)
+}
+
+/// An orthonormal basis of what is orthogonal to all normals.
+fn along(edges: &[Edge], unknowns: usize) -> DMatrix<f64> {
+    let mut projection = DMatrix::identity(unknowns, unknowns);
+    if !edges.is_empty() {
+        let across = normals(edges).qr().q();
+        projection -= &across * across.transpose();
+    }
+    let decomposed = projection.symmetric_eigen();
+    // The eigenvalues are 0 and 1.
+    let kept: Vec<_> = (0..unknowns).filter(|&k| decomposed.eigenvalues[k] > 0.5).collect();
+    decomposed.eigenvectors.select_columns(&kept)
+}
+
+/// A problem to first order about where it stands.
+struct Surroundings<'a, 'b> {
+    problem: &'a Problem<'b>,
+    /// The length of each column of ∂r/∂p: the coordinate of a parameter is p times this.
+    scales: DVector<f64>,
+    /// Where it stands.
+    place: DVector<f64>,
+    residuals: DVector<f64>,
+    slopes: DMatrix<f64>,
+    /// The length of the step that no edge hinders.
+    reach: f64,
+}
+
+impl<'a, 'b> Surroundings<'a, 'b> {
+    /// `None` where the residuals are rounding, or numbers leave their range.
+    fn of(problem: &'a Problem<'b>) -> Option<Self> {
+        let (residuals, mut slopes) = (problem.residuals()?, problem.slopes()?);
+        if residuals.norm_squared() <= EXACT * residuals.len() as f64 {
+            return None;
+        }
+        let length = |column: usize| slopes.column(column).norm();
+        let scales = DVector::from_fn(slopes.ncols(), |column, _| length(column));
+        if !scales.iter().all(|&scale| scale.is_finite() && scale > 0.0) {
+            return None;
+        }
+        for (mut column, scale) in slopes.column_iter_mut().zip(scales.iter()) {
+            column /= *scale;
+        }
+        let place = problem.place().component_mul(&scales);
+        let unknowns = place.len();
+        let mut surroundings = Self { problem, scales, place, residuals, slopes, reach: 0.0 };
+        surroundings.reach = surroundings.step(&along(&[], unknowns))?.norm();
+        Some(surroundings)
+    }
+
+    /// As [`stop`], that far from the edges.
+    fn stop(&self, margin: f64) -> Option<Stop> {
+        let unknowns = self.place.len();
+        let mut edges: Vec<Edge> = Vec::new();
+        // Each turn finds an edge; some may be dropped again.
+        for _ in 0..2 * unknowns {
+            let basis = along(&edges, unknowns);
+            let step = self.step(&basis)?;
+            let from = self.inside(&edges, margin);
+            let is_worth = !is_no_gain((&self.slopes * &step).norm_squared(), self.squares());
+            let refused = self.accepts(&(&from + &step * PROBE)).err().filter(|_| is_worth);
+            let Some(refusal) = refused else {
+                if edges.is_empty() {
+                    return None;
+                }
+                let way = is_worth.then(|| Way { from: self.free(&from), basis: self.columns(&basis) });
+                let ways = way.into_iter().collect();
+                return Some(Stop { refusals: refusals(edges), ways, is_least: !is_worth });
+            };
+            let accepts = |place: &DVector<f64>| self.accepts(place);
+            let normal = normal::normal(&accepts, &from, &(&step * PROBE), &refusal);
+            let is_new = |normal: &DVector<f64>| basis.tr_mul(normal).norm() > TURN;
+            let Some(normal) = normal.filter(is_new) else {
+                let mut refusals = refusals(edges);
+                if refusals.is_empty() {
+                    refusals.push(refusal);
+                }
+                return Some(Stop { refusals, ways: Vec::new(), is_least: false });
+            };
+            edges.push(Edge { normal, refusal });
+            let multipliers = self.multipliers(&edges)?;
+            let mut multipliers = multipliers.iter();
+            edges.retain(|_| multipliers.next().is_none_or(|&multiplier| multiplier >= 0.0));
+        }
+        Some(Stop { refusals: refusals(edges), ways: Vec::new(), is_least: false })
+    }
+
+    fn squares(&self) -> f64 {
+        self.residuals.norm_squared()
+    }
+
+    /// The free numbers at these coordinates.
+    fn free(&self, place: &DVector<f64>) -> DVector<f64> {
+        place.component_div(&self.scales)
+    }
+
+    /// Directions by coordinates as such by free numbers.
+    fn columns(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        DMatrix::from_fn(basis.nrows(), basis.ncols(), |row, column| basis[(row, column)] / self.scales[row])
+    }
+
+    fn accepts(&self, place: &DVector<f64>) -> Result<(), Refusal> {
+        self.problem.accepts(&self.free(place))
+    }
+
+    /// The step d in the span of the basis that makes |r + J d| least.
+    fn step(&self, basis: &DMatrix<f64>) -> Option<DVector<f64>> {
+        if basis.ncols() == 0 {
+            return Some(DVector::zeros(basis.nrows()));
+        }
+        let decomposed = (&self.slopes * basis).svd(true, true);
+        let silence = SILENCE * decomposed.singular_values.max();
+        let step = decomposed.solve(&-&self.residuals, silence).ok()?;
+        Some(basis * step).filter(|step| step.iter().all(|component| component.is_finite()))
+    }
+
+    /// A little away from each edge.
+    fn inside(&self, edges: &[Edge], margin: f64) -> DVector<f64> {
+        let away = margin * self.reach;
+        edges.iter().fold(self.place.clone(), |place, edge| place - &edge.normal * away)
+    }
+
+    /// What each edge pushes with against the step that keeps to all of them: Jᵀ (r + J d) + Σ multiplier · normal = 0.
+    fn multipliers(&self, edges: &[Edge]) -> Option<DVector<f64>> {
+        let step = self.step(&along(edges, self.place.len()))?;
+        let rest = self.slopes.tr_mul(&(&self.residuals + &self.slopes * step));
+        normals(edges).svd(true, true).solve(&-rest, 0.0).ok()
+    }
+}

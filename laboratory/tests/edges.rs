@@ -1,0 +1,285 @@
+//! Fits that an edge of what an energy accepts keeps from their minimum.
+
+use nalgebra_34::{DMatrix, DVector};
+use piola::material::Inadmissible;
+use piola_laboratory::curve::{Mode, NoResponse, Volume, respond};
+use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944, Unanswered};
+use piola_laboratory::fit::{Difference, Ended, Fit, Refusal, Settings, Warning, fit};
+use piola_materials::{MooneyRivlin, NeoHookean};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// An edge is met as nearly as a step that gains less than 1e-10 of Σ r² comes to it.
+const GAIN: f64 = 1e-10;
+
+/// Solid of third order after Murnaghan, linear in its parameters.
+#[piola::material(domain(J > 0.0), fit)]
+fn Murnaghan([l1, l2, l3]: [f64; 3], lambda: f64, mu: f64, l: f64, m: f64, n: f64) -> f64 {
+    let E1 = (l1.powi(2) - 1.0) / 2.0;
+    let E2 = (l2.powi(2) - 1.0) / 2.0;
+    let E3 = (l3.powi(2) - 1.0) / 2.0;
+    let J1 = E1 + E2 + E3;
+    let J2 = E1 * E2 + E2 * E3 + E3 * E1;
+    let J3 = E1 * E2 * E3;
+    let second = (lambda + 2.0 * mu) / 2.0 * J1.powi(2) - 2.0 * mu * J2;
+    second + (l + 2.0 * m) / 3.0 * J1.powi(3) - 2.0 * m * J1 * J2 + n * J3
+}
+
+/// Rubber after Mooney between bounds of no physical meaning.
+#[piola::material(domain(J > 0.0), fit, admissible(c1 <= 1e5, c2 >= 1e4, c1 + c2 <= 1.2e5))]
+fn Bounded([l1, l2, l3]: [f64; 3], c1: f64, c2: f64) -> f64 {
+    c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + 1e8 * (J - 1.0).powi(2)
+}
+
+/// The same inside a circle.
+#[piola::material(domain(J > 0.0), fit, admissible(c1.powi(2) + c2.powi(2) <= 1e10))]
+fn Round([l1, l2, l3]: [f64; 3], c1: f64, c2: f64) -> f64 {
+    c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + 1e8 * (J - 1.0).powi(2)
+}
+
+/// Rubber that softens until I1 = a.
+#[piola::material(domain(J > 0.0, a - I1b > 0.0), fit)]
+fn Softening([l1, l2, l3]: [f64; 3], mu: f64, a: f64) -> f64 {
+    mu * (I1b - 3.0) * (2.0 * a - I1b - 3.0) + 1e8 * (J - 1.0).powi(2)
+}
+
+fn treloar() -> Measurements {
+    Measurements::read(TRELOAR_1944).expect("a table")
+}
+
+/// As if measured in tension along one axis.
+fn tension(points: &[(f64, f64)]) -> Measurements {
+    let point = |&(control, stress)| Measured { mode: Mode::Uniaxial, control, stress };
+    Measurements { points: points.iter().map(point).collect() }
+}
+
+fn by(difference: Difference) -> Settings {
+    Settings { difference, ..Settings::default() }
+}
+
+/// Why each edge refuses.
+fn edges(fit: &Fit) -> Vec<&Refusal> {
+    let mut edges = Vec::new();
+    for warning in &fit.warnings {
+        if let Warning::Edge { reason } = warning {
+            edges.push(reason);
+        }
+    }
+    edges
+}
+
+/// The conditions at whose edge a fit ends.
+fn conditions(fit: &Fit) -> Vec<&str> {
+    let condition = |reason: &&Refusal| match reason {
+        Refusal::Inadmissible(Inadmissible::Violated { condition, .. }) => *condition,
+        other => panic!("{other:?}"),
+    };
+    edges(fit).iter().map(condition).collect()
+}
+
+/// What each term of a stress that is linear in its parameters makes of the difference at each point, and Σ r² of parameters.
+struct Linear {
+    matrix: DMatrix<f64>,
+    wanted: DVector<f64>,
+}
+
+impl Linear {
+    /// By the stress along axes 1 to 3 for each of the parameters at some stretches.
+    fn new<const N: usize>(
+        data: &Measurements,
+        difference: Difference,
+        terms: impl Fn([f64; 3]) -> [[f64; N]; 3],
+    ) -> Self {
+        let greatest = data.points.iter().fold(0.0_f64, |greatest, point| greatest.max(point.stress));
+        let points: Vec<_> = data.points.iter().filter(|point| !point.is_rest()).collect();
+        let size = |row: usize| match difference {
+            Difference::Relative => points[row].stress,
+            Difference::Absolute => greatest,
+        };
+        let stress = |row: usize, term: usize| {
+            let s = points[row].control;
+            let stretches = match points[row].mode {
+                Mode::Uniaxial => [s, s.powf(-0.5), s.powf(-0.5)],
+                Mode::Equibiaxial => [s, s, s.powi(-2)],
+                Mode::PureShear => [s, 1.0, 1.0 / s],
+                mode => unreachable!("{mode} is not in the data"),
+            };
+            let [along, _, across] = terms(stretches);
+            along[term] - across[term] * stretches[2] / s
+        };
+        Self {
+            matrix: DMatrix::from_fn(points.len(), N, |row, term| stress(row, term) / size(row)),
+            wanted: DVector::from_fn(points.len(), |row, _| points[row].stress / size(row)),
+        }
+    }
+
+    fn squares(&self, parameters: &DVector<f64>) -> f64 {
+        (&self.matrix * parameters - &self.wanted).norm_squared()
+    }
+
+    /// The least Σ r² of what the columns of `basis` span from `origin`.
+    fn least(&self, origin: &DVector<f64>, basis: &DMatrix<f64>) -> f64 {
+        let matrix = &self.matrix * basis;
+        let lengths = DVector::from_fn(matrix.ncols(), |column, _| matrix.column(column).norm());
+        let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
+            matrix[(row, column)] / lengths[column]
+        });
+        let rest = &self.wanted - &self.matrix * origin;
+        let solution = scaled.svd(true, true).solve(&rest, 0.0).expect("all vectors");
+        self.squares(&(origin + basis * solution.component_div(&lengths)))
+    }
+
+    /// Whether a fit is as good.
+    #[track_caller]
+    fn check(&self, fit: &Fit, least: f64) {
+        let squares = fit.difference.powi(2) * self.wanted.len() as f64;
+        // What a step along the edge could gain, and as much for the way to it; times ten.
+        assert!((squares / least - 1.0).abs() <= 10.0 * GAIN, "{squares} for {least}: {fit:?}");
+    }
+}
+
+/// ∂ψ/∂λi by λ, μ, l, m, n: ∂J1 = λi, ∂J2 = λi (J1 − Ei), ∂J3 = λi Ej Ek.
+fn murnaghan(stretches: [f64; 3]) -> [[f64; 5]; 3] {
+    let strains = stretches.map(|stretch| (stretch * stretch - 1.0) / 2.0);
+    let [one, two, three] = strains;
+    let (first, second) = (one + two + three, one * two + two * three + three * one);
+    [0, 1, 2].map(|i| {
+        let (rest, product) = (first - strains[i], strains[(i + 1) % 3] * strains[(i + 2) % 3]);
+        let third = 2.0 * (first.powi(2) - second - first * rest);
+        [first, 2.0 * (first - rest), first.powi(2), third, product].map(|term| stretches[i] * term)
+    })
+}
+
+/// ∂ψ/∂λi by c1, c2 at constant volume: 2 λi, and −2 λi⁻³ for I2 = Σ λi⁻².
+fn mooney(stretches: [f64; 3]) -> [[f64; 2]; 3] {
+    stretches.map(|stretch| [2.0 * stretch, -2.0 * stretch.powi(-3)])
+}
+
+#[test]
+fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Outcome {
+    let start = Murnaghan::new(2e7, 4e5, -1e3, -1e3, -1e3)?;
+    let data = treloar();
+    // λ = −2/3 μ.
+    let mut edge = DMatrix::zeros(5, 4);
+    edge[(0, 0)] = -2.0 / 3.0;
+    (0..4).for_each(|k| edge[(k + 1, k)] = 1.0);
+    for difference in [Difference::Relative, Difference::Absolute] {
+        let found = fit(&start, &data, &by(difference))?;
+        let linear = Linear::new(&data, difference, murnaghan);
+        linear.check(&found, linear.least(&DVector::zeros(5), &edge));
+        assert_eq!(found.ended, Ended::Edge);
+        assert!(found.agreement.total > 0.8, "{found:?}");
+        assert!(found.numbers.iter().all(|number| number.error.is_none()), "{found:?}");
+        let unstable = |reason: &&Refusal| match reason {
+            Refusal::Inadmissible(Inadmissible::UnstableRest { moduli }) => moduli.bulk() < 0.0,
+            _ => false,
+        };
+        assert!(edges(&found).len() == 1 && edges(&found).iter().all(unstable), "{found:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn bounds_that_end_a_fit_are_named() -> Outcome {
+    let data = treloar();
+    for difference in [Difference::Relative, Difference::Absolute] {
+        // The second runs into the corner of two bounds, one of which it can leave.
+        for start in [Bounded::new(5e4, 2e4)?, Bounded::new(2e4, 9e4)?] {
+            let found = fit(&start, &data, &by(difference))?;
+            let linear = Linear::new(&data, difference, mooney);
+            let edge = DMatrix::from_column_slice(2, 1, &[0.0, 1.0]);
+            linear.check(&found, linear.least(&DVector::from_vec(vec![1e5, 0.0]), &edge));
+            assert_eq!(conditions(&found), ["c1 <= 1e5"]);
+            let warning = found.warnings.iter().find(|warning| matches!(warning, Warning::Edge { .. }));
+            let text = warning.map(ToString::to_string).unwrap_or_default();
+            assert!(
+                text.contains("`c1 <= 1e5` must hold, but c1 = 1") && text.contains("`admissible`"),
+                "{text}"
+            );
+            let others = |warning: &&Warning| matches!(warning, Warning::OtherMinimum { .. });
+            assert_eq!(found.warnings.iter().find(others), None, "all descents end there");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn in_a_corner_both_bounds_are_named() -> Outcome {
+    // Of a rubber with more of c1. In tension c1 gives more stress than c2 does, so that both bounds are in its way.
+    let (wanted, mut data) = (MooneyRivlin::new(1.5e5, 1e3, 1e8)?, treloar());
+    data.points.retain(|point| point.mode == Mode::Uniaxial);
+    for point in &mut data.points {
+        point.stress = respond(&wanted, point.mode, Volume::Kept, point.control)?.stress;
+    }
+    let found = fit(&Bounded::new(5e4, 2e4)?, &data, &Settings::default())?;
+    let mut bounds = conditions(&found);
+    bounds.sort_unstable();
+    assert_eq!(bounds, ["c1 + c2 <= 1.2e5", "c1 <= 1e5"]);
+    for (value, corner) in found.values.concat().iter().zip([1e5, 2e4]) {
+        assert!((value / corner - 1.0).abs() <= 1e-6, "{found:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn curved_edges_are_followed() -> Outcome {
+    let data = treloar();
+    for start in [Round::new(5e4, 2e4)?, Round::new(2e4, 8e4)?] {
+        let found = fit(&start, &data, &Settings::default())?;
+        let linear = Linear::new(&data, Difference::Relative, mooney);
+        let on_circle = |angle: f64| {
+            let (sine, cosine) = angle.sin_cos();
+            linear.squares(&DVector::from_vec(vec![1e5 * cosine, 1e5 * sine]))
+        };
+        let least = (0..100_000).map(|k| on_circle(1e-5 * f64::from(k))).fold(f64::INFINITY, f64::min);
+        let squares = found.difference.powi(2) * linear.wanted.len() as f64;
+        // The angle is at most half of 1e-5 off, and Σ r² by the square of that times its curvature, which is some ten times
+        // itself; what a step along the edge could gain is as little.
+        assert!((squares / least - 1.0).abs() <= 10.0 * GAIN, "{squares} for {least}: {found:?}");
+        assert_eq!(conditions(&found), ["c1.powi(2) + c2.powi(2) <= 1e10"]);
+    }
+    Ok(())
+}
+
+#[test]
+fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
+    // The last point would have I1 > a.
+    let data = tension(&[(1.1, 2e4), (1.5, 1e5), (2.0, 1.2e5), (2.5, 1e5), (3.0, -5e4)]);
+    let found = fit(&Softening::new(1e4, 20.0)?, &data, &by(Difference::Absolute))?;
+    assert_eq!(found.ended, Ended::Edge);
+    let Some(Refusal::Unanswered(Unanswered { point, reason })) = edges(&found).first() else {
+        panic!("{found:?}");
+    };
+    assert_eq!((point.control, *reason), (3.0, NoResponse::OutsideDomain));
+    // I1 = λ² + 2/λ there.
+    assert!((found.values[1][0] - (9.0 + 2.0 / 3.0)).abs() <= 1e-9, "{found:?}");
+    Ok(())
+}
+
+#[test]
+fn a_fit_worse_than_the_mean_says_so() -> Outcome {
+    // No shear modulus pushes when it is pulled.
+    let data = tension(&[(1.5, -1e5), (2.0, -2e5), (2.5, -2.2e5)]);
+    let found = fit(&NeoHookean::new(1e5, 1e7)?, &data, &Settings::default())?;
+    let poor = |warning: &&Warning| matches!(warning, Warning::Poor { .. });
+    let poor = found.warnings.iter().find(poor).expect("a warning");
+    assert!(found.agreement.total < 0.0 && poor.to_string().contains("below 0"), "{found:?}");
+    assert_eq!(conditions(&found), ["mu > 0"]);
+    assert_eq!(found.warnings.len(), 3, "nothing about λ, poor, edge: {found:?}");
+    Ok(())
+}
+
+#[test]
+fn a_minimum_inside_is_no_edge() -> Outcome {
+    let truth = Bounded::new(9e4, 1.5e4)?;
+    let mut data = treloar();
+    for (k, point) in data.points.iter_mut().enumerate() {
+        let stress = respond(&truth, point.mode, Volume::Kept, point.control)?.stress;
+        // Errors of a percent.
+        point.stress = stress * if k % 2 == 0 { 1.01 } else { 0.99 };
+    }
+    let found = fit(&Bounded::new(2e4, 9e4)?, &data, &Settings::default())?;
+    assert!(edges(&found).is_empty() && found.ended != Ended::Edge, "{found:?}");
+    assert!(found.numbers.iter().all(|number| number.error.is_some()), "{found:?}");
+    Ok(())
+}
