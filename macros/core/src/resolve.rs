@@ -257,6 +257,9 @@ impl<'a> Resolver<'a> {
                 self.error(return_token, "the last line of an energy is its value: write it without `return` and `;`");
                 self.expression(value)
             }
+            Expr::Array(array) if array.elems.len() == 1 => {
+                self.mistake(expression, "parentheses are round in an energy: write `( … )`")
+            }
             Expr::Array(_) | Expr::Repeat(_) => self.mistake(
                 expression,
                 "lists are parameters, as `mu: [f64; N]`: numbers of the energy's own are written out, term by term",

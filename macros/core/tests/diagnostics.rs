@@ -191,7 +191,8 @@ fn calls_and_operators() {
     check_added("match 1 { _ => J }", "match", "no branches");
     check_added("if mu > 0.0 { nu } else { 2.0 }", "if", "no branches");
     check_added("(J as f64)", "f64", "remove the cast");
-    check_added("[J]", "[J]", "lists are parameters, as `mu: [f64; N]`");
+    check_added("[J, mu]", "[J, mu]", "lists are parameters, as `mu: [f64; N]`");
+    check_added("mu * [J - 1.0]", "[J - 1.0]", "parentheses are round in an energy");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
 }
 

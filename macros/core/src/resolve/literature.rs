@@ -4,7 +4,7 @@
 pub(super) fn name(name: &str) -> Option<&'static str> {
     let plain: String = name.chars().filter(|&c| c != '_').collect();
     Some(match plain.as_str() {
-        "I3" | "III" | "IIIC" => "write `J.powi(2)`",
+        "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
         "I1bar" | "Ibar1" | "I1iso" => "write `I1b`",
         "I2bar" | "Ibar2" | "I2iso" => "write `I2b`",
         "trC" | "IC" => "write `I1`",
