@@ -369,6 +369,14 @@ fn what_vanishes_elsewhere_is_a_limit() {
         assert!(message.contains(way), "{term}: {message}");
         check("domain(J > 0.0)", &energy(&term.replace("I1", "I1b")), &[]);
     }
+    // An upper limit is none of these, though the sign of its distance from 3 be unknown.
+    let locking = "mu * (1 - (-b * (I1 - 3) / (m - 3)).exp()) - mu * (m - 3) * (1 - (I1 - 3) / (m - 3)).ln() + b * (J - 1).powi(2)";
+    let locking = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: f64) -> f64 {{ {locking} }}");
+    let [(_, message)] = &mistakes("", &locking)[..] else { panic!("{locking}") };
+    assert!(
+        message.contains("* J.ln()` with `domain(J > 0.0, 1.0 - (I1 - 3.0) / (m - 3.0) > 0.0)`"),
+        "{message}"
+    );
     // It is the denominator that vanishes, and the whole term that has none.
     check(
         "",

@@ -51,7 +51,8 @@ pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, 
 fn remedy(found: f64) -> &'static str {
     if found.is_nan() {
         "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of something \
-         negative?): write `I1b` for `I1` in it, which is 3 or more wherever J > 0, or add a condition to `domain(…)`"
+         negative?): add a condition to `domain(…)`; or, where I1 − 3 may not be negative, write `I1b` for `I1`, which is 3 or more \
+         wherever J > 0"
     } else {
         "the domain admits these stretches, but the number overflows there: where a denominator or the argument of a logarithm \
          vanishes, add a condition to `domain(…)`; else choose smaller parameters, or narrow the stretches of the test, as in \

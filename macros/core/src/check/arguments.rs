@@ -27,8 +27,11 @@ const WAYS: [[f64; 3]; 9] = [
 /// Points of each way, the last of which is at a stretch of 10 or 1/10.
 const STEPS: usize = 8;
 
-/// Draws of the parameters that are tried.
-const DRAWS: usize = 6;
+/// Draws of the parameters that are tried: so many that limits such as that of I1, which is beyond 3, are on either side.
+const DRAWS: usize = 12;
+
+/// Attempts from one to the next of them, which are over more decades, as long as all are positive.
+const STRIDE: usize = CANDIDATES / 20 / DRAWS;
 
 /// Something that has a value only where another is not zero.
 #[derive(Clone, Copy)]
@@ -166,7 +169,8 @@ fn draws(graph: &Graph, written: &Written<'_>) -> Vec<Point> {
             && value(written.energy).is_finite()
     };
     let draw = |attempt| candidate(written.declaration, &mut random, attempt, written.positive);
-    (0..CANDIDATES).map(draw).filter(is_good).take(DRAWS).collect()
+    let attempts = (0..CANDIDATES / 20).step_by(STRIDE).chain(0..CANDIDATES);
+    attempts.map(draw).filter(is_good).take(DRAWS).collect()
 }
 
 /// Whether it is seen by its form that an expression is positive for positive stretches.
