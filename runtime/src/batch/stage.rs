@@ -104,10 +104,10 @@ impl Marks {
 }
 
 /// The points that are decomposed together. Each gets the same bits in any company.
-#[cfg(not(debug_assertions))]
+#[cfg(not(unoptimised))]
 type Together<R> = <R as Lanes>::Interleaved;
 /// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved, where a thread has 2.
-#[cfg(debug_assertions)]
+#[cfg(unoptimised)]
 type Together<R> = R;
 
 /// The deformation gradients of a tile into frames and stretches.

@@ -1,0 +1,13 @@
+//! Tells the crate by `cfg(unoptimised)` that it is compiled without optimisation, where stack frames are many times as large.
+
+#![expect(clippy::print_stdout, reason = "how a build script speaks to Cargo")]
+
+use std::env;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-check-cfg=cfg(unoptimised)");
+    if env::var("OPT_LEVEL").is_ok_and(|level| level == "0") {
+        println!("cargo::rustc-cfg=unoptimised");
+    }
+}
