@@ -23,7 +23,7 @@
 //! | rule | what must hold |
 //! |---|---|
 //! | [`rest`] | no stress, no twist at F = I, and a positive shear modulus |
-//! | [`domain`] | numbers are finite where they are admitted and do not overflow, and [`Material::ends_at_zero_volume`] tells the truth |
+//! | [`domain`] | numbers are finite where they are admitted, and [`Material::ends_at_zero_volume`] tells the truth |
 //! | [`objectivity`] | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
 //! | [`isotropy`] | rotating the rest shape does likewise, and equal stretches are interchangeable |
 //! | [`symmetric_tangent`] | A : (dP/dF) B = B : (dP/dF) A |
@@ -41,8 +41,7 @@
 //! A material is anything that implements [`Material`], by the macro or by hand; of what it has not, an extension or
 //! invariants, nothing is asked. A check returns what it found or the first [`Violation`]; nothing is printed, nothing
 //! panics but the tests of [`contract!`](crate::contract!). Samples are reproducible: they follow from
-//! [`Settings::seed`]. Points that the material does not admit, or where its energy
-//! overflows, are left out, and a check that could not compare anything
+//! [`Settings::seed`]. Points that the material does not admit are left out, and a check that could not compare anything
 //! says so.
 //!
 //! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the tangent

@@ -51,15 +51,6 @@ pub(super) fn blocks_at<R: Real>(material: &impl Material, stretches: [R; 3]) ->
     material.blocks(stretches)
 }
 
-/// Whether rules look at the material there: it admits the stretches, and ψ ≤ 2⁵¹² Pa, the root of the largest number.
-///
-/// Beyond it derivatives and what is formed of them may overflow: the range of numbers ends, not the domain. The status of a
-/// point says so to a solver. NaN is looked at.
-pub(super) fn is_judged(material: &impl Material, stretches: [f64; 3]) -> bool {
-    let overflows = energy_at(material, stretches) > 2f64.powi(512);
-    is_admitted(material, stretches) && !overflows
-}
-
 /// [`Material::admits`].
 #[inline(never)]
 pub(super) fn is_admitted(material: &impl Material, stretches: [f64; 3]) -> bool {

@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::evaluation::{blocks_at, energy, energy_at, is_judged, stress, tangent};
+use super::evaluation::{blocks_at, energy, energy_at, is_admitted, stress, tangent};
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
 use crate::material::{Material, PAIRS};
@@ -30,7 +30,7 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
         rotated(judge, material, stretches, &diagonal([1.0; 3]), &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
-            if is_judged(material, equal) {
+            if is_admitted(material, equal) {
                 interchangeable(judge, material, equal)?;
             }
         }

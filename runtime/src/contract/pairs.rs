@@ -13,7 +13,7 @@
 //! extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing cancels and the quotients
 //! are what their definition says. Stretches 1 and 3 can only be close together with stretch 2 between them.
 
-use super::evaluation::{blocks_at, is_judged};
+use super::evaluation::{blocks_at, is_admitted};
 use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
 use crate::material::{Blocks, Material, PAIRS};
@@ -80,7 +80,7 @@ fn close(
         };
         let [x, y, z] = at(half);
         let descends = x >= y && y >= z.abs();
-        if !descends || !is_judged(material, at(0.0)) || !is_judged(material, at(half)) {
+        if !descends || !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
             continue;
         }
         let (i, j) = PAIRS[pair];
@@ -109,7 +109,7 @@ fn opposite(
     let [l1, l2, _] = stretches;
     let half = 0.5 * gap * l2;
     let at = |t: f64| [l1.max(1.1 * l2), t + l2, t - l2];
-    if !is_judged(material, at(0.0)) || !is_judged(material, at(half)) {
+    if !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
         return Ok(());
     }
     if material.has_pole() {

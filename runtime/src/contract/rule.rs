@@ -63,9 +63,7 @@ impl Rule {
     pub const fn promise(self) -> &'static str {
         match self {
             Self::Rest => "F = I is free of stress, and shear is resisted there",
-            Self::Domain => {
-                "where the energy is defined, it and its derivatives are finite numbers, short of overflow"
-            }
+            Self::Domain => "where the energy is defined, it and its derivatives are finite numbers",
             Self::Objectivity => "rotating space rotates the stress and leaves the energy",
             Self::Isotropy => "rotating the rest shape rotates the stress, and no stretch is preferred",
             Self::SymmetricTangent => "A : (dP/dF) B = B : (dP/dF) A",

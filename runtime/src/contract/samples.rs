@@ -1,6 +1,6 @@
-//! Where the contract looks: stretches in descending order, at all of which the material is judged.
+//! Where the contract looks: stretches in descending order, of which the material admits all.
 
-use super::evaluation::is_judged;
+use super::evaluation::is_admitted;
 use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::material::{Inversion, Material};
 use crate::random::Random;
@@ -39,7 +39,7 @@ pub(super) fn samples(material: &impl Material, settings: &Settings, random: &mu
             }
             l
         })
-        .filter(|&l| is_judged(material, l))
+        .filter(|&l| is_admitted(material, l))
         .filter(|l| threshold.is_none_or(|epsilon| l.iter().all(|l| (l - epsilon).abs() > 1.0 / 32.0)))
         .collect()
 }

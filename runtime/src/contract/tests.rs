@@ -461,12 +461,10 @@ fn an_energy_that_overflows_is_defined() {
     let flat = [1.0, 1.0, 8e-9];
     assert!(soft.admits(flat) && soft.energy(flat) == f64::INFINITY);
     check_passes(&soft, &Settings::default());
-    // Overflows at samples, too.
+    // At the samples themselves, overflow is a mistake of the energy, its parameters or the range.
     let stiff = Exponential { size: 1.0, rate: 200.0 };
-    for seed in 0..20 {
-        let settings = Settings { seed, ..Settings::default() };
-        domain(&stiff, &settings).unwrap_or_else(|violation| panic!("{violation}"));
-    }
+    let verdict = domain(&stiff, &Settings::default());
+    assert!(verdict.is_err_and(|violation| violation.to_string().contains("overflows there")));
 }
 
 /// [`SaintVenantKirchhoff`] with an energy that has no value below I1 = 3, or one of −∞.

@@ -51,7 +51,7 @@ pub enum Violation {
         /// What to write instead, where the rule knows.
         remedy: Option<String>,
     },
-    /// The material has numbers at none of the sampled points, or has nothing that the rule is about.
+    /// The material admits none of the sampled points, or has nothing that the rule is about.
     NothingToCheck {
         /// The rule.
         rule: Rule,
@@ -105,10 +105,7 @@ impl fmt::Display for Violation {
                 remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
             }
             Self::NothingToCheck { .. } => {
-                write!(
-                    f,
-                    "    the material has numbers at none of the sampled stretches: choose another `range`"
-                )
+                write!(f, "    the material admits none of the sampled stretches: choose another `range`")
             }
         }
     }
