@@ -1,7 +1,5 @@
 //! Tells the crate by `cfg(unoptimised)` that it is compiled without optimisation, where stack frames are many times as large.
 
-#![expect(clippy::print_stdout, reason = "how a build script speaks to Cargo")]
-
 use std::env;
 
 fn main() {
