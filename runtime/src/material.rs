@@ -356,6 +356,13 @@ impl fmt::Display for Inadmissible {
                 write!(f, "`{parameter}` is {value}; it must be a finite number")
             }
             Self::Violated { condition, given } => write!(f, "`{condition}` must hold, but {given}"),
+            Self::UnstableRest { moduli } if !(moduli.mu + moduli.bulk()).is_finite() => write!(
+                f,
+                "the small-strain moduli are no finite numbers, shear modulus {} Pa and bulk modulus {} Pa: \
+                 these parameters divide by zero or overflow somewhere in the energy",
+                moduli.mu,
+                moduli.bulk()
+            ),
             Self::UnstableRest { moduli } => write!(
                 f,
                 "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive, \
@@ -405,6 +412,16 @@ impl std::error::Error for Inadmissible {}
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rest_state_without_moduli_is_not_told_as_unstable() {
+        let unstable = |mu, lambda| Inadmissible::UnstableRest { moduli: Moduli { mu, lambda } }.to_string();
+        assert!(unstable(-1.0, 1.0).contains("must be positive"));
+        // ν = 1/2, and 0/0.
+        for (mu, lambda) in [(1.0, f64::INFINITY), (f64::NAN, 1.0)] {
+            assert!(unstable(mu, lambda).contains("divide by zero or overflow"), "{mu} {lambda}");
+        }
+    }
 
     #[test]
     fn moduli_are_those_that_they_came_from() {
