@@ -56,7 +56,8 @@ fn remedy(found: f64) -> &'static str {
          wherever J > 0"
     } else {
         "the domain admits these stretches, but the number overflows there: where a denominator or the argument of a logarithm \
-         vanishes, add a condition to `domain(…)`; else choose smaller parameters, or narrow the stretches of the test, as in \
+         vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters alone; else choose smaller \
+         parameters, or narrow the stretches of the test, as in \
          `range: (0.7, 1.4)`"
     }
 }

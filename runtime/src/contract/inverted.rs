@@ -1,9 +1,9 @@
 //! The rule on extensions: smooth beside and across the threshold, restoring below it.
 
-use super::evaluation::{gradient_at, is_admitted};
+use super::evaluation::{blocks_at, gradient_at, is_admitted};
 use super::slopes::{Approach, energy_along, stress_along};
 use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
-use crate::material::{Inversion, Material};
+use crate::material::{Blocks, Inversion, Material};
 use crate::random::Random;
 
 /// How far beyond det F = 0 the extension is looked at: λ3 is minus this.
@@ -92,18 +92,23 @@ fn restoring(
     let [l1, l2, _] = stretches;
     let found = gradient_at(material, stretches)[2];
     let remedy = || {
-        let at_threshold = gradient_at(material, [l1, l2, epsilon])[2];
-        // At the threshold the derivative is that of the energy as declared.
-        let (declared, first) = if at_threshold < 0.0 {
-            ("does push λ3 up at epsilon", "")
+        const LOGARITHM: &str = "add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater one, if it has such a \
+                                 term), and state which parameters restore, as in `extend(kappa > 0.0)`";
+        // At the threshold the derivatives are those of the energy as declared.
+        let Blocks { gradient, hessian, .. } = blocks_at(material, [l1, l2, epsilon]);
+        let (declared, first) = if gradient[2] < 0.0 {
+            ("does push λ3 up at epsilon", LOGARITHM.to_owned())
+        } else if hessian[2] > 0.0 {
+            ("falls there, too", format!("choose a smaller `epsilon`, or {LOGARITHM}"))
         } else {
-            ("falls there, too", "choose a smaller `epsilon`, or ")
+            let steeper = "if it is that of an incompressible solid, write `I1b` and `I2b` for `I1` and `I2`; or refuse such \
+                           parameters, by `admissible(…)`; or add what outweighs it as the volume vanishes";
+            ("falls there, too, and the steeper the flatter", steeper.to_owned())
         };
         format!(
             "below epsilon = {epsilon} the extended energy falls as λ3 falls, so that nothing brings a flattened element back; the \
-             energy as declared {declared}: {first}add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater \
-             one, if it has such a term), and state which parameters restore, as in `extend(kappa > 0.0)`; or narrow the \
-             stretches of the test, as in `range: (0.7, 1.4)`; or refuse inversion, by `refuse(\"why\")` in place of `extend`"
+             energy as declared {declared}: {first}; or narrow the stretches of the test, as in `range: (0.7, 1.4)`; or refuse \
+             inversion, by `refuse(\"why\")` in place of `extend`"
         )
     };
     judge.negative(|| gradient_name(2), stretches, found, remedy)

@@ -299,6 +299,69 @@ fn an_extension_that_does_not_restore_says_what_to_change() {
 }
 
 #[test]
+fn what_never_restores_is_not_told_to_begin_later() {
+    let remedy = |curvature| match extension(&Pulling { curvature }, &Settings::default()) {
+        Err(Violation::WrongKind { remedy: Some(remedy), .. }) => remedy,
+        verdict => panic!("{verdict:?}"),
+    };
+    let [milder, steeper] = [1.0, -0.1].map(remedy);
+    assert!(milder.contains("falls there, too: choose a smaller `epsilon`"), "{milder}");
+    assert!(
+        steeper.contains("the steeper the flatter: if it is that of an incompressible solid"),
+        "{steeper}"
+    );
+    assert!(!steeper.contains("smaller `epsilon`"), "{steeper}");
+}
+
+/// Σ f(λ), f′ = 1 + c λ, which pulls elements flat. It is declared for all stretches, and only says that it is extended.
+struct Pulling {
+    curvature: f64,
+}
+
+impl Pulling {
+    fn slope<R: Real>(&self, l: R) -> R {
+        R::splat(1.0) + R::splat(self.curvature) * l
+    }
+}
+
+impl Material for Pulling {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let [e1, e2, e3] = l.map(|l| l * (R::splat(1.0) + R::splat(0.5 * self.curvature) * l));
+        e1 + e2 + e3
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        l.map(|l| self.slope(l))
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (c, zero) = (R::splat(self.curvature), R::splat(0.0));
+        Blocks {
+            gradient: self.gradient(l),
+            hessian: [c, c, c, zero, zero, zero],
+            flip: [c; 3],
+            twist: PAIRS.map(|(i, j)| (self.slope(l[i]) + self.slope(l[j])) / (l[i] + l[j])),
+        }
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn inversion(&self) -> Inversion {
+        Inversion::Extend { epsilon: 0.3 }
+    }
+
+    fn has_pole(&self) -> bool {
+        true
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
+#[test]
 fn defects_that_one_rule_sees_are_named_by_it() {
     let plain = |defect| Defective(NeoHookean, defect);
     check_names_alone(&plain(Defect::LinearInStrains), Rule::Strains, "from the strain");
@@ -465,6 +528,14 @@ fn an_energy_that_overflows_is_defined() {
     let stiff = Exponential { size: 1.0, rate: 200.0 };
     let verdict = domain(&stiff, &Settings::default());
     assert!(verdict.is_err_and(|violation| violation.to_string().contains("overflows there")));
+}
+
+#[test]
+fn what_only_the_wider_format_holds_is_told_as_that() {
+    let steep = Exponential { size: 1.0, rate: 40.0 };
+    domain(&steep, &Settings::default()).unwrap_or_else(|violation| panic!("{violation}"));
+    let verdict = single_precision(&steep, &Settings::default());
+    assert!(verdict.is_err_and(|violation| violation.to_string().contains("`f32` ends at 3.4e38")));
 }
 
 /// [`SaintVenantKirchhoff`] with an energy that has no value below I1 = 3, or one of −∞.
