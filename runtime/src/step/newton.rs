@@ -463,7 +463,9 @@ impl fmt::Display for NewtonError {
             ),
             Self::NotPositive { node, shift } => write!(
                 f,
-                "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added"
+                "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added; \
+                 where elements are so flat that the energy's derivatives differ by more than the digits of a number, extend it \
+                 from a greater `epsilon`, or begin less flat"
             ),
             Self::NotFinite => write!(
                 f,
