@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let fitted = fit(&start, &data, &Settings::default())?;
 
     for number in &fitted.numbers {
-        println!("{:6} {:>10.3e}", number.name, number.value);
+        println!("{:8} {:>10.3e}", number.name, number.value);
     }
     println!("R²: {}", fitted.agreement);
     for warning in &fitted.warnings {

@@ -35,8 +35,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let dt = 1.0 / 60.0;
     let mut frames = Vec::new();
-    for number in 0..=150 {
-        if [0, 1, 2, 4, 6, 8, 10, 14, 20, 30, 60, 150].contains(&number) {
+    for number in 0..=300 {
+        if [0, 1, 2, 4, 6, 8, 10, 14, 20, 30, 60, 300].contains(&number) {
             let vertices = horse.surface_at(simulation.positions());
             frames.push(Frame { number, time: number as f64 * dt, vertices });
         }
