@@ -6,8 +6,8 @@
 //! ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some combination
-//! of parameters only, and there may be several minima; or the energy refuses the best parameters. All four are looked for
-//! and said: [`Warning`].
+//! of parameters only, and there may be several minima; or the energy refuses the best parameters, or gives way in volume where
+//! the fit keeps it. All five are looked for and said: [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
@@ -21,9 +21,9 @@ mod report;
 mod starts;
 mod uniqueness;
 
-use crate::curve::Volume;
 use crate::data::{Measured, Measurements};
 
+pub use crate::curve::Volume;
 pub use candidate::Candidate;
 pub use refusal::Refusal;
 pub use report::{Ended, Fit, FitError, Number, Standing, Warning};
@@ -48,7 +48,8 @@ pub enum Difference {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Whether the specimens keep their volume. Of data without lateral stretches, which most are, this is the
-    /// assumption to make for rubber: default.
+    /// assumption to make for rubber: default. An energy that gives way in volume is another solid then
+    /// ([`Warning::Compressible`]): fit it with [`Volume::Free`].
     pub volume: Volume,
     /// Relative differences by default.
     pub difference: Difference,

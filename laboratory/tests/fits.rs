@@ -1,12 +1,20 @@
 //! Fits whose answer is known.
 
 use nalgebra_34::{DMatrix, DVector};
-use piola_laboratory::curve::{Mode, Volume, respond};
+use piola_laboratory::curve::{Mode, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Difference, Ended, FitError, Settings, Standing, Warning, fit};
+use piola_laboratory::fit::{
+    Candidate, Difference, Ended, Fit, FitError, Settings, Standing, Volume, Warning, fit,
+};
 use piola_materials::{Gent, MooneyRivlin, NeoHookean, Ogden, Storakers, Yeoh};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Rubber after Gao 1997, of a compressible solid: I2/J² is tr C⁻¹.
+#[piola::material(domain(J > 0.0), fit)]
+fn Gao([l1, l2, l3]: [f64; 3], a: f64, n: f64) -> f64 {
+    a * (I1.powf(n) + (I2 / J.powi(2)).powf(n))
+}
 
 fn treloar() -> Measurements {
     Measurements::read(TRELOAR_1944).expect("a table")
@@ -222,5 +230,46 @@ fn trials_beyond_the_limit_of_chains_are_refused_not_fatal() -> Outcome {
         (found.values[0][0] / 3.3e5 - 1.0).abs() < 0.02 && (found.values[1][0] / 108.0 - 1.0).abs() < 0.01,
         "{found:?}"
     );
+    Ok(())
+}
+
+/// Poisson's ratio of a fit at kept volume that is told to be of another solid.
+fn compressible(fit: &Fit) -> Option<f64> {
+    fit.warnings.iter().find_map(|warning| match warning {
+        Warning::Compressible { poisson, .. } => Some(*poisson),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_solid_that_gives_way_is_not_fitted_at_kept_volume_unsaid() -> Outcome {
+    let start = Gao::new(1e4, 1.2)?;
+    let kept = fit(&start, &treloar(), &Settings::default())?;
+    // λ = 8 A n (n − 1) 3ⁿ⁻² and μ = 4 A n 3ⁿ⁻¹.
+    let n = kept.values[1][0];
+    let poisson = compressible(&kept).expect("a warning");
+    assert!((poisson - (n - 1.0) / (2.0 * n + 1.0)).abs() <= 1e-14 && poisson < 0.0, "{kept:?}");
+    let text = kept.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(text.contains("`--compressible`, `Settings { volume: Volume::Free, .. }`"), "{text}");
+    let free = fit(&start, &treloar(), &Settings { volume: Volume::Free, ..Settings::default() })?;
+    assert_eq!(compressible(&free), None, "{free:?}");
+    assert!(free.agreement.total > 0.8 && kept.agreement.total < 0.0, "{free:?}, {kept:?}");
+    // Simple shear keeps the volume of any solid.
+    let sheared = synthetic(&start, Volume::Kept, &[Mode::SimpleShear]);
+    assert_eq!(compressible(&fit(&start, &sheared, &Settings::default())?), None);
+    Ok(())
+}
+
+#[test]
+fn a_bulk_modulus_below_that_of_rubber_is_told_too() -> Outcome {
+    let told = |lambda: f64| {
+        let fitted = fit(&NeoHookean::new(4e5, lambda)?, &treloar(), &Settings::default())?;
+        // ν = λ / (2 (λ + μ))
+        let poisson = lambda / (2.0 * (lambda + fitted.values[0][0]));
+        assert_eq!(compressible(&fitted).is_some(), poisson < 0.45, "{fitted:?}");
+        assert!(compressible(&fitted).is_none_or(|told| (told - poisson).abs() <= 1e-14), "{fitted:?}");
+        Ok::<_, Box<dyn std::error::Error>>(compressible(&fitted).is_some())
+    };
+    assert!(told(1e6)? && !told(2e7)?);
     Ok(())
 }

@@ -70,3 +70,18 @@ fn data_of_ones_own_are_fitted_as_they_ask_for() {
     assert!(text.contains("kappa=2000000\n") && text.contains(" held\n"), "{text}");
     assert!(text.contains("held: the data say nothing about it"), "{text}");
 }
+
+#[test]
+fn a_foam_is_not_fitted_as_rubber_unsaid() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let mut arguments = vec!["fit", "storakers", "--data", "treloar", "--starts", "0"];
+    let text = piola(folder.path(), &arguments);
+    assert!(
+        text.contains("Poisson's ratio at small strain is 0.25; to fit the solid that will move"),
+        "{text}"
+    );
+    assert!(text.contains("(`--compressible`,"), "{text}");
+    arguments.push("--compressible");
+    let text = piola(folder.path(), &arguments);
+    assert!(!text.contains("the volume was kept"), "{text}");
+}

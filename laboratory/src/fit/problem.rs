@@ -2,10 +2,11 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_34::{DMatrix, DVector, Dyn, Owned};
+use piola::material::Moduli;
 
 use super::candidate::{Candidate, Numbers};
 use super::refusal::Refusal;
-use crate::curve::{Response, Volume, respond};
+use crate::curve::{Mode, Response, Volume, respond};
 use crate::data::{Measured, Unanswered};
 use crate::specimen::Ordered;
 
@@ -117,6 +118,16 @@ impl<'a> Problem<'a> {
             Trial::Answers(candidate, _) => candidate.as_ref(),
             Trial::Refused(_) => self.start,
         }
+    }
+
+    /// The small-strain moduli of the energy as tried last, if specimens were made to keep a volume that it might change.
+    ///
+    /// Simple shear keeps the volume of any.
+    pub(super) fn moduli_if_volume_is_imposed(&self) -> Option<Moduli> {
+        let is_imposed = self.points.iter().any(|(point, _)| point.mode != Mode::SimpleShear);
+        let [h11, _, _, h12, _, _] = self.specimen().hessian([1.0; 3]);
+        let moduli = Moduli { mu: 0.5 * (h11 - h12), lambda: h12 };
+        (self.volume == Volume::Kept && is_imposed).then_some(moduli)
     }
 
     /// The number of points.
