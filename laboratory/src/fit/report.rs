@@ -127,6 +127,8 @@ pub enum Warning {
         numbers: Vec<(String, f64)>,
         /// As [`Fit::difference`].
         difference: f64,
+        /// [`Fit::difference`] of the one that was found, to compare with.
+        found: f64,
     },
     /// A better fit is beyond an edge of what the energy accepts: these are the best parameters along it. One warning for each
     /// edge.
@@ -177,13 +179,14 @@ impl fmt::Display for Warning {
                     )
                 }
             },
-            Self::OtherMinimum { numbers, difference, .. } => {
+            Self::OtherMinimum { numbers, difference, found, .. } => {
                 let numbers: Vec<_> =
                     numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
                 write!(
                     f,
-                    "another minimum has differences of {:.3} %: {}",
+                    "another minimum has differences of {:.3} %, beside {:.3} % of this one: {}",
                     100.0 * difference,
+                    100.0 * found,
                     numbers.join(", ")
                 )
             }
@@ -317,6 +320,7 @@ pub(super) fn report(
         values: numbers.lists(&minimum.problem.values),
         numbers: numbers.names.iter().cloned().zip(minimum.problem.values.iter().copied()).collect(),
         difference: difference(minimum),
+        found: difference(best),
     });
     warnings.extend(others);
     Fit {

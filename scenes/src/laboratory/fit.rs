@@ -129,9 +129,13 @@ impl fmt::Display for FitReport {
         )?;
         for warning in &fit.warnings {
             match warning {
-                Warning::OtherMinimum { values, difference, .. } => {
+                Warning::OtherMinimum { values, difference, found, .. } => {
                     let options = self.options(values);
-                    writeln!(f, "warning: as good within {:.3} %: {options}", 100.0 * difference)?;
+                    let [difference, found] = [difference, found].map(|difference| 100.0 * difference);
+                    writeln!(
+                        f,
+                        "warning: another minimum has differences of {difference:.3} %, beside {found:.3} % of this one: {options}"
+                    )?;
                 }
                 // The table says so.
                 Warning::Indifferent { .. } => {}
