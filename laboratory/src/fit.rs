@@ -15,6 +15,7 @@
 mod candidate;
 mod edge;
 mod minimum;
+mod others;
 mod problem;
 mod refusal;
 mod report;

@@ -86,23 +86,29 @@ impl Numbers {
         self.parameters.iter().map(|&(_, length)| next(length)).collect()
     }
 
-    /// The values with the terms of sums in an order of their own: terms that change places are the same energy.
-    pub(super) fn sorted(&self, values: &[f64]) -> Vec<f64> {
-        let mut lists = self.lists(values);
-        let lengths: Vec<usize> = lists.iter().map(Vec::len).filter(|&length| length > 1).collect();
-        for &length in &lengths {
-            let mut terms: Vec<usize> = (0..length).collect();
-            let key = |term: usize| {
-                lists.iter().filter(move |list| list.len() == length).map(move |list| list[term])
-            };
-            // By the last list, which holds the exponents in most sums.
-            terms.sort_by(|&a, &b| {
-                key(b).rev().partial_cmp(key(a).rev()).unwrap_or(std::cmp::Ordering::Equal)
+    /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of a sum that change
+    /// places are the same energy, those of each sum by themselves.
+    pub(super) fn differing(
+        &self,
+        one: &[f64],
+        other: &[f64],
+        is_same: impl Fn(usize, f64, f64) -> bool,
+    ) -> Vec<usize> {
+        let mut begin = 0;
+        let mut differing = Vec::new();
+        for &(_, length) in &self.parameters {
+            let list = begin..begin + length;
+            let [one, other] = [one, other].map(|values| {
+                let mut sorted = values[list.clone()].to_vec();
+                sorted.sort_by(f64::total_cmp);
+                sorted
             });
-            for list in lists.iter_mut().filter(|list| list.len() == length) {
-                *list = terms.iter().map(|&term| list[term]).collect();
+            let mut pairs = list.clone().zip(one.into_iter().zip(other));
+            if !pairs.all(|(number, (one, other))| is_same(number, one, other)) {
+                differing.extend(list);
             }
+            begin += length;
         }
-        lists.concat()
+        differing
     }
 }

@@ -8,7 +8,7 @@ use super::candidate::{Candidate, Numbers};
 use super::refusal::Refusal;
 use crate::curve::{Mode, Response, Volume, respond};
 use crate::data::{Measured, Unanswered};
-use crate::specimen::Ordered;
+use crate::specimen::{self, Ordered};
 
 /// Each residual of a trial that the energy refuses. Far above those of any trial that it does not, it makes the method
 /// take a shorter step; its square is a number still.
@@ -128,6 +128,27 @@ impl<'a> Problem<'a> {
         let [h11, _, _, h12, _, _] = self.specimen().hessian([1.0; 3]);
         let moduli = Moduli { mu: 0.5 * (h11 - h12), lambda: h12 };
         (self.volume == Volume::Kept && is_imposed).then_some(moduli)
+    }
+
+    /// Whether the stresses of another's energy differ from those of this one by no more than that share of the greatest of
+    /// each point.
+    ///
+    /// They are compared at the stretches of the data and at their inverses, which make tension along two axes of tension along
+    /// one: ψ1, ψ2, ψ3 themselves, so that of what keeps its volume the pressure counts too.
+    pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
+        let (Trial::Answers(one, responses), Trial::Answers(other, _)) = (&self.trial, &other.trial) else {
+            return false;
+        };
+        let is_alike = |strains: [f64; 3]| {
+            let [one, other] = [one, other].map(|candidate| specimen::gradient(candidate.as_ref(), strains));
+            let (Some(one), Some(other)) = (one, other) else { return one == other };
+            let greatest = one.iter().fold(0.0_f64, |greatest, stress| greatest.max(stress.abs()));
+            one.iter().zip(other).all(|(one, other)| (one - other).abs() <= share * greatest)
+        };
+        responses.iter().all(|response| {
+            let strains = response.stretches.map(|stretch| stretch - 1.0);
+            is_alike(strains) && is_alike(response.stretches.map(|stretch| 1.0 / stretch - 1.0))
+        })
     }
 
     /// The number of points.

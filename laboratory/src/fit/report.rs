@@ -4,18 +4,10 @@ use std::fmt;
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
+use super::others::{Others, SameSolid, change};
 use super::refusal::Refusal;
 use super::uniqueness::Analysis;
 use crate::data::Agreement;
-
-/// Another minimum is about as good if its differences are at most this much greater than those of the best.
-const ABOUT_AS_GOOD: f64 = 1.1;
-/// Two minima are the same if no parameter differs by more than this share of itself.
-const SAME: f64 = 0.01;
-/// A parameter that is less than this share of the one given is zero, which it comes to be at an edge.
-const ZERO: f64 = 1e-9;
-/// Other minima that are reported: in a flat valley there would be one for each descent.
-const OTHERS: usize = 5;
 
 /// Poisson's ratio at small strain below which it matters that the volume was kept. At 0.45, which simulations of rubber choose
 /// on purpose, the solid that gives way is 3 % softer in tension, by E = 2 (1 + ν) μ for 3 μ, and 12 % in two axes, by
@@ -119,7 +111,7 @@ pub enum Warning {
         /// The root of the mean square of what such a change changes of the differences, to first order.
         effect: f64,
     },
-    /// There is another minimum, about as good.
+    /// There is another minimum, about as good, of a solid with other stresses.
     OtherMinimum {
         /// Its parameters, as [`Fit::values`].
         values: Vec<Vec<f64>>,
@@ -129,6 +121,15 @@ pub enum Warning {
         difference: f64,
         /// [`Fit::difference`] of the one that was found, to compare with.
         found: f64,
+    },
+    /// Other parameters make the same solid: one grows without end, a term has vanished, two terms have become one, or parameters
+    /// make up for each other.
+    SameSolid {
+        /// Name, value, and value of the other, of the parameters that are not the same but for the order of terms; lists with
+        /// all their entries.
+        numbers: Vec<(String, f64, f64)>,
+        /// Whether that is a single one, far beyond where the search began.
+        is_endless: bool,
     },
     /// A better fit is beyond an edge of what the energy accepts: these are the best parameters along it. One warning for each
     /// edge.
@@ -189,6 +190,29 @@ impl fmt::Display for Warning {
                     100.0 * found,
                     numbers.join(", ")
                 )
+            }
+            Self::SameSolid { numbers, is_endless } => {
+                let change = |(_, here, there): &(String, f64, f64)| change(*here, *there);
+                let most = numbers.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
+                let name = most.map_or("", |(name, ..)| name);
+                let [here, there]: [Vec<_>; 2] = [
+                    numbers.iter().map(|(name, here, _)| format!("{name} = {here:.4e}")).collect(),
+                    numbers.iter().map(|(name, _, there)| format!("{name} = {there:.4e}")).collect(),
+                ];
+                let (here, there) = (here.join(", "), there.join(", "));
+                let hold = format_args!("(`--hold {name}`, `Settings::held`)");
+                match is_endless {
+                    true => write!(
+                        f,
+                        "{name} grows without end: {there} does about as well as {here}; hold it {hold}, or declare what the \
+                         energy becomes in that limit"
+                    ),
+                    false => write!(
+                        f,
+                        "the solid is the same with {there} as with {here}: a term has vanished, two terms have become \
+                         one, or parameters make up for each other; hold one of them {hold}, or leave the term out"
+                    ),
+                }
             }
             Self::Edge { reason } => write!(
                 f,
@@ -316,13 +340,21 @@ pub(super) fn report(
         warnings.push(Warning::Unfinished);
     }
     warnings.extend(analysis.warnings);
-    let others = others(numbers, minima, best).into_iter().map(|minimum| Warning::OtherMinimum {
+    let Others { solids, same_solid } = Others::of(best, minima, numbers);
+    let others = solids.into_iter().map(|minimum| Warning::OtherMinimum {
         values: numbers.lists(&minimum.problem.values),
         numbers: numbers.names.iter().cloned().zip(minimum.problem.values.iter().copied()).collect(),
         difference: difference(minimum),
         found: difference(best),
     });
     warnings.extend(others);
+    warnings.extend(same_solid.map(|SameSolid { minimum, differing, is_endless, .. }| {
+        let both = |number: usize| {
+            let [here, there] = [best, minimum].map(|minimum| minimum.problem.values[number]);
+            (numbers.names[number].clone(), here, there)
+        };
+        Warning::SameSolid { numbers: differing.into_iter().map(both).collect(), is_endless }
+    }));
     Fit {
         values: numbers.lists(&best.problem.values),
         numbers: fitted,
@@ -344,28 +376,4 @@ fn compressible(best: &Minimum<'_>) -> Option<Warning> {
     // Prestressed energies may have moduli of which no ratio makes sense.
     let is_told = moduli.mu > 0.0 && moduli.bulk() >= 0.0 && poisson < NEARLY_INCOMPRESSIBLE;
     is_told.then_some(Warning::Compressible { poisson, bulk: RUBBER * moduli.mu })
-}
-
-/// Minima about as good as the best, the best among them first, each once, and no more than so many.
-fn others<'a, 'b>(numbers: &Numbers, minima: &'a [Minimum<'b>], best: &Minimum<'b>) -> Vec<&'a Minimum<'b>> {
-    // What is exact but for rounding is as good as what is exact.
-    let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
-    let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
-    let mut good: Vec<_> = good.collect();
-    good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-    let is_same = |one: &Vec<f64>, other: &Vec<f64>| {
-        let mut pairs = one.iter().zip(other).zip(&numbers.values);
-        pairs.all(|((a, b), start)| (a - b).abs() <= SAME * a.abs().max(b.abs()) + ZERO * start.abs())
-    };
-    let mut seen = vec![numbers.sorted(&best.problem.values)];
-    good.retain(|minimum| {
-        let values = numbers.sorted(&minimum.problem.values);
-        let is_new = !seen.iter().any(|other| is_same(other, &values));
-        if is_new {
-            seen.push(values);
-        }
-        is_new
-    });
-    good.truncate(OTHERS);
-    good
 }

@@ -1,0 +1,102 @@
+//! Minima beside the best one: other solids that agree with the data about as well, and other parameters of the same solid.
+//!
+//! Parameters tell solids badly apart. Terms of a sum exchange their places; the exponent of a term whose coefficient has
+//! vanished may be any; of two terms with the same exponent only the sum matters; and a parameter that grows without end
+//! changes less and less. So it is stresses that are compared.
+
+use super::candidate::Numbers;
+use super::minimum::Minimum;
+
+/// Another minimum is about as good if its differences are at most this much greater than those of the best.
+const ABOUT_AS_GOOD: f64 = 1.1;
+/// Parameters are the same if they differ by no more than this share of themselves.
+const SAME: f64 = 0.01;
+/// A parameter that is less than this share of the one given is zero, which it comes to be at an edge.
+const ZERO: f64 = 1e-9;
+/// Solids are the same if no stress differs by more than this share of the greatest there, which no machine measures.
+const SAME_STRESS: f64 = 1e-3;
+/// A number that became this many times the one given, of which random starts are ten times at most, has no end in sight where
+/// it may be another while all others stay.
+const ENDLESS: f64 = 1e3;
+/// Other minima that are reported: in a flat valley there would be one for each descent.
+const OTHERS: usize = 5;
+
+/// Minima about as good as the best.
+pub(super) struct Others<'a, 'b> {
+    /// Of other solids, the best among them first, each once, and no more than so many.
+    pub(super) solids: Vec<&'a Minimum<'b>>,
+    /// That of the same solid whose parameters are the furthest.
+    pub(super) same_solid: Option<SameSolid<'a, 'b>>,
+}
+
+/// Other parameters of the best solid.
+pub(super) struct SameSolid<'a, 'b> {
+    pub(super) minimum: &'a Minimum<'b>,
+    /// The numbers that are not the same.
+    pub(super) differing: Vec<usize>,
+    /// Whether that is one that grows without end.
+    pub(super) is_endless: bool,
+    /// The greatest [`change`] of these.
+    distance: f64,
+}
+
+impl<'a, 'b> Others<'a, 'b> {
+    pub(super) fn of(best: &'a Minimum<'b>, minima: &'a [Minimum<'b>], numbers: &Numbers) -> Self {
+        // What is exact but for rounding is as good as what is exact.
+        let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
+        let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
+        let mut good: Vec<_> = good.collect();
+        good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
+
+        let is_same = |number: usize, one: f64, other: f64| {
+            let zero = ZERO * numbers.values[number].abs();
+            (one - other).abs() <= SAME * one.abs().max(other.abs()) + zero
+        };
+        let differing = |one: &Minimum<'_>, other: &Minimum<'_>| {
+            numbers.differing(&one.problem.values, &other.problem.values, is_same)
+        };
+        // Far out, sums such as 1 + x/n leave nothing but rounding, which stresses then show.
+        let is_endless = |differing: &[usize], one: &Minimum<'_>, other: &Minimum<'_>| match *differing {
+            [number] => {
+                let [one, other] = [one, other].map(|minimum| minimum.problem.values[number]);
+                let far = ENDLESS * numbers.values[number].abs();
+                far > 0.0 && one * other > 0.0 && one.abs().min(other.abs()) >= far
+            }
+            _ => false,
+        };
+        let (mut solids, mut same_solid) = (vec![best], None::<SameSolid<'_, '_>>);
+        for minimum in good {
+            let is_of = |solid: &&Minimum<'_>| {
+                let differing = differing(solid, minimum);
+                differing.is_empty()
+                    || is_endless(&differing, solid, minimum)
+                    || solid.problem.has_stresses_of(&minimum.problem, SAME_STRESS)
+            };
+            match solids.iter().position(is_of) {
+                None => solids.push(minimum),
+                Some(0) => {
+                    let differing = differing(best, minimum);
+                    let distance = distance(best, minimum, &differing);
+                    let is_endless = is_endless(&differing, best, minimum);
+                    if distance > same_solid.as_ref().map_or(0.0, |furthest| furthest.distance) {
+                        same_solid = Some(SameSolid { minimum, differing, is_endless, distance });
+                    }
+                }
+                Some(_) => {}
+            }
+        }
+        let solids = solids.into_iter().skip(1).take(OTHERS).collect();
+        Self { solids, same_solid }
+    }
+}
+
+/// How far apart two values are, relative to the lesser of them.
+pub(super) fn change(one: f64, other: f64) -> f64 {
+    if one == other { 0.0 } else { (one - other).abs() / one.abs().min(other.abs()) }
+}
+
+/// The greatest change of these numbers.
+fn distance(one: &Minimum<'_>, other: &Minimum<'_>, numbers: &[usize]) -> f64 {
+    let change = |&number: &usize| change(one.problem.values[number], other.problem.values[number]);
+    numbers.iter().map(change).fold(0.0, f64::max)
+}

@@ -1,0 +1,96 @@
+//! Other minima, and what only looks like one.
+
+use piola_laboratory::curve::{Mode, respond};
+use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
+use piola_laboratory::fit::{Candidate, Fit, Settings, Volume, Warning, fit};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Rubber after Swanson 1985: two sums.
+#[piola::material(domain(J > 0.0), admissible(alpha[p] > -1.0, beta[p] > -1.0), fit)]
+fn Swanson<const N: usize>(
+    [l1, l2, l3]: [f64; 3],
+    a: [f64; N],
+    alpha: [f64; N],
+    b: [f64; N],
+    beta: [f64; N],
+    kappa: f64,
+) -> f64 {
+    let first = sum(|p| a[p] / (1.0 + alpha[p]) * (I1b / 3.0).powf(1.0 + alpha[p]));
+    let second = sum(|p| b[p] / (1.0 + beta[p]) * (I2b / 3.0).powf(1.0 + beta[p]));
+    1.5 * (first + second) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// Rubber after Hoss and Marczak 2010, the part for large stretches of which becomes an exponential as n grows.
+#[piola::material(domain(J > 0.0), admissible(beta > 0.0, b > 0.0, n > 0.0), fit)]
+fn HossMarczak([l1, l2, l3]: [f64; 3], alpha: f64, beta: f64, mu: f64, b: f64, n: f64, kappa: f64) -> f64 {
+    let small = alpha / beta * (1.0 - (-beta * (I1b - 3.0)).exp());
+    let large = mu / (2.0 * b) * ((1.0 + b * (I1b - 3.0) / n).powf(n) - 1.0);
+    small + large + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// What a material answers in three tests, as if measured.
+fn synthetic(material: &dyn Candidate) -> Result<Measurements, Box<dyn std::error::Error>> {
+    let mut points = Vec::new();
+    for mode in [Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear] {
+        for control in [1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0] {
+            let stress = respond(material, mode, Volume::Kept, control)?.stress;
+            points.push(Measured { mode, control, stress });
+        }
+    }
+    Ok(Measurements { points })
+}
+
+/// What is said of other minima.
+fn others(fit: &Fit) -> Vec<&Warning> {
+    let is_other =
+        |warning: &&Warning| matches!(warning, Warning::OtherMinimum { .. } | Warning::SameSolid { .. });
+    fit.warnings.iter().filter(is_other).collect()
+}
+
+#[test]
+fn terms_of_each_sum_change_places_unsaid() -> Outcome {
+    let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 1e2], [-0.3, 1.4], 2e7)?;
+    let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
+    let found = fit(&start, &synthetic(&truth)?, &Settings::default())?;
+    assert!(found.difference <= 1e-9 && found.descents > 10, "{found:?}");
+    assert!(others(&found).is_empty(), "{:?}", others(&found));
+    Ok(())
+}
+
+#[test]
+fn of_a_term_that_has_vanished_the_exponent_makes_no_other_minimum() -> Outcome {
+    let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 0.0], [-0.3, 1.4], 2e7)?;
+    let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
+    let found = fit(&start, &synthetic(&truth)?, &Settings::default())?;
+    let [Warning::SameSolid { numbers, is_endless: false }] = others(&found)[..] else {
+        panic!("{:?}", others(&found));
+    };
+    let names: Vec<_> = numbers.iter().map(|(name, ..)| name.as_str()).collect();
+    assert_eq!(names, ["beta_1", "beta_2"], "the coefficients are the same, 0 among them");
+    let text = others(&found)[0].to_string();
+    assert!(text.contains("(`--hold beta_2`, `Settings::held`), or leave the term out"), "{text}");
+    Ok(())
+}
+
+#[test]
+fn what_grows_without_end_is_said_once() -> Outcome {
+    let start = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 2.0, 2e7)?;
+    let limit = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 1e9, 2e7)?;
+    // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and the stresses show it.
+    for data in [synthetic(&limit)?, Measurements::read(TRELOAR_1944)?] {
+        let found = fit(&start, &data, &Settings::default())?;
+        let said = others(&found);
+        let endless: Vec<_> = said
+            .iter()
+            .filter(|other| matches!(other, Warning::SameSolid { is_endless: true, .. }))
+            .collect();
+        let [endless] = endless[..] else { panic!("{said:?}") };
+        assert!(endless.to_string().starts_with("n grows without end: n = "), "{endless}");
+        for other in said {
+            let Warning::OtherMinimum { values, .. } = other else { continue };
+            assert!(values[4][0] < 1e3, "{other:?}");
+        }
+    }
+    Ok(())
+}
