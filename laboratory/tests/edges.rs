@@ -43,6 +43,12 @@ fn Softening([l1, l2, l3]: [f64; 3], mu: f64, a: f64) -> f64 {
     mu * (I1b - 3.0) * (2.0 * a - I1b - 3.0) + 1e8 * (J - 1.0).powi(2)
 }
 
+/// Powers of the first invariant above a bound.
+#[piola::material(domain(J > 0.0), fit, admissible(alpha[p] >= 1.5))]
+fn Powers<const N: usize>([l1, l2, l3]: [f64; 3], mu: [f64; N], alpha: [f64; N]) -> f64 {
+    sum(|p| mu[p] / alpha[p] * (I1b / 3.0).powf(alpha[p])) + 1e8 * (J - 1.0).powi(2)
+}
+
 fn treloar() -> Measurements {
     Measurements::read(TRELOAR_1944).expect("a table")
 }
@@ -281,5 +287,18 @@ fn a_minimum_inside_is_no_edge() -> Outcome {
     let found = fit(&Bounded::new(2e4, 9e4)?, &data, &Settings::default())?;
     assert!(edges(&found).is_empty() && found.ended != Ended::Edge, "{found:?}");
     assert!(found.numbers.iter().all(|number| number.error.is_some()), "{found:?}");
+    Ok(())
+}
+
+#[test]
+fn entries_of_lists_at_an_edge_go_by_their_names_among_the_numbers() -> Outcome {
+    let found = fit(&Powers::new([3e5], [2.0])?, &treloar(), &Settings::default())?;
+    assert_eq!(conditions(&found), ["alpha[p] >= 1.5"]);
+    let text = found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(
+        text.contains("but alpha[0] = 1.4") && text.contains(" (alpha[0] is the number alpha_1); hold"),
+        "{text}"
+    );
+    assert_eq!(found.numbers[1].name, "alpha_1");
     Ok(())
 }

@@ -38,6 +38,18 @@ impl Refusal {
             _ => false,
         }
     }
+
+    /// The entries of lists that a constructor speaks of, each with its name among the numbers, which count from 1:
+    /// `beta[0]` and `beta_1`.
+    pub(super) fn entries(&self) -> Vec<(&str, String)> {
+        let Self::Inadmissible(Inadmissible::Violated { given, .. }) = self else { return Vec::new() };
+        let entry = |given| {
+            let (entry, _value) = str::split_once(given, " = ")?;
+            let (list, index) = entry.strip_suffix(']')?.split_once('[')?;
+            Some((entry, format!("{list}_{}", index.parse::<usize>().ok()? + 1)))
+        };
+        given.split(", ").filter_map(entry).collect()
+    }
 }
 
 impl fmt::Display for Refusal {
@@ -46,5 +58,20 @@ impl fmt::Display for Refusal {
             Self::Inadmissible(reason) => reason.fmt(f),
             Self::Unanswered(unanswered) => unanswered.fmt(f),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_of_lists_go_by_the_names_of_numbers() {
+        let given = |given: &str| {
+            Refusal::Inadmissible(Inadmissible::Violated { condition: "", given: given.into() })
+        };
+        let names = [("mu[0]", "mu_1".to_owned()), ("alpha[11]", "alpha_12".to_owned())];
+        assert_eq!(given("mu[0] = -1, kappa = 2, alpha[11] = 0.5").entries(), names);
+        assert_eq!(given("kappa = 2").entries(), []);
     }
 }

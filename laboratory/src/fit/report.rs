@@ -214,12 +214,19 @@ impl fmt::Display for Warning {
                     ),
                 }
             }
-            Self::Edge { reason } => write!(
-                f,
-                "the search ended at an edge of what the energy accepts, and a better fit is beyond: there {reason}; \
-                 hold a parameter, start elsewhere, add data of other tests, or, if the bound is one of `admissible` and \
-                 not of physics, move it"
-            ),
+            Self::Edge { reason } => {
+                write!(
+                    f,
+                    "the search ended at an edge of what the energy accepts, and a better fit is beyond: there {reason}"
+                )?;
+                for (entry, number) in reason.entries() {
+                    write!(f, " ({entry} is the number {number})")?;
+                }
+                f.write_str(
+                    "; hold a parameter, start elsewhere, add data of other tests, or, if the bound is one of `admissible` \
+                     and not of physics, move it",
+                )
+            }
             Self::Compressible { poisson, bulk } => write!(
                 f,
                 "the volume was kept, but this energy gives way: its Poisson's ratio at small strain is {poisson:.2}; to fit \
