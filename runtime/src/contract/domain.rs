@@ -4,7 +4,7 @@ use super::evaluation::{energy_at, gradient_at, is_admitted};
 use super::numbers::{name, numbers_alone};
 use super::samples::at_samples;
 use super::{Finding, Rule, Settings, Violation, gradient_name};
-use crate::material::Material;
+use crate::material::{Inversion, Material};
 
 /// Where the material is defined, its numbers are, and it says truly whether the sign of λ3 decides:
 ///
@@ -20,7 +20,7 @@ use crate::material::Material;
 pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
         for (k, number) in numbers_alone(material, stretches).into_iter().enumerate() {
-            judge.finite(|| name(k), stretches, number, remedy(number))?;
+            judge.finite(|| name(k), stretches, number, &remedy(material, stretches, number))?;
         }
         let [l1, l2, _] = stretches;
         let flat = [-10, -20, -30].map(|k| l1 * 2f64.powi(k));
@@ -29,12 +29,22 @@ pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, 
             if l2 >= l3.abs() && is_admitted(material, stretches) {
                 let energy = energy_at(material, stretches);
                 if energy != f64::INFINITY {
-                    judge.finite(|| "energy".into(), stretches, energy, remedy(energy))?;
+                    judge.finite(
+                        || "energy".into(),
+                        stretches,
+                        energy,
+                        &remedy(material, stretches, energy),
+                    )?;
                 }
                 let overflows = energy > 2f64.powi(512);
                 if !overflows {
                     for (k, slope) in gradient_at(material, stretches).into_iter().enumerate() {
-                        judge.finite(|| gradient_name(k), stretches, slope, remedy(slope))?;
+                        judge.finite(
+                            || gradient_name(k),
+                            stretches,
+                            slope,
+                            &remedy(material, stretches, slope),
+                        )?;
                     }
                 }
             }
@@ -49,15 +59,20 @@ pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, 
 }
 
 /// What to do about an energy or derivative that is no finite number.
-fn remedy(found: f64) -> &'static str {
-    if found.is_nan() {
-        "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of something \
-         negative?): add a condition to `domain(…)`; or, where I1 − 3 may not be negative, write `I1b` for `I1`, which is 3 or more \
-         wherever J > 0"
-    } else {
-        "the domain admits these stretches, but the number overflows there: where a denominator or the argument of a logarithm \
-         vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters alone; else choose smaller \
-         parameters, or narrow the stretches of the test, as in \
-         `range: (0.7, 1.4)`"
+fn remedy(material: &impl Material, [_, _, l3]: [f64; 3], found: f64) -> String {
+    const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
+                        something negative?): add a condition to `domain(…)`; or, where I1 − 3 may not be negative, write `I1b` \
+                        for `I1`, which is 3 or more wherever J > 0";
+    const BEYOND: &str = "the domain admits these stretches, but the number overflows there: where a denominator or the argument of \
+                          a logarithm vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters \
+                          alone; else choose smaller parameters, or narrow the stretches of the test, as in `range: (0.7, 1.4)`";
+    match material.inversion() {
+        _ if found.is_nan() => NONE.into(),
+        Inversion::Extend { epsilon } if l3 < epsilon => format!(
+            "the energy overflows where its extension begun at epsilon = {epsilon} has come to these stretches, as exponentials and \
+             high powers do: choose a greater `epsilon` or smaller parameters, or narrow the stretches of the test, as in \
+             `range: (0.7, 1.4)`"
+        ),
+        _ => BEYOND.into(),
     }
 }

@@ -115,14 +115,14 @@ fn opposite(
     if material.has_pole() {
         // Large at the pole, and bounded.
         let stored = at(half);
-        let twist = blocks_at(material, stored).twist[2];
+        let Blocks { gradient, twist, .. } = blocks_at(material, stored);
         let name = || format!("{} at a pole", pair_name("twist", 2));
-        return judge.finite(
-            name,
-            stored,
-            twist,
-            "bound its denominator from below by `quotient::pole_floor`",
-        );
+        let remedy = if gradient.iter().all(|slope| slope.is_finite()) {
+            "bound its denominator from below by `quotient::pole_floor`"
+        } else {
+            "the derivatives of the energy overflow here, too: see the rule `domain`"
+        };
+        return judge.finite(name, stored, twist[2], remedy);
     }
     let stored = at(half);
     let exact = 0.5 * (stored[1] + stored[2]);

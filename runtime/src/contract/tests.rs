@@ -53,6 +53,7 @@ enum Defect {
     DeniesItsEnd,
     EndsAtInversion,
     UnboundedPole,
+    OverflowsInExtension,
 }
 
 struct Defective<M>(M, Defect);
@@ -65,6 +66,9 @@ impl<M: Material> Material for Defective<M> {
             Defect::PrefersFirstStretch => right + quartic(l[0])[0],
             Defect::JumpingEnergy => {
                 right + R::select(l[2].less(R::splat(0.8)), R::splat(1e-6), R::splat(0.0))
+            }
+            Defect::OverflowsInExtension => {
+                R::select(l[2].less(R::splat(-0.1)), R::splat(f64::INFINITY), right)
             }
             Defect::AttractsCollapse => right + R::splat(100.0) * below(l[2]) * below(l[2]) * below(l[2]),
             _ => right,
@@ -148,7 +152,8 @@ impl<M: Material> Material for Defective<M> {
             | Defect::OverstatedShear
             | Defect::JumpingEnergy
             | Defect::DeniesItsEnd
-            | Defect::EndsAtInversion => {}
+            | Defect::EndsAtInversion
+            | Defect::OverflowsInExtension => {}
         }
         blocks
     }
@@ -526,8 +531,11 @@ fn an_energy_that_overflows_is_defined() {
     check_passes(&soft, &Settings::default());
     // At the samples themselves, overflow is a mistake of the energy, its parameters or the range.
     let stiff = Exponential { size: 1.0, rate: 200.0 };
-    let verdict = domain(&stiff, &Settings::default());
-    assert!(verdict.is_err_and(|violation| violation.to_string().contains("overflows there")));
+    let text = |verdict: Result<Finding, Violation>| verdict.expect_err("overflow").to_string();
+    assert!(text(domain(&stiff, &Settings::default())).contains("overflows there"));
+    // In an extension, of where it begins as well.
+    let extended = Defective(ExtendedNeoHookean { epsilon: 0.3 }, Defect::OverflowsInExtension);
+    assert!(text(domain(&extended, &Settings::default())).contains("choose a greater `epsilon`"));
 }
 
 #[test]
