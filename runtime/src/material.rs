@@ -363,12 +363,16 @@ impl fmt::Display for Inadmissible {
                 moduli.mu,
                 moduli.bulk()
             ),
+            Self::UnstableRest { moduli } if moduli.mu > 0.0 => write!(
+                f,
+                "the rest state would be unstable: the small-strain bulk modulus is {} Pa and must not be negative, which a greater \
+                 resistance to changes of volume mends",
+                moduli.bulk()
+            ),
             Self::UnstableRest { moduli } => write!(
                 f,
-                "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive, \
-                 the bulk modulus is {} Pa and must not be negative",
-                moduli.mu,
-                moduli.bulk()
+                "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive",
+                moduli.mu
             ),
             Self::YoungPoisson { young, poisson } => write!(
                 f,
@@ -414,9 +418,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rest_state_without_moduli_is_not_told_as_unstable() {
+    fn an_unstable_rest_state_is_told_by_the_modulus_that_makes_it_so() {
         let unstable = |mu, lambda| Inadmissible::UnstableRest { moduli: Moduli { mu, lambda } }.to_string();
-        assert!(unstable(-1.0, 1.0).contains("must be positive"));
+        assert!(unstable(-1.0, 1.0).ends_with("shear modulus is -1 Pa and must be positive"));
+        assert!(unstable(1.5, -2.0).contains("bulk modulus is -1 Pa and must not be negative"));
         // ν = 1/2, and 0/0.
         for (mu, lambda) in [(1.0, f64::INFINITY), (f64::NAN, 1.0)] {
             assert!(unstable(mu, lambda).contains("divide by zero or overflow"), "{mu} {lambda}");
