@@ -256,12 +256,23 @@ pub fn rest(
             (_, None) => balance(graph, written, stress, &[]),
         };
         let message = format!(
-            "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute",
+            "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute{}",
             source(graph, written.declaration, stress),
-            ways
+            ways,
+            if is_of_volumes(written.declaration) { MISTYPED } else { "" },
         );
         diagnostics.error(culprit, message);
     }
+}
+
+/// What is likelier than a missing term where the energy is one of a compressible solid.
+const MISTYPED: &str = " (if the paper's solid is compressible, a factor or a power is mistyped)";
+
+/// Whether the declaration speaks of changes of volume, as none of an incompressible solid does.
+fn is_of_volumes(declaration: &Declaration) -> bool {
+    let names = identifiers(declaration.body.to_token_stream());
+    let is_volume = |name| ["J", "I1b", "I2b"].into_iter().any(|volume| name == volume);
+    !declaration.options.domain.is_empty() || names.iter().any(is_volume)
 }
 
 /// What takes the stress at rest away, to be pasted, with what else the domain wants.

@@ -284,6 +284,23 @@ fn physics() {
     );
 }
 
+/// An incompressible solid lacks a term; where the volume is spoken of, what is written is wrong.
+#[test]
+fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
+    let says_so = |attribute: &str, energy: &str| {
+        let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 {{ mu * n * ({energy}) }}");
+        let [(_, message)] = &mistakes(attribute, &item)[..] else { panic!("{energy}") };
+        message.ends_with(
+            "in the attribute (if the paper's solid is compressible, a factor or a power is mistyped)",
+        )
+    };
+    assert!(says_so("domain(J > 0.0)", "I1.powf(n) + (I2 / J).powf(n)"));
+    assert!(says_so("domain(J > 0.0)", "l1 + l2 + l3"));
+    assert!(says_so("", "I1 - 3.0 + J"));
+    assert!(!says_so("", "I1 - 3.0"));
+    assert!(!says_so("", "l1.powi(4) + l2.powi(4) + l3.powi(4) - 3.0"));
+}
+
 #[test]
 fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
     let check = |energy: &str, isochoric: Option<&str>| {
