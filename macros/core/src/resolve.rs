@@ -16,6 +16,7 @@ mod calls;
 mod literature;
 mod names;
 mod sums;
+mod tensors;
 
 /// Gives names their meaning in one declaration.
 pub struct Resolver<'a> {

@@ -150,7 +150,11 @@ fn names() {
     );
     check_added("I3", "I3", "write `J.powi(2)`");
     check_added("I1_bar", "I1_bar", "write `I1b`");
-    check_added("E", "E", "the Green strain has eigenvalues");
+    check_added(
+        "E",
+        "E",
+        "C has eigenvalues `l1.powi(2)` and so on, the Green strain E `(l1.powi(2) - 1.0) / 2.0`",
+    );
     check_added("std::f64::consts::PI", "std::f64::consts::PI", "write constants as numbers");
     check_added("f64::INFINITY", "f64::INFINITY", "the numbers of an energy are finite");
     check_body(&format!("let unused = 1.0; {GOOD}"), &[("unused", "`unused` is not used")]);
@@ -166,7 +170,7 @@ fn calls_and_operators() {
     check_added("J.gamma()", "gamma", "there are `.powi(2)`, `.powf(alpha)`");
     check_added("J.sinh()", "sinh", "write `(x.exp() - (-x).exp()) / 2.0`");
     check_added("J.atan()", "atan", "give it as a parameter, `f: piola::Spline`");
-    check_added("tr(J)", "tr", "write `I1` for the trace of C");
+    check_added("tr(J)", "tr", "write the sum of the eigenvalues");
     check_added("J.abs()", "abs", "`abs` has a kink");
     check_added("J.ln(2.0)", "ln", "`ln` takes no argument");
     check_added("J.powi()", "powi", "one argument, the exponent");
@@ -194,6 +198,41 @@ fn calls_and_operators() {
     check_added("[J, mu]", "[J, mu]", "lists are parameters, as `mu: [f64; N]`");
     check_added("mu * [J - 1.0]", "[J - 1.0]", "parentheses are round in an energy");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
+}
+
+/// Papers write tr C⁻¹, which is I2/J², not I1; each is one mistake.
+#[test]
+fn tensors() {
+    for c in ["C", "b", "B", "C.inverse().inverse()"] {
+        check_added(&format!("tr({c})"), "tr", "write `I1` for the trace of C");
+        check_added(&format!("{c}.trace()"), "trace", "write `I1` for the trace of C");
+        check_added(&format!("det({c})"), "det", "write `J.powi(2)` for the determinant of C");
+    }
+    for inverse in [
+        "C.inverse()",
+        "C.inv()",
+        "C.powi(-1)",
+        "(C).powf(-1.0)",
+        "C.recip()",
+        "inverse(C)",
+        "Cinv",
+        "C_inv",
+        "invC",
+        "b_inv",
+    ] {
+        check_added(&format!("tr({inverse})"), "tr", "write `I2 / J.powi(2)` for the trace of C⁻¹");
+        check_added(&format!("{inverse}.trace()"), "trace", "write `I2 / J.powi(2)` for the trace of C⁻¹");
+    }
+    for other in ["E", "U", "C.powi(2)", "C.sqrt()", "C * C", "(E - 1.0)", "C.inverse().powi(2)", "C.foo()"] {
+        check_added(&format!("tr({other})"), "tr", "write the sum of the eigenvalues, of C `l1.powi(2)`");
+        check_added(&format!("({other}).trace()"), "trace", "write the sum of the eigenvalues");
+    }
+    check_added("F.determinant()", "determinant", "write `J` for the determinant of F");
+    check_added("C.inverse()", "C", "C has eigenvalues");
+    check_added("C.transpose().double_dot(C)", "C", "C has eigenvalues");
+    check_added("Cinv", "Cinv", "C has eigenvalues");
+    // What the declaration names is no tensor.
+    check_body(&format!("let b = mu; {GOOD} + tr(b)"), &[("tr", "write the sum of the eigenvalues")]);
 }
 
 #[test]

@@ -3,9 +3,11 @@
 use quote::ToTokens;
 use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
+use super::tensors::{self, Tensor};
 use super::{Resolver, Scope, literature};
 use crate::expr::{Exponent, Id, Node};
 use crate::literals::is_number;
+use crate::parse::identifiers;
 use crate::rational::Rational;
 use crate::spelling::{list, nearest};
 
@@ -39,13 +41,18 @@ const KINKED: [&str; 12] = [
 impl Resolver<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Id {
         let name = call.method.to_string();
+        if form(&name).is_none()
+            && let Some(tensor) = self.tensor(&call.receiver)
+        {
+            return self.tensor_function(call, tensor);
+        }
         let receiver = self.expression(&call.receiver);
         let expected = match name.as_str() {
             "powi" | "powf" => 1,
             name if form(name).is_some() => 0,
             _ => {
                 self.excuse_names(&call.args);
-                return self.unknown_function(&call.method);
+                return self.unknown_function(&call.method, None);
             }
         };
         if call.args.len() != expected {
@@ -69,7 +76,23 @@ impl Resolver<'_> {
         }
     }
 
-    fn unknown_function(&mut self, method: &Ident) -> Id {
+    /// What has no value by itself gives one message, on the function or on its name.
+    fn tensor_function(&mut self, call: &ExprMethodCall, of: Tensor) -> Id {
+        self.excuse_names(call);
+        if tensors::function(&call.method.to_string(), None).is_some() {
+            return self.unknown_function(&call.method, Some(of));
+        }
+        self.expression(&call.receiver)
+    }
+
+    /// The tensor of a paper that an expression is, unless the declaration gives a meaning to a name in it.
+    fn tensor(&self, expression: &Expr) -> Option<Tensor> {
+        let names = identifiers(expression.to_token_stream());
+        let has_meaning = |name: &Ident| self.is_taken(name) || self.mistaken.contains(&name.to_string());
+        tensors::tensor(expression).filter(|_| !names.iter().any(has_meaning))
+    }
+
+    fn unknown_function(&mut self, method: &Ident, of: Option<Tensor>) -> Id {
         let name = method.to_string();
         if KINKED.contains(&name.as_str()) {
             let message = format!(
@@ -78,7 +101,7 @@ impl Resolver<'_> {
             return self.mistake(method, &message);
         }
         let near = || nearest(&name, METHODS.map(|(known, _)| known)).and_then(form);
-        let hint = match literature::function(&name) {
+        let hint = match tensors::function(&name, of).or_else(|| literature::function(&name)) {
             Some(hint) => hint.to_owned(),
             None => match near() {
                 Some(form) => format!("did you mean `{form}`?"),
@@ -159,7 +182,8 @@ impl Resolver<'_> {
             }
             _ => {
                 self.excuse_names(call);
-                self.unknown_function(&name)
+                let tensor = call.args.first().and_then(|argument| self.tensor(argument));
+                self.unknown_function(&name, tensor)
             }
         }
     }

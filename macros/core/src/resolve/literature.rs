@@ -1,9 +1,10 @@
 //! What papers write and a declaration writes in another way.
 
+use super::tensors;
+
 /// How a declaration writes what papers call by this name.
 pub(super) fn name(name: &str) -> Option<&'static str> {
-    let plain: String = name.chars().filter(|&c| c != '_').collect();
-    Some(match plain.as_str() {
+    Some(match plain(name).as_str() {
         "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
         "I1bar" | "Ibar1" | "I1iso" => "write `I1b`",
         "I2bar" | "Ibar2" | "I2iso" => "write `I2b`",
@@ -11,13 +12,18 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
         "IIC" => "write `I2`, or `I1.powi(2) - 2.0 * I2` for C : C",
         "detF" => "write `J`",
         "lnJ" | "logJ" => "write `J.ln()`",
-        "C" | "B" | "b" | "E" | "F" | "U" | "S" => {
-            "an energy is written in the stretches or in `I1`, `I2`, `J`; the Green strain has eigenvalues \
-             `(l1.powi(2) - 1.0) / 2.0` and so on"
+        plain if tensors::named(plain).is_some() => {
+            "an energy is written in the stretches or in `I1`, `I2`, `J`: C has eigenvalues `l1.powi(2)` and so on, the Green strain E \
+             `(l1.powi(2) - 1.0) / 2.0`"
         }
         "PI" | "pi" => "write the number, `3.141592653589793`",
         _ => return None,
     })
+}
+
+/// Papers have indices where a name has underscores.
+pub(super) fn plain(name: impl ToString) -> String {
+    name.to_string().replace('_', "")
 }
 
 /// How a declaration writes what papers call by this function.
@@ -30,8 +36,6 @@ pub(super) fn function(name: &str) -> Option<&'static str> {
         "cosh" => "write `(x.exp() + (-x).exp()) / 2.0`",
         "sinh" => "write `(x.exp() - (-x).exp()) / 2.0`",
         "tanh" => "write `1.0 - 2.0 / ((2.0 * x).exp() + 1.0)`",
-        "tr" | "trace" => "write `I1` for the trace of C",
-        "det" => "write `J` for the determinant of F",
         "sin" | "cos" | "tan" | "asin" | "acos" | "atan" | "erf" | "asinh" | "acosh" | "atanh" => {
             "give it as a parameter, `f: piola::Spline`, and write `f(x)`"
         }
