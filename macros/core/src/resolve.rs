@@ -304,8 +304,18 @@ impl<'a> Resolver<'a> {
             Lit::Int(number) => (number.base10_digits().to_owned(), number.suffix()),
             _ => return self.mistake(literal, "a literal in an energy is a number"),
         };
-        if !matches!(suffix, "" | "f64") {
-            return self.mistake(literal, "numbers of an energy are `f64`: remove the suffix");
+        match suffix {
+            "" | "f64" => {}
+            _ if is_numeric_type(suffix) => {
+                return self.mistake(literal, "numbers of an energy are `f64`: remove the suffix");
+            }
+            // Papers write products so.
+            name => {
+                self.used.insert(name.to_owned());
+                let message =
+                    format!("`{digits}{name}` is no number: write `{digits} * {name}` for a product");
+                return self.mistake(literal, &message);
+            }
         }
         if let Some(exact) = Rational::from_decimal(&digits) {
             return self.graph.constant(exact);
@@ -341,4 +351,11 @@ impl<'a> Resolver<'a> {
         let names = identifiers(tokens.into_token_stream());
         self.used.extend(names.iter().map(Ident::to_string));
     }
+}
+
+/// Whether a suffix is one that numbers of Rust have.
+fn is_numeric_type(suffix: &str) -> bool {
+    const BITS: [&str; 6] = ["8", "16", "32", "64", "128", "size"];
+    suffix.strip_prefix(['i', 'u']).is_some_and(|bits| BITS.contains(&bits))
+        || matches!(suffix, "f16" | "f32" | "f64" | "f128")
 }

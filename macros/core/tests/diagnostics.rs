@@ -238,6 +238,9 @@ fn tensors() {
 #[test]
 fn numbers() {
     check_added("1.0f32", "1.0f32", "remove the suffix");
+    for suffix in ["i32", "usize", "u8", "f16"] {
+        check_added(&format!("1{suffix}"), &format!("1{suffix}"), "remove the suffix");
+    }
     check_added("1e999", "1e999", "not finite");
     check_added("true", "true", "a literal in an energy is a number");
     check_added("J / 0.0", "0.0", "division by zero");
@@ -252,6 +255,17 @@ fn numbers() {
         &[(shape, "in the derivatives")],
     );
     check_added("1e30 * 1e30 + 1.0", "1e30 * 1e30", "leaves 128 bits");
+}
+
+/// Papers write products without a sign.
+#[test]
+fn numbers_before_names() {
+    check_added("mu * (2mu - 1.0)", "2mu", "`2mu` is no number: write `2 * mu` for a product");
+    check_added("J.powf(2.5mu)", "2.5mu", "write `2.5 * mu` for a product");
+    check_added("J.powi(2u1)", "2u1", "write `2 * u1` for a product");
+    check_body(&GOOD.replace("mu *", "2mu *"), &[("2mu", "write `2 * mu` for a product")]);
+    check_arguments("domain(J > 0.0, I1 < 3mu)", &[("3mu", "write `3 * mu` for a product")]);
+    check_arguments("domain(J > 0.0), admissible(2mu > 1.0)", &[("2mu", "write `2 * mu` for a product")]);
 }
 
 #[test]
