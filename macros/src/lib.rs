@@ -23,7 +23,8 @@ use proc_macro::TokenStream;
 ///
 /// Arguments of the attribute, all optional:
 ///
-/// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent;
+/// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent. `J != 0.0` leaves out flat material alone: what
+///   is inverted then has an energy as what is upright has, and no stress in the mirror image of rest where the energy is even in J;
 /// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: what `new` checks, beside finite numbers and a stable rest state;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these conditions;
 /// * `refuse("why")`: it cannot;

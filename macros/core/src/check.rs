@@ -188,7 +188,10 @@ pub fn volume(
     };
     let cases = [
         (-1.0, "where J < 0, in inverted material: declare `domain(J > 0.0)`"),
-        (0.0, "where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)`"),
+        (
+            0.0,
+            "where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is to be as good as upright",
+        ),
     ];
     let count = match volume {
         Volume::Positive => 0,

@@ -137,8 +137,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if is_well_formed && options.extend.is_some() && volume == Volume::Any {
         diagnostics.error(
             options.words.iter().find(|word| *word == "extend"),
-            "`extend` continues an energy beyond `domain(J > 0.0)` or `domain(J != 0.0)`: declare one of these or remove \
-             `extend`",
+            "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`",
         );
     }
     if options.fit && declaration.has_functions() {

@@ -312,7 +312,12 @@ fn physics() {
             "I1 - 3.0 - 2.0 * J.ln()",
             "no value where J < 0, in inverted material: declare `domain(J > 0.0)`",
         ),
-        ("", "I1b - 3.0", "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or"),
+        (
+            "",
+            "I1b - 3.0",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is \
+             to be as good as upright",
+        ),
         (
             "",
             "I1 - 3.0 + J.powi(-2)",
@@ -473,7 +478,7 @@ fn arguments() {
     check_arguments("domain(J > 0.0, J > 2.0)", &[("J > 2.0", "excludes the rest state")]);
     check_arguments("domain(J > 0.0, l1 != 2.0)", &[("l1 != 2.0", "only a volume can be left out")]);
     check_arguments("domein(J > 0.0), extend", &[("domein", "did you mean `domain(J > 0.0)`?")]);
-    check_arguments("extend", &[("extend", "declare one of these")]);
+    check_arguments("extend", &[("extend", "beyond `domain(J > 0.0)`: declare that or remove `extend`")]);
     check_arguments("domain(J > 0.0), fit(mu)", &[("fit", "`fit` is written `fit`")]);
     check_arguments("domain(J > 0.0), fitt", &[("fitt", "did you mean `fit`?")]);
     check_arguments("domain(J > 0.0), fit, fit", &[("fit", "`fit` is given twice")]);
