@@ -137,7 +137,7 @@ impl<'a> Resolver<'a> {
     /// signs for all entries.
     pub fn condition(&mut self, comparison: &Expr, index: Option<Ident>) -> Option<Id> {
         let outer = std::mem::replace(&mut self.scope, Scope::Parameters);
-        self.index = index.map(|name| Index { name, length: None, is_excused: false });
+        self.index = index.map(Index::new);
         let difference = self.difference(comparison);
         self.scope = outer;
         match self.index.take() {

@@ -95,6 +95,11 @@ fn one_mistake_gives_one_message() {
     // Neither unused nor unknown: it is meant, though misspelt or misdeclared.
     check_body(&GOOD.replace("mu *", "mv *"), &[("mv", "did you mean `mu`?")]);
     check_added("sum(|q| m[p])", "p", "the index here is `q`");
+    check_added("sum(|q| m[p] * (l1.powf(m[p]) + l2.powf(m[p])))", "p", "the index here is `q`");
+    check_body(
+        &format!("{GOOD} + sum(|i| m[j] + m[k]) + sum(|i| m[j])"),
+        &[("j", "the index here is `i`"), ("k", "the index here is `i`"), ("j", "the index here is `i`")],
+    );
     check_added("sum(|p| mu[p])", "mu", "`mu` is not a list: write `mu`");
     check_added("sum(|p| n[p])", "n", "unknown name `n`");
     check_added("{ let (x, y) = 1.0; x * y }", "let (x, y) = 1.0;", "write `let name = expression;`");
@@ -186,7 +191,7 @@ fn calls_and_operators() {
     check_added("max(l1, 0.0)", "max", "`max` has a kink");
     check_added("sum(m)", "sum(m)", "a sum is written `sum(|p| mu[p] * …)`");
     check_added("sum(|p| m[p] * sum(|q| m[q]))", "sum(|q| m[q])", "sums cannot stand inside sums");
-    check_added("sum(|p| mu)", "p", "runs over no list: write `mu[p]`");
+    check_added("sum(|i| mu)", "i", "runs over no list: write `m[i]` in it");
     check_added("J ^ 2", "^", "x.powi(2)");
     check_added("J % 2.0", "%", "only `+ - * /`");
     check_added("!J", "!", "only `-`");

@@ -72,11 +72,15 @@ impl Resolver<'_> {
         self.mistake(name, &format!("unknown name `{text}`: {hint}"))
     }
 
+    /// A list of the declaration.
+    pub(super) fn first_list(&self) -> Option<&Ident> {
+        let mut parameters = self.declaration.parameters.iter();
+        parameters.find(|parameter| parameter.length().is_some()).map(|parameter| &parameter.name)
+    }
+
     /// What to say of the index of a sum that stands where a number should.
     fn index_as_number(&self, index: &str) -> String {
-        let parameters = &self.declaration.parameters;
-        let list = parameters.iter().find(|parameter| matches!(parameter.kind, Kind::List(_)));
-        let list = list.map_or("mu".to_owned(), |parameter| parameter.name.to_string());
+        let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
         format!(
             "the index `{index}` only selects entries, as in `{list}[{index}]`, and is no number: write the terms out, each with \
              a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \

@@ -12,6 +12,15 @@ pub(super) struct Index {
     pub(super) length: Option<Length>,
     /// It has indexed what was meant to be a list, or is a list with a mistake.
     pub(super) is_excused: bool,
+    /// Other names that were taken for it.
+    others: Vec<Ident>,
+}
+
+impl Index {
+    /// One that has indexed nothing.
+    pub(super) fn new(name: Ident) -> Self {
+        Self { name, length: None, is_excused: false, others: Vec::new() }
+    }
 }
 
 impl Resolver<'_> {
@@ -37,12 +46,21 @@ impl Resolver<'_> {
             self.excuse();
             return self.mistake(call, "sums cannot stand inside sums: write two sums and multiply them");
         }
-        self.index = Some(Index { name: name.clone(), length: None, is_excused: false });
+        self.index = Some(Index::new(name.clone()));
         let body = self.expression(&closure.body);
         match self.index.take() {
             Some(Index { length: Some(length), .. }) => self.graph.sum(length, body),
             Some(Index { is_excused: true, .. }) => body,
-            _ => self.mistake(name, &format!("this sum runs over no list: write `mu[{name}]` in it")),
+            _ => self.mistake(name, &self.no_list(name)),
+        }
+    }
+
+    fn no_list(&self, index: &Ident) -> String {
+        match self.first_list() {
+            Some(list) => format!("this sum runs over no list: write `{list}[{index}]` in it"),
+            None => format!(
+                "this sum runs over no list: write it without `sum`, or declare a list, `mu: [f64; N]`, and write `mu[{index}]` in it"
+            ),
         }
     }
 
@@ -88,6 +106,10 @@ impl Resolver<'_> {
             },
             Some(around) => {
                 around.is_excused = true;
+                if around.others.contains(index) {
+                    return self.unknown();
+                }
+                around.others.push(index.clone());
                 let message = format!("the index here is `{}`", around.name);
                 self.mistake(index, &message)
             }
