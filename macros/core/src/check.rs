@@ -21,9 +21,11 @@ use crate::source::{factor, source};
 use crate::spelling::list;
 
 mod arguments;
+mod collapsed;
 
 use arguments::Remedy;
 pub use arguments::{limits, powers};
+pub use collapsed::collapsed;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;

@@ -175,6 +175,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         check::volume(&graph, &written, volume, &samples, diagnostics);
     }
     if diagnostics.is_clean() {
+        check::collapsed(&mut graph, &written, volume, diagnostics);
+    }
+    if diagnostics.is_clean() {
         check::limits(&mut graph, &written, diagnostics);
     }
     if options.extend.is_some() {

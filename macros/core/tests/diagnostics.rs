@@ -465,6 +465,62 @@ fn what_vanishes_elsewhere_is_a_limit() {
     );
 }
 
+/// I2 vanishes on lines, I1 at points, and there negative powers have no value.
+#[test]
+fn what_collapses_to_a_line_or_a_point_has_a_value() {
+    let energy = |term: &str| {
+        format!(
+            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: [f64; N]) -> f64 {{ \
+             mu * b * (I1 - 3 - 2 * (J - 1)) + sum(|p| m[p]) * (J - 1).powi(2) + {term} }}"
+        )
+    };
+    for (term, power, place, condition) in [
+        (
+            "mu * (I2 / 3).powf(1 + b)",
+            "(I2 / 3).powf(1 + b)",
+            "λ2 = λ3 = 0, in what is collapsed to a line",
+            "b + 1.0",
+        ),
+        (
+            "mu * (I1 / 3).powf(b)",
+            "(I1 / 3).powf(b)",
+            "λ1 = λ2 = λ3 = 0, in what is collapsed to a point",
+            "b",
+        ),
+        (
+            "mu * J.powi(2).powf(2 - b)",
+            "J.powi(2).powf(2 - b)",
+            "λ3 = 0, in what is collapsed to a sheet",
+            "2.0 - b",
+        ),
+        (
+            "sum(|q| m[q] * I1.powf(m[q] / 2))",
+            "sum(|q| m[q] * I1.powf(m[q] / 2))",
+            "λ1 = λ2 = λ3 = 0",
+            "m[p] / 2.0",
+        ),
+    ] {
+        let [(tokens, message)] = &mistakes("prestressed, admissible(mu > 0.0)", &energy(term))[..] else {
+            panic!("{term}")
+        };
+        assert!(term.contains(tokens.as_str()) && tokens.contains(power), "{tokens}");
+        let says = |part: &str| assert!(message.contains(part), "{message}");
+        says(&format!("has no value where its exponent is negative and {place}"));
+        let admissible = format!("admissible(mu > 0.0, {condition} > 0.0)");
+        says(&format!("declare `{admissible}`, or `domain(J > 0.0)`"));
+        check(&format!("prestressed, {admissible}"), &energy(term), &[]);
+        check("prestressed, domain(J > 0.0)", &energy(term), &[]);
+    }
+    check("prestressed", &energy("mu * I2.ln()"), &[("I2.ln()", "`I2.ln()` has no value where λ2 = λ3 = 0")]);
+    let of_sums = "mu * I1.powf(sum(|q| m[q]))";
+    let message = "negative and λ1 = λ2 = λ3 = 0, in what is collapsed to a point: declare `domain(J > 0.0)`";
+    check("prestressed", &energy(of_sums), &[("I1.powf(sum(|q| m[q]))", message)]);
+    check("prestressed", &energy("mu / I1"), &[("mu / I1", "has no value where λ1 = λ2 = λ3 = 0")]);
+    for fine in ["mu * I2.sqrt()", "mu * (1 + I1).powf(b)", "mu * (1 + I1).ln()", "mu * (b * b * I2).exp()"] {
+        check("prestressed", &energy(fine), &[]);
+    }
+}
+
 /// Conditions that exclude what is flat are none of an energy that is continued from there.
 #[test]
 fn what_is_extended_has_room_for_flat_elements() {

@@ -35,15 +35,15 @@ const STRIDE: usize = CANDIDATES / 20 / DRAWS;
 
 /// Something that has a value only where another is not zero.
 #[derive(Clone, Copy)]
-struct Argument {
-    of: Id,
+pub(super) struct Argument {
+    pub(super) of: Id,
     /// `None` for a logarithm.
-    exponent: Option<Exponent>,
+    pub(super) exponent: Option<Exponent>,
 }
 
 impl Argument {
     /// Those of an expression that depend on the stretches.
-    fn all(graph: &Graph, id: Id) -> Vec<Self> {
+    pub(super) fn all(graph: &Graph, id: Id) -> Vec<Self> {
         let mut found = Vec::new();
         for id in graph.reachable(&[id]) {
             match graph.node(id) {
@@ -160,17 +160,19 @@ fn vanishing_in(graph: &Graph, written: &Written<'_>, energy: Id, draws: &[Point
     found.map(|argument| argument.of)
 }
 
-/// Parameters with which the energy has a value at rest. Further stretches are not asked: that they have none may be the mistake.
+/// Parameters of a few decades.
 fn draws(graph: &Graph, written: &Written<'_>) -> Vec<Point> {
     let mut random = Random(0xD1B5_4A32_D192_ED03);
-    let is_good = |point: &Point| {
-        let value = |id| evaluate(graph, id, &at_rest(point)).value;
-        written.admissible.iter().chain(written.bounds).all(|&id| value(id) > 0.0)
-            && value(written.energy).is_finite()
-    };
     let draw = |attempt| candidate(written.declaration, &mut random, attempt, written.positive);
     let attempts = (0..CANDIDATES / 20).step_by(STRIDE).chain(0..CANDIDATES);
-    attempts.map(draw).filter(is_good).take(DRAWS).collect()
+    attempts.map(draw).filter(|point| is_good(graph, written, point)).take(DRAWS).collect()
+}
+
+/// Parameters with which the energy has a value at rest. Further stretches are not asked: that they have none may be the mistake.
+pub(super) fn is_good(graph: &Graph, written: &Written<'_>, point: &Point) -> bool {
+    let value = |id| evaluate(graph, id, &at_rest(point)).value;
+    written.admissible.iter().chain(written.bounds).all(|&id| value(id) > 0.0)
+        && value(written.energy).is_finite()
 }
 
 /// Whether it is seen by its form that an expression is positive for positive stretches.
