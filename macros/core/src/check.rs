@@ -10,6 +10,7 @@ use syn::Expr;
 use crate::culprit::{culprit, holder};
 use crate::diagnostics::Diagnostics;
 use crate::diff::Differentiator;
+use crate::expand::expand;
 use crate::expr::{Graph, Id};
 use crate::interpret::{Point, Value, evaluate};
 use crate::model::{Volume, bounds};
@@ -246,7 +247,7 @@ pub fn rest(
             is_stressed(graph, derivative)
         });
         let stress = graph.substitute(gradient, [one; 3]);
-        let stress = simplify(graph, stress);
+        let stress = legible(graph, written.declaration, stress);
         let remedy = arguments::vanishing(graph, written).map(|(_, remedy)| remedy);
         let isochoric = isochoric(graph, written);
         let isochoric = first(graph, isochoric);
@@ -268,6 +269,15 @@ pub fn rest(
         );
         diagnostics.error(culprit, message);
     }
+}
+
+/// As a sum of products, or as differentiation leaves it where that is not longer.
+fn legible(graph: &mut Graph, declaration: &Declaration, e: Id) -> Id {
+    let left = simplify(graph, e);
+    let expanded = expand(graph, left);
+    let expanded = simplify(graph, expanded);
+    let [length, expanded_length] = [left, expanded].map(|e| source(graph, declaration, e).len());
+    if expanded_length < length { expanded } else { left }
 }
 
 /// What is likelier than a missing term where the energy is one of a compressible solid.

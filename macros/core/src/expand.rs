@@ -6,7 +6,10 @@
 //! ```text
 //! 1/2 (4 c10 + 4 c01) = 2 c10 + 2 c01
 //! Σₚ (−1/3 αₚ μₚ) = −1/3 Σₚ αₚ μₚ
+//! 3ⁿ + 3^(n − 1) = 4/3 3ⁿ
 //! ```
+//!
+//! For the last, powers of numbers have exponents without whole part.
 
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::rational::Rational;
@@ -77,9 +80,21 @@ fn power(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Term>> {
         }
         _ => {
             let base = graph.linear(Rational::ZERO, &sum);
-            Some(vec![(graph.power(base, exponent), Rational::ONE)])
+            let (exponent, coefficient) = match graph.as_constant(base) {
+                Some(number) if !number.is_zero() => without_whole_part(number, exponent)?,
+                _ => (exponent, Rational::ONE),
+            };
+            Some(vec![(graph.power(base, exponent), coefficient)])
         }
     }
+}
+
+/// b^(e + k) = b^k b^e with a whole number k and 0 ≤ e < 1, a parameter apart: e and b^k.
+fn without_whole_part(number: Rational, exponent: Exponent) -> Option<(Exponent, Rational)> {
+    let Exponent { real, rational } = exponent;
+    let whole = i64::try_from(rational.numerator().div_euclid(rational.denominator())).ok()?;
+    let rational = rational.checked_add(Rational::integer(whole).negated())?;
+    Some((Exponent { real, rational }, number.checked_powi(whole)?))
 }
 
 fn multiplied(graph: &mut Graph, a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
@@ -132,6 +147,23 @@ mod tests {
         let [first, second] = [all, length].map(|sum| g.mul(kappa, sum));
         let expected =
             g.linear(Rational::ZERO, &[(first, Rational::integer(-2)), (second, Rational::integer(3))]);
+        assert_eq!(expand(&mut g, sum), expected);
+    }
+
+    #[test]
+    fn powers_of_numbers_gather() {
+        let mut g = Graph::default();
+        let (n, three) = (g.leaf(Node::Parameter(0)), g.integer(3));
+        let power = |g: &mut Graph, shift: Rational| {
+            let exponent = g.linear(shift, &[(n, Rational::ONE)]);
+            let exponent = g.exponent(exponent);
+            g.power(three, exponent)
+        };
+        let [plain, half, lowered, raised] = [(0, 1), (1, 2), (-1, 1), (5, 2)]
+            .map(|(numerator, denominator)| power(&mut g, Rational::new(numerator, denominator).unwrap()));
+        let sum = g.sum_of(&[plain, lowered, raised]);
+        let terms = [(plain, Rational::new(4, 3).unwrap()), (half, Rational::integer(9))];
+        let expected = g.linear(Rational::ZERO, &terms);
         assert_eq!(expand(&mut g, sum), expected);
     }
 

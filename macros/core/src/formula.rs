@@ -319,4 +319,15 @@ mod tests {
         );
         assert_eq!(model.moduli.map(&mut print), ["2 κ + 1/2 Σₚ μₚ αₚ", "−1/3 κ"]);
     }
+
+    #[test]
+    fn moduli_gather_powers_of_numbers() {
+        let item = quote! {
+            fn E([l1, l2, l3]: [f64; 3], A: f64, n: f64) -> f64 { A * (I1.powf(n) + (I2 / J.powi(2)).powf(n)) }
+        };
+        let declaration = parse(quote!(domain(J > 0.0)), item).unwrap();
+        let mut model = model(&declaration).unwrap();
+        let moduli = model.moduli.map(|modulus| formula(&mut model.graph, &declaration, modulus));
+        assert_eq!(moduli, ["4/3 A n 3^n", "8/9 A n² 3^n − 8/9 A n 3^n"]);
+    }
 }

@@ -347,6 +347,28 @@ fn physics() {
     );
 }
 
+#[test]
+fn stress_at_rest_is_gathered() {
+    let says = |generics: &str, parameters: &str, energy: &str, stress: &str| {
+        let item = format!("fn E{generics}([l1, l2, l3]: [f64; 3], {parameters}) -> f64 {{ {energy} }}");
+        let found = mistakes("domain(J > 0.0)", &item);
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        assert!(message.contains(&format!("leaves the stress `{stress}` at rest")), "{message}");
+    };
+    let generics = "<const N: usize, const M: usize>";
+    let lists = "A: [f64; N], n: [f64; N], B: [f64; M], m: [f64; M]";
+    let strain =
+        |power: &str| format!("(l1.powf({power}) + l2.powf({power}) + l3.powf({power}) - 3) / {power}");
+    let (first, second) = (strain("n[p]"), strain("m[q]"));
+    let energy = format!("sum(|p| A[p] * {first}) + sum(|q| B[q] * {second})");
+    says(generics, lists, &energy, "sum(|p| A[p]) + sum(|p| B[p])");
+    let energy =
+        "sum(|p| A[p] * (I1 / 3).powf(n[p]) / n[p]) * 3 / 2 + sum(|q| B[q] * (I2 / 3).powf(m[q]) / m[q])";
+    says(generics, lists, energy, "sum(|p| A[p]) + 4.0 * sum(|p| B[p]) / 3.0");
+    let energy = "A * (I1.powf(n) + (I2 / J).powf(n) + I1 * 3.0.powf(n))";
+    says("", "A: f64, n: f64", energy, "2.0 * A * 3.0.powf(n) + A * n * 3.0.powf(n)");
+}
+
 /// An incompressible solid lacks a term; where the volume is spoken of, what is written is wrong.
 #[test]
 fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
