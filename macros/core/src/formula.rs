@@ -14,7 +14,8 @@ pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
     let volume = graph.product_of(&stretches);
     let names = ["λ₁", "λ₂", "λ₃"];
-    let (volume, invariants) = (Some(volume), vec![("I1", squares.to_vec()), ("I2", pairs.to_vec())]);
+    let invariants = vec![("I1", squares.to_vec()), ("I2", pairs.to_vec())];
+    let volume = Some(Volume { stretches, product: volume });
     Printer { graph, declaration, names, volume, invariants, budget: Cell::new(LONGEST) }
         .print(id, Context::Sum)
 }
@@ -38,13 +39,18 @@ enum Context {
     Power,
 }
 
+/// J.
+struct Volume {
+    stretches: [Id; 3],
+    product: Id,
+}
+
 struct Printer<'a> {
     graph: &'a Graph,
     declaration: &'a Declaration,
     /// What the three stretches are called.
     names: [&'static str; 3],
-    /// J.
-    volume: Option<Id>,
+    volume: Option<Volume>,
     /// Sums that have a name, by their terms.
     invariants: Vec<(&'static str, Vec<Id>)>,
     /// Nodes that may still be printed.
@@ -53,7 +59,7 @@ struct Printer<'a> {
 
 impl Printer<'_> {
     fn print(&self, id: Id, context: Context) -> String {
-        if Some(id) == self.volume {
+        if self.volume.as_ref().is_some_and(|volume| volume.product == id) {
             return "J".to_owned();
         }
         let Some(rest) = self.budget.get().checked_sub(1) else { return "…".to_owned() };
@@ -151,7 +157,7 @@ impl Printer<'_> {
             };
             (is_denominator, kind)
         };
-        let mut sorted = factors.to_vec();
+        let mut sorted = self.with_volume(factors);
         sorted.sort_by_key(rank);
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for factor @ (base, exponent) in sorted {
@@ -167,6 +173,19 @@ impl Printer<'_> {
             several => format!("{numerator}/({})", several.join(" ")),
         };
         parenthesise(text, context >= Context::Power)
+    }
+
+    /// The same with a power of J for equal powers of the three stretches, which those of J become in the graph.
+    fn with_volume(&self, factors: &[(Id, Exponent)]) -> Vec<(Id, Exponent)> {
+        let mut factors = factors.to_vec();
+        let Some(Volume { stretches, product }) = &self.volume else { return factors };
+        let exponent = |id: &Id| factors.iter().find(|(base, _)| base == id).map(|&(_, exponent)| exponent);
+        let shared = exponent(&stretches[0]);
+        if let Some(shared) = shared.filter(|_| stretches.iter().all(|id| exponent(id) == shared)) {
+            factors.retain(|(base, _)| !stretches.contains(base));
+            factors.push((*product, shared));
+        }
+        factors
     }
 
     fn power(&self, base: Id, exponent: Exponent) -> String {
@@ -329,5 +348,21 @@ mod tests {
         let mut model = model(&declaration).unwrap();
         let moduli = model.moduli.map(|modulus| formula(&mut model.graph, &declaration, modulus));
         assert_eq!(moduli, ["4/3 A n 3^n", "8/9 A n² 3^n − 8/9 A n 3^n"]);
+    }
+
+    #[test]
+    fn powers_of_the_volume_are_printed_as_such() {
+        let check = |energy: &str, expected: &str| {
+            let body: syn::Expr = syn::parse_str(energy).unwrap();
+            let item = quote!(fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (#body) });
+            let declaration = parse(quote!(domain(J > 0.0), prestressed), item).unwrap();
+            let mut model = model(&declaration).unwrap();
+            assert_eq!(formula(&mut model.graph, &declaration, model.energy), expected);
+        };
+        check("I1 + J.powi(2) - 2 * J", "μ (I1 + J² − 2 J)");
+        check("I1 / J", "μ I1/J");
+        check("I1 + I2 / J.powi(2)", "μ (I1 + I2/J²)");
+        check("(I2 / J.powi(2)).powf(mu)", "μ (I2/J²)^μ");
+        check("J.powi(2).powf(mu) + l1 * l2 + l2 * l3 + l3 * l1", "μ ((J²)^μ + λ₁ λ₂ + λ₂ λ₃ + λ₁ λ₃)");
     }
 }
