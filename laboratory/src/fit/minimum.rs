@@ -11,7 +11,6 @@ use super::report::Ended;
 const PATIENCE: usize = 400;
 /// How often a descent that an edge stops is taken up again along it: two or three times do where it is flat.
 const WAYS: usize = 12;
-
 pub(super) struct Minimum<'a> {
     pub(super) problem: Problem<'a>,
     /// Σ r².
@@ -30,9 +29,9 @@ pub(super) struct Minimum<'a> {
 pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
     let mut minimum = search(problem, start)?;
     let mut stop = edge::stop(&minimum.problem);
-    let mut has_settled = false;
+    let mut is_over = false;
     for _ in 0..WAYS {
-        let Some(Stop { ways, .. }) = &stop else { break };
+        let Some(Stop { ways, is_least, .. }) = &stop else { break };
         let nexts = ways.iter().filter_map(|way| {
             let along = minimum.problem.within(way.from.clone(), way.basis.clone());
             let slid = search(along, start)?;
@@ -40,18 +39,25 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
             let next = search(slid.problem.anew(), start)?;
             Some(Minimum { evaluations: next.evaluations + slid.evaluations, ..next })
         });
-        let Some(mut next) = nexts.min_by(|a, b| a.squares.total_cmp(&b.squares)) else { break };
-        if edge::is_no_gain(minimum.squares - next.squares, minimum.squares) {
-            has_settled = true;
+        // Where no way along the edges is found, other units may lead past them.
+        let is_stuck = ways.is_empty() && !is_least && minimum.ended != Ended::Unfinished;
+        let anew = is_stuck.then(|| search(minimum.problem.anew(), start)).flatten();
+        let next = nexts.chain(anew).min_by(|a, b| a.squares.total_cmp(&b.squares));
+        let is_gain = |next: &Minimum<'_>| !edge::is_no_gain(minimum.squares - next.squares, minimum.squares);
+        let Some(mut next) = next.filter(is_gain) else {
+            is_over = true;
             break;
-        }
+        };
         next.evaluations += minimum.evaluations;
         minimum = next;
         stop = edge::stop(&minimum.problem);
     }
     if let Some(stop) = stop {
-        minimum.is_least = stop.is_least || has_settled;
-        (minimum.ended, minimum.edges) = (Ended::Edge, stop.refusals);
+        minimum.is_least = is_over && (stop.is_least || !stop.ways.is_empty());
+        (minimum.ended, minimum.edges) = match is_over {
+            true => (Ended::Edge, stop.refusals),
+            false => (Ended::Unfinished, Vec::new()),
+        };
     }
     Some(minimum)
 }

@@ -131,8 +131,8 @@ pub enum Warning {
         /// Whether that is a single one, far beyond where the search began.
         is_endless: bool,
     },
-    /// A better fit is beyond an edge of what the energy accepts: these are the best parameters along it. One warning for each
-    /// edge.
+    /// A better fit is beyond an edge of what the energy accepts: these are the best parameters that were found along it. One
+    /// warning for each edge.
     Edge {
         /// Why the parameters next beyond are refused.
         reason: Refusal,
@@ -150,7 +150,7 @@ pub enum Warning {
         /// R² of all points, below 0.
         determination: f64,
     },
-    /// The best that was found is no minimum yet.
+    /// The best that was found is no minimum yet, and no edge keeps the search from going on.
     Unfinished,
 }
 
@@ -343,7 +343,7 @@ pub(super) fn report(
         warnings.push(Warning::Poor { determination: agreement.total });
     }
     warnings.extend(best.edges.iter().map(|reason| Warning::Edge { reason: reason.clone() }));
-    if !best.is_least {
+    if best.ended == Ended::Unfinished {
         warnings.push(Warning::Unfinished);
     }
     warnings.extend(analysis.warnings);
