@@ -93,7 +93,13 @@ pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> R
 
     let first = problem(&vec![None; held.len()], numbers.values.clone());
     first.answers().map_err(FitError::Start)?;
-    for number in uniqueness::indifferent(&first) {
+    let elsewhere = starts::without_zeros(&numbers.values, &held);
+    let elsewhere = starts::around(&elsewhere, &held, settings)
+        .map(|values| problem(&vec![None; values.len()], values))
+        .filter(|problem| problem.answers().is_ok())
+        .take(1 + settings.restarts);
+    let silent = uniqueness::indifferent(std::iter::once(first).chain(elsewhere), &numbers);
+    for number in silent {
         held[number].get_or_insert(Standing::Indifferent);
     }
     let free = held.iter().filter(|standing| standing.is_none()).count();

@@ -1,7 +1,8 @@
-//! Fits of exponentials, which lead to edges.
+//! Fits of exponentials: one term may drown the others where a search begins, and edges are where it has to turn.
 
 use piola_laboratory::data::{Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Ended, Fit, FitError, Settings, Warning, fit};
+use piola_laboratory::fit::{Candidate, Ended, Fit, FitError, Settings, Standing, Warning, fit};
+use piola_materials::Ogden;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -30,6 +31,44 @@ fn fitted(start: &dyn Candidate, settings: &Settings) -> Result<Fit, FitError> {
 /// From the start given alone.
 fn alone() -> Settings {
     Settings { restarts: 0, ..Settings::default() }
+}
+
+/// The names of what the data are said to say nothing about.
+#[track_caller]
+fn indifferent(fit: &Fit) -> Vec<&str> {
+    let mut names = Vec::new();
+    for warning in &fit.warnings {
+        if let Warning::Indifferent { parameter } = warning {
+            names.push(parameter.as_str());
+        }
+    }
+    let kept = fit.numbers.iter().filter(|number| number.standing == Standing::Indifferent);
+    assert!(kept.map(|number| &number.name).eq(&names), "{fit:?}");
+    names
+}
+
+#[test]
+fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
+    // Along two axes the exponent of the second term is 40; at small stretches the first is most of the stress.
+    let start = Exponentials::new(1e7, 0.018, 2.0, 1e5, 0.1, 2.0, 2e7)?;
+    // With A, m, and alpha as given R² would be 0.77 from there.
+    for (settings, determination) in [(alone(), 0.9), (Settings::default(), 0.995)] {
+        let found = fitted(&start, &settings)?;
+        assert_eq!(indifferent(&found), ["kappa"]);
+        assert!(found.agreement.total > determination, "{found:?}");
+        let values = found.values.concat();
+        assert!(values.iter().zip([1e7, 0.018, 2.0]).all(|(&value, start)| value != start), "{found:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
+    let start = Ogden::new([6e5, 0.0], [1.3, 5.0], 2e7)?;
+    assert_eq!(indifferent(&fitted(&start, &Settings::default())?), ["kappa"]);
+    let held = Settings { held: vec!["mu_2".into()], ..Settings::default() };
+    assert_eq!(indifferent(&fitted(&start, &held)?), ["alpha_2", "kappa"]);
+    Ok(())
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! One descent: down to a minimum, and along the edges of what the energy accepts where these are in the way.
 
-use levenberg_marquardt::{LevenbergMarquardt, TerminationReason};
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 
 use super::edge::{self, Stop};
 use super::problem::Problem;
@@ -11,6 +11,10 @@ use super::report::Ended;
 const PATIENCE: usize = 400;
 /// How often a descent that an edge stops is taken up again along it: two or three times do where it is flat.
 const WAYS: usize = 12;
+/// A number that changes the residuals by less than this share of what the most telling one does is drowned: rounding is then
+/// more than a ten-millionth of what it does.
+const DROWNED: f64 = 1e-9;
+
 pub(super) struct Minimum<'a> {
     pub(super) problem: Problem<'a>,
     /// Σ r².
@@ -27,7 +31,10 @@ pub(super) struct Minimum<'a> {
 
 /// To the minimum below where the problem stands; `None` where numbers leave their range on the way.
 pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
-    let mut minimum = search(problem, start)?;
+    let approached = approach(&problem, start);
+    let before = approached.as_ref().map_or(0, |approached| approached.evaluations);
+    let mut minimum = search(approached.map_or(problem, |approached| approached.problem.anew()), start)?;
+    minimum.evaluations += before;
     let mut stop = edge::stop(&minimum.problem);
     let mut is_over = false;
     for _ in 0..WAYS {
@@ -60,6 +67,20 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
         };
     }
     Some(minimum)
+}
+
+/// To where the numbers that others drown tell something, these keeping their values; `None` where there are none.
+///
+/// What they change is less than the rounding of what the others do, and steps that change them too are no better than random.
+fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
+    let slopes = problem.jacobian()?;
+    let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();
+    let greatest = lengths.iter().copied().fold(0.0, f64::max);
+    let loud: Vec<usize> = (0..lengths.len()).filter(|&k| lengths[k] > DROWNED * greatest).collect();
+    if loud.is_empty() || loud.len() == lengths.len() {
+        return None;
+    }
+    search(problem.with_alone(&loud), start)
 }
 
 fn search(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {

@@ -78,6 +78,17 @@ impl<'a> Problem<'a> {
         Self { free: self.free.clone(), values, coordinates, trial, ..*self }
     }
 
+    /// The same with these of its coordinates alone changing.
+    pub(super) fn with_alone(&self, changing: &[usize]) -> Self {
+        let Coordinates { basis, place, .. } = &self.coordinates;
+        let (basis, place) = (basis.select_columns(changing), place.select_rows(changing));
+        let mut alone = self.within(self.place(), basis);
+        // Not from zero: the method makes its first steps as long as what it begins from is, in units of what is changed.
+        alone.coordinates.origin -= &alone.coordinates.basis * &place;
+        alone.coordinates.place = place;
+        alone
+    }
+
     fn attempt(&self, values: &[f64]) -> Trial {
         attempt(self.start, self.numbers, self.points, self.volume, values)
     }

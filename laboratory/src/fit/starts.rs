@@ -28,3 +28,11 @@ pub(super) fn around<'a>(
     };
     std::iter::once(values.to_vec()).chain((0..settings.restarts * DRAWS).map(move |_| draw()))
 }
+
+/// The values given, free numbers that are zero being 1: about zero nothing else is random, and a factor that is zero hides others.
+pub(super) fn without_zeros(values: &[f64], held: &[Option<Standing>]) -> Vec<f64> {
+    let other = |(&value, standing): (&f64, &Option<Standing>)| {
+        if value == 0.0 && standing.is_none() { 1.0 } else { value }
+    };
+    values.iter().zip(held).map(other).collect()
+}

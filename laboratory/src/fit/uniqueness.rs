@@ -11,7 +11,7 @@ use super::candidate::Numbers;
 use super::problem::Problem;
 use super::report::Warning;
 
-/// A parameter that changes the residuals by less than this share of what the most telling one does tells nothing: rounding,
+/// A parameter that changes a residual by less than this share of what the most telling one does tells nothing of it: rounding,
 /// such as that of a bulk modulus at constant volume.
 const SILENCE: f64 = 1e-9;
 /// The greatest singular value by another, from which on \[BKW80\] call the dependence moderate to strong.
@@ -19,17 +19,27 @@ const CONDITION: f64 = 30.0;
 /// A parameter that changes less than this, relative to the one that changes most, is not part of a combination.
 const SHARE: f64 = 0.01;
 
-/// The numbers that the data say nothing about.
-pub(super) fn indifferent(problem: &Problem<'_>) -> Vec<usize> {
-    let Some(slopes) = problem.slopes() else { return Vec::new() };
-    let lengths = lengths(&slopes);
-    let sensitivity = |k: usize| {
-        let value = problem.values[problem.free[k]].abs();
-        lengths[k] * if value == 0.0 { 1.0 } else { value }
-    };
-    let greatest = (0..lengths.len()).map(sensitivity).fold(0.0, f64::max);
-    let is_silent = |&k: &usize| sensitivity(k) <= SILENCE * greatest;
-    (0..lengths.len()).filter(is_silent).map(|k| problem.free[k]).collect()
+/// The numbers that the data say nothing about: at all these places none of them changes any residual.
+///
+/// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that is zero there.
+pub(super) fn indifferent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
+    let mut is_silent = vec![true; numbers.values.len()];
+    for place in places {
+        let Some(slopes) = place.slopes() else { continue };
+        for row in slopes.row_iter() {
+            let change = |(slope, &number): (&f64, &usize)| {
+                let value = place.values[number];
+                (number, (slope * if value == 0.0 { 1.0 } else { value }).abs())
+            };
+            let changes: Vec<_> = row.iter().zip(&place.free).map(change).collect();
+            // Where numbers leave their range, none tells anything.
+            let greatest = changes.iter().fold(0.0, |greatest: f64, &(_, change)| greatest.max(change));
+            for (number, change) in changes {
+                is_silent[number] &= change.is_nan() || change <= SILENCE * greatest;
+            }
+        }
+    }
+    (0..is_silent.len()).filter(|&number| is_silent[number]).collect()
 }
 
 /// What a minimum says of itself.
