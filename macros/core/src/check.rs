@@ -56,8 +56,8 @@ pub struct Written<'a> {
     pub bounds: &'a [Id],
     /// Expressions of parameters that are positive.
     pub admissible: &'a [Id],
-    /// Whether the domain is J > 0.
-    pub positive: bool,
+    /// The volumes of the domain.
+    pub volume: Volume,
 }
 
 impl Written<'_> {
@@ -74,13 +74,13 @@ impl Written<'_> {
 
 /// Points of the domain at which the energy and its derivatives are finite.
 pub fn samples(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) -> Vec<Point> {
-    let &Written { declaration, energy, positive, .. } = written;
+    let &Written { declaration, energy, volume, .. } = written;
     let gradient = Differentiator::default().by_stretch(graph, energy, 0);
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut found = Vec::new();
     let mut excludes_rest = None;
     for attempt in 0..CANDIDATES {
-        let point = candidate(declaration, &mut random, attempt, positive);
+        let point = candidate(declaration, &mut random, attempt, volume);
         let holds = |id: Id, point: &Point| evaluate(graph, id, point).value > 0.0;
         if !written.admissible.iter().all(|&id| holds(id, &point)) {
             continue;
@@ -114,7 +114,7 @@ pub fn samples(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagn
     Vec::new()
 }
 
-fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, positive: bool) -> Point {
+fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, volume: Volume) -> Point {
     let lengths: Vec<usize> = declaration
         .lengths
         .iter()
@@ -139,7 +139,7 @@ fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, pos
         })
         .collect();
     let mut stretches = [0, 1, 2].map(|_| 0.6 + 0.9 * random.unit());
-    if !positive && attempt % 2 == 1 {
+    if volume != Volume::Positive && attempt % 2 == 1 {
         stretches[2] = -stretches[2];
     }
     Point { stretches, parameters, lengths, epsilon: 0.5 }
@@ -168,45 +168,45 @@ pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnos
 }
 
 /// Where the domain does not say `J > 0.0`, inverted material has an energy, and where it does not say `J != 0.0`, what is flat.
-pub fn volume(
-    graph: &Graph,
-    written: &Written<'_>,
-    volume: Volume,
-    samples: &[Point],
-    diagnostics: &mut Diagnostics,
-) {
+pub fn volume(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
     // What functions are defined for is their own affair.
     if written.declaration.has_functions() {
         return;
     }
-    let has_no_value = |part: Id, sign: f64| {
-        let inverted = |point: &Point| {
-            let [l1, l2, l3] = point.stretches;
-            Point { stretches: [l1, l2, sign * l3.abs()], ..point.clone() }
-        };
-        let is_inside =
-            |point: &Point| written.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0);
-        let mut points = samples.iter().map(inverted).filter(is_inside).peekable();
-        points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
-    };
-    let cases = [
+    for &(sign, message) in beyond(written.volume) {
+        if has_no_value(graph, written, written.energy, sign, samples) {
+            let culprit = written.culprit(|part| has_no_value(graph, written, part, sign, samples));
+            return diagnostics.error(culprit, format!("this has no value {message}"));
+        }
+    }
+}
+
+/// The signs of J, +1 apart, that a domain has, and what to say where an energy has no value there.
+fn beyond(volume: Volume) -> &'static [(f64, &'static str)] {
+    const BEYOND: [(f64, &str); 2] = [
         (-1.0, "where J < 0, in inverted material: declare `domain(J > 0.0)`"),
         (
             0.0,
             "where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is to be as good as upright",
         ),
     ];
-    let count = match volume {
-        Volume::Positive => 0,
-        Volume::Nonzero => 1,
-        Volume::Any => 2,
-    };
-    for (sign, message) in cases.into_iter().take(count) {
-        if has_no_value(written.energy, sign) {
-            let culprit = written.culprit(|part| has_no_value(part, sign));
-            return diagnostics.error(culprit, format!("this has no value {message}"));
-        }
+    match volume {
+        Volume::Positive => &[],
+        Volume::Nonzero => &BEYOND[..1],
+        Volume::Any => &BEYOND,
     }
+}
+
+/// Whether a part has no value at the samples, given J of this sign, inside the domain.
+fn has_no_value(graph: &Graph, written: &Written<'_>, part: Id, sign: f64, samples: &[Point]) -> bool {
+    let with_sign = |point: &Point| {
+        let [l1, l2, l3] = point.stretches;
+        Point { stretches: [l1, l2, sign * l3.abs()], ..point.clone() }
+    };
+    let is_inside =
+        |point: &Point| written.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0);
+    let mut points = samples.iter().map(with_sign).filter(is_inside).peekable();
+    points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
 }
 
 /// ψ1 must vanish at λ = 1.
@@ -252,14 +252,14 @@ pub fn rest(
         let isochoric = isochoric(graph, written);
         let isochoric = first(graph, isochoric);
         let names = invariants(written.declaration);
-        let domain = if written.positive { "" } else { " with `domain(J > 0.0)`" };
+        let domain = if written.volume == Volume::Positive { "" } else { " with `domain(J > 0.0)`" };
         let instead = (!names.is_empty() && !is_stressed(graph, isochoric))
             .then(|| format!("write {}{domain}, which leaves none", in_place(&names)));
         let ways = match (remedy, instead) {
             (Some(Remedy::Isochoric), Some(instead)) => format!("{instead} and has a value wherever J > 0"),
-            (Some(Remedy::Limit(limit)), _) => balance(graph, written, stress, &[limit]),
-            (_, Some(instead)) => format!("{}; or {instead}", balance(graph, written, stress, &[])),
-            (_, None) => balance(graph, written, stress, &[]),
+            (Some(Remedy::Limit(limit)), _) => balance(graph, written, stress, samples, &[limit]),
+            (_, Some(instead)) => format!("{}; or {instead}", balance(graph, written, stress, samples, &[])),
+            (_, None) => balance(graph, written, stress, samples, &[]),
         };
         let message = format!(
             "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute{}",
@@ -291,7 +291,13 @@ fn is_of_volumes(declaration: &Declaration) -> bool {
 }
 
 /// What takes the stress at rest away, to be pasted, with what else the domain wants.
-fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id, limits: &[String]) -> String {
+fn balance(
+    graph: &mut Graph,
+    written: &Written<'_>,
+    stress: Id,
+    samples: &[Point],
+    limits: &[String],
+) -> String {
     let declaration = written.declaration;
     let term = if source(graph, declaration, stress).starts_with('-') {
         let negated = graph.neg(stress);
@@ -304,14 +310,24 @@ fn balance(graph: &mut Graph, written: &Written<'_>, stress: Id, limits: &[Strin
         std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits.iter().cloned()).collect();
     let domain = format!(" with `domain({})`", conditions.join(", "));
     if cancels(graph, written.energy, stress) {
-        format!("append `{term} * (J - 1.0)`, or remove the term in `J.ln()`")
-    } else if !limits.is_empty() {
-        format!("append `{term} * J.ln()`{domain}")
-    } else if written.positive {
-        format!("append `{term} * J.ln()`")
-    } else {
-        format!("append `{term} * J.ln()`{domain}, or `{term} * (J - 1.0)` with any domain")
+        return format!("append `{term} * (J - 1.0)`, or remove the term in `J.ln()`");
     }
+    let logarithm = format!("append `{term} * J.ln()`");
+    if !limits.is_empty() {
+        return format!("{logarithm}{domain}");
+    }
+    match written.volume {
+        Volume::Positive => logarithm,
+        _ if !has_value(graph, written, samples) => format!("{logarithm}{domain}"),
+        Volume::Nonzero => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with the declared one"),
+        Volume::Any => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with any domain"),
+    }
+}
+
+/// Whether the energy needs no further condition on J.
+fn has_value(graph: &mut Graph, written: &Written<'_>, samples: &[Point]) -> bool {
+    let is_short = |&(sign, _): &(f64, &str)| has_no_value(graph, written, written.energy, sign, samples);
+    !beyond(written.volume).iter().any(is_short) && collapsed::without_value(graph, written).is_none()
 }
 
 /// Whether the energy has the stress times ln J already, so that to subtract it would take that back.

@@ -151,7 +151,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         return None;
     }
     let positive = volume == Volume::Positive;
-    let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, positive };
+    let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
     let samples = check::samples(&mut graph, &written, diagnostics);
     if !samples.is_empty() {
         check::isotropy(&graph, &written, &samples, diagnostics);
@@ -172,10 +172,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         check::rest(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     }
     if diagnostics.is_clean() {
-        check::volume(&graph, &written, volume, &samples, diagnostics);
+        check::volume(&graph, &written, &samples, diagnostics);
     }
     if diagnostics.is_clean() {
-        check::collapsed(&mut graph, &written, volume, diagnostics);
+        check::collapsed(&mut graph, &written, diagnostics);
     }
     if diagnostics.is_clean() {
         check::limits(&mut graph, &written, diagnostics);

@@ -413,6 +413,40 @@ fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
     check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
 }
 
+/// A term in `J - 1.0` is offered just where it does without another domain.
+#[test]
+fn what_is_printed_has_a_value_wherever_it_is_said_to() {
+    let check = |arguments: &str, energy: &str, place: Option<&str>| {
+        let declared = |arguments: &str, term: &str| {
+            let item = format!(
+                "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N], a: [f64; N]) -> f64 {{ \
+                 {energy} + sum(|p| m[p] * a[p]) * mu * (J - 1).powi(2) {term} }}"
+            );
+            mistakes(arguments, &item)
+        };
+        let found = declared(arguments, "");
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        let (_, rest) = message.split_once("append `").expect(message);
+        let (logarithm, rest) = rest.split_once("` with `domain(J > 0.0)`").expect(message);
+        assert_eq!(declared("domain(J > 0.0)", logarithm), [], "{energy} {logarithm}");
+        let linear = logarithm.replace("J.ln()", "(J - 1.0)");
+        let offered = place.map(|place| format!(", or `{linear}` with {place}; or "));
+        assert!(rest.starts_with(offered.as_deref().unwrap_or("; or ")), "{message}");
+        assert_eq!(declared(arguments, &linear).is_empty(), place.is_some(), "{energy} {linear}");
+    };
+    let of_powers = "l1.powf(a[p]) + l2.powf(a[p]) + l3.powf(a[p]) - 3";
+    check("", &format!("sum(|p| m[p] * ({of_powers}))"), None);
+    check("", &format!("sum(|p| m[p] * ((a[p] * ({of_powers})).exp() - 1))"), None);
+    check("", "mu * (I1 + J.ln() / 2)", None);
+    check("", "mu * (I1 + J.powi(-2) / 2)", None);
+    check("", "mu * I1.powf(mu)", None);
+    check("", "mu * I1", Some("any domain"));
+    check("", "mu * (mu * (I1 - 3)).exp()", Some("any domain"));
+    check("", "mu * (1 + I1).powf(mu)", Some("any domain"));
+    check("domain(J != 0.0)", "mu * I1.powf(mu) + mu * J.sqrt()", None);
+    check("domain(J != 0.0)", "mu * (I1 + J.powi(-2) / 2)", Some("the declared one"));
+}
+
 /// Beside rest, rounding leaves what vanishes there of either sign.
 #[test]
 fn what_vanishes_at_rest_has_whole_powers() {

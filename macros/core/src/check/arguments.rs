@@ -163,7 +163,7 @@ fn vanishing_in(graph: &Graph, written: &Written<'_>, energy: Id, draws: &[Point
 /// Parameters of a few decades.
 fn draws(graph: &Graph, written: &Written<'_>) -> Vec<Point> {
     let mut random = Random(0xD1B5_4A32_D192_ED03);
-    let draw = |attempt| candidate(written.declaration, &mut random, attempt, written.positive);
+    let draw = |attempt| candidate(written.declaration, &mut random, attempt, written.volume);
     let attempts = (0..CANDIDATES / 20).step_by(STRIDE).chain(0..CANDIDATES);
     attempts.map(draw).filter(|point| is_good(graph, written, point)).take(DRAWS).collect()
 }

@@ -22,11 +22,7 @@ const COLLAPSED: [([f64; 3], &str); 3] = [
 const DRAWS: usize = 64;
 
 /// Logarithms, denominators and negative powers of what vanishes there, such as I2 on a line, have no value.
-pub fn collapsed(graph: &mut Graph, written: &Written<'_>, volume: Volume, diagnostics: &mut Diagnostics) {
-    // What functions are defined for is their own affair.
-    if volume != Volume::Any || written.declaration.has_functions() {
-        return;
-    }
+pub fn collapsed(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) {
     let Some((argument, place)) = without_value(graph, written) else { return };
     let real = argument.exponent.filter(|exponent| exponent.real.is_some());
     let real = real.map(|exponent| graph.exponent_value(exponent));
@@ -61,7 +57,11 @@ fn admissible(graph: &mut Graph, written: &Written<'_>, exponent: Id) -> Option<
 }
 
 /// What leaves the energy without a value, and where.
-fn without_value(graph: &mut Graph, written: &Written<'_>) -> Option<(Argument, &'static str)> {
+pub(super) fn without_value(graph: &mut Graph, written: &Written<'_>) -> Option<(Argument, &'static str)> {
+    // What functions are defined for is their own affair.
+    if written.volume != Volume::Any || written.declaration.has_functions() {
+        return None;
+    }
     let arguments = Argument::all(graph, written.energy).into_iter();
     let arguments: Vec<_> = arguments
         .map(|argument| (argument, argument.exponent.map(|exponent| graph.exponent_value(exponent))))
@@ -92,7 +92,7 @@ fn without_value(graph: &mut Graph, written: &Written<'_>) -> Option<(Argument, 
 fn draws(graph: &Graph, written: &Written<'_>) -> Vec<Point> {
     let mut random = Random(0x2545_F491_4F6C_DD1D);
     let draw = |attempt| {
-        let mut point = candidate(written.declaration, &mut random, attempt, written.positive);
+        let mut point = candidate(written.declaration, &mut random, attempt, written.volume);
         for entries in &mut point.parameters {
             if let Some(&first) = entries.first() {
                 entries.fill(first);
