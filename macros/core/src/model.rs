@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{BinOp, Expr, Ident};
 
@@ -17,7 +16,7 @@ use crate::hash::HashMap;
 use crate::increment::{Increments, at_rest};
 use crate::interpret::Point;
 use crate::invariants::{ByInvariants, by_invariants};
-use crate::parse::Declaration;
+use crate::parse::{Declaration, indexed_lists};
 use crate::quotient::Quotients;
 use crate::rational::Rational;
 use crate::resolve::Resolver;
@@ -289,25 +288,7 @@ pub(crate) fn volume_condition(condition: &Expr) -> Option<Volume> {
 /// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
 #[must_use]
 pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
-    fn find(tokens: TokenStream) -> Option<(Ident, Ident)> {
-        let mut list = None;
-        for token in tokens {
-            match token {
-                TokenTree::Ident(name) => list = Some(name),
-                TokenTree::Group(group) => {
-                    let is_index = group.delimiter() == Delimiter::Bracket;
-                    let index = syn::parse2(group.stream()).ok().filter(|_| is_index);
-                    let found = list.take().zip(index).or_else(|| find(group.stream()));
-                    if found.is_some() {
-                        return found;
-                    }
-                }
-                _ => list = None,
-            }
-        }
-        None
-    }
-    find(condition.to_token_stream())
+    indexed_lists(condition.to_token_stream()).into_iter().next()
 }
 
 /// What stands for all entries in a condition on them.

@@ -9,7 +9,7 @@
 //!                   mu: f64) -> f64 { … }
 //! ```
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::{Attribute, Expr, Ident, Type, Visibility};
 
 use crate::diagnostics::Diagnostics;
@@ -153,6 +153,27 @@ pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
         _ => Vec::new(),
     });
     names.flatten().collect()
+}
+
+/// All names with an index that is a name, as in `mu[p]`, in order.
+pub(crate) fn indexed_lists(tokens: TokenStream) -> Vec<(Ident, Ident)> {
+    let mut found = Vec::new();
+    let mut list = None;
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => list = Some(name),
+            TokenTree::Group(group) => {
+                let is_index = group.delimiter() == Delimiter::Bracket;
+                let index = syn::parse2(group.stream()).ok().filter(|_| is_index);
+                match list.take().zip(index) {
+                    Some(pair) => found.push(pair),
+                    None => found.extend(indexed_lists(group.stream())),
+                }
+            }
+            _ => list = None,
+        }
+    }
+    found
 }
 
 /// The text of documentation comments, lines joined by spaces, paragraphs by newlines.

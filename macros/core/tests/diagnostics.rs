@@ -190,7 +190,6 @@ fn calls_and_operators() {
     check_added("mu(J)", "mu(J)", "`mu` is not a function: write `mu * (…)`");
     check_added("max(l1, 0.0)", "max", "`max` has a kink");
     check_added("sum(m)", "sum(m)", "a sum is written `sum(|p| mu[p] * …)`");
-    check_added("sum(|p| m[p] * sum(|q| m[q]))", "sum(|q| m[q])", "sums cannot stand inside sums");
     check_added("sum(|i| mu)", "i", "runs over no list: write `m[i]` in it");
     check_added("J ^ 2", "^", "x.powi(2)");
     check_added("J % 2.0", "%", "only `+ - * /`");
@@ -203,6 +202,30 @@ fn calls_and_operators() {
     check_added("[J, mu]", "[J, mu]", "lists are parameters, as `mu: [f64; N]`");
     check_added("mu * [J - 1.0]", "[J - 1.0]", "parentheses are round in an energy");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
+}
+
+#[test]
+fn sums_inside_sums() {
+    let both = "sums cannot stand inside sums: write two sums and multiply them";
+    check_added("sum(|p| m[p] * sum(|q| m[q]))", "sum(|q| m[q])", both);
+    check_added("sum(|p| sum(|q| l[q].powf(m[p]) * (m[q])))", "sum(|q| l[q].powf(m[p]) * (m[q]))", both);
+    let out = |power: &str| format!("write the three stretches out, `l1.{power} + l2.{power} + l3.{power}`");
+    for inner in [
+        "sum(|k| l[k].powf(m[p]))",
+        "sum(|k| lambda[k].powf(m[p]) - 1)",
+        "sum(|k| mu * l1[k].powf(m[p]))",
+        "sum(|k| (k - 1).powf((m[p])))",
+    ] {
+        check_added(&format!("sum(|p| m[p] * (({inner} - 3).exp() - 1))"), inner, &out("powf(m[p])"));
+    }
+    check_added("sum(|p| m[p] * sum(|k| l[k].powi(4)))", "sum(|k| l[k].powi(4))", &out("powi(2)"));
+    let inner = "sum(|k| m[p] * x[k].powf(a[p]))";
+    let item = format!("fn E([x, y, z]: [f64; 3], m: [f64; 2], a: [f64; 2]) -> f64 {{ sum(|p| {inner}) }}");
+    check(
+        "",
+        &item,
+        &[(inner, "write the three stretches out, `x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p])`")],
+    );
 }
 
 /// Papers write tr C⁻¹, which is I2/J², not I1; each is one mistake.

@@ -1,9 +1,11 @@
 //! Sums over lists, and the entries of these.
 
-use syn::{Expr, ExprCall, ExprIndex, Ident, Pat};
+use quote::ToTokens;
+use syn::{Expr, ExprCall, ExprClosure, ExprIndex, Ident, Pat};
 
 use super::{Resolver, Scope};
 use crate::expr::{Id, Length, Node};
+use crate::parse::indexed_lists;
 
 /// The index of a sum.
 pub(super) struct Index {
@@ -42,9 +44,10 @@ impl Resolver<'_> {
         let Some((closure, name)) = index else {
             return self.mistake(call, "a sum is written `sum(|p| mu[p] * …)`");
         };
-        if self.index.is_some() {
+        if let Some(outer) = &self.index {
+            let message = self.inside(&outer.name, closure, name);
             self.excuse();
-            return self.mistake(call, "sums cannot stand inside sums: write two sums and multiply them");
+            return self.mistake(call, &message);
         }
         self.index = Some(Index::new(name.clone()));
         let body = self.expression(&closure.body);
@@ -53,6 +56,26 @@ impl Resolver<'_> {
             Some(Index { is_excused: true, .. }) => body,
             _ => self.mistake(name, &self.no_list(name)),
         }
+    }
+
+    /// What to say of a sum inside another one.
+    fn inside(&self, outer: &Ident, closure: &ExprClosure, index: &Ident) -> String {
+        let mut lists = indexed_lists(closure.body.to_token_stream());
+        lists.retain(|(list, _)| {
+            let mut parameters = self.declaration.parameters.iter();
+            parameters.any(|parameter| parameter.name == *list && parameter.length().is_some())
+        });
+        if lists.iter().any(|(_, by)| by == index) {
+            return "sums cannot stand inside sums: write two sums and multiply them".to_owned();
+        }
+        // Exponents follow factors.
+        let list = lists.iter().rfind(|(_, by)| by == outer);
+        let power = list.map_or("powi(2)".to_owned(), |(list, by)| format!("powf({list}[{by}])"));
+        let [l1, l2, l3] = &self.declaration.stretches;
+        format!(
+            "sums run over lists of parameters alone: write the three stretches out, \
+             `{l1}.{power} + {l2}.{power} + {l3}.{power}`"
+        )
     }
 
     fn no_list(&self, index: &Ident) -> String {
