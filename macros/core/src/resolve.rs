@@ -39,6 +39,10 @@ pub struct Resolver<'a> {
 /// NaN, which is no literal.
 const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 
+/// What to say of a closure or a function of the body's own.
+const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts by \
+     `let`, also in a sum: `sum(|p| { let s = …; … })`";
+
 /// What an expression is a function of.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Scope {
@@ -173,6 +177,10 @@ impl<'a> Resolver<'a> {
                         self.error(semicolon, "the last line of an energy is its value: remove this `;`");
                     }
                 }
+                Stmt::Item(syn::Item::Fn(helper)) => {
+                    self.mistaken.insert(helper.sig.ident.to_string());
+                    self.error(helper, NO_HELPERS);
+                }
                 other => self.error(other, "an energy is `let` bindings and one expression at the end"),
             }
         }
@@ -265,6 +273,7 @@ impl<'a> Resolver<'a> {
                 expression,
                 "lists are parameters, as `mu: [f64; N]`: numbers of the energy's own are written out, term by term",
             ),
+            Expr::Closure(closure) => self.mistake(closure, NO_HELPERS),
             other => self.mistake(
                 other,
                 "an energy is made of numbers, parameters, stretches, `+ - * /`, `sum(|p| …)` and calls such as `x.ln()`",

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use piola_codegen::interpret::evaluate;
 use proc_macro2::TokenStream;
 
 /// The messages of a declaration, each with the tokens that it stands on.
@@ -202,6 +203,36 @@ fn calls_and_operators() {
     check_added("[J, mu]", "[J, mu]", "lists are parameters, as `mu: [f64; N]`");
     check_added("mu * [J - 1.0]", "[J - 1.0]", "parentheses are round in an energy");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
+}
+
+#[test]
+fn helpers() {
+    let expected = "write it out, or name parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
+    let closure = "|x: f64| x.powf(mu) + (y[k] - 1.0)";
+    check_body(&format!("let f = {closure}; {GOOD} + f(l1) + f(l2) + f(l3)"), &[(closure, expected)]);
+    let function = "fn f(x: f64, a: f64) -> f64 { x.powf(a) }";
+    check_body(&format!("{function} {GOOD} + sum(|p| f(l1, m[p]) + f(l2, m[p]))"), &[(function, expected)]);
+}
+
+#[test]
+fn parts_are_named_inside_sums() {
+    let energies = |sum: &str| {
+        let energy = "mu * (I1 - 3.0 - 2.0 * J.ln())";
+        let item = format!(
+            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N]) -> f64 {{ {energy} + {sum} }}"
+        );
+        let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
+        let (_, model) = piola_codegen::understand(tokens("domain(J > 0.0)"), tokens(&item)).expect(sum);
+        let point = &model.samples[0];
+        [model.energy, model.plain.energy].map(|id| evaluate(&model.graph, id, point).value)
+    };
+    let written_out = "sum(|p| (l1.powf(m[p]) + l2.powf(m[p]) + l3.powf(m[p]) - 3 - m[p] * J.ln()).exp())";
+    let named = "sum(|p| {
+        let s = l1.powf(m[p]) + l2.powf(m[p]) + l3.powf(m[p]) - 3;
+        let q = s - m[p] * J.ln();
+        q.exp()
+    })";
+    assert_eq!(energies(named), energies(written_out));
 }
 
 #[test]

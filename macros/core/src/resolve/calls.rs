@@ -161,6 +161,7 @@ impl Resolver<'_> {
         let text = name.to_string();
         if self.mistaken.contains(&text) {
             self.excuse_names(call);
+            self.excuse();
             return self.unknown();
         }
         match self.declaration.parameters.iter().position(|parameter| parameter.name == name) {

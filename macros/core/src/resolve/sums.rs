@@ -143,7 +143,7 @@ impl Resolver<'_> {
     }
 
     /// What should have been an entry has a mistake of its own, so that its sum is not to blame.
-    fn excuse(&mut self) {
+    pub(super) fn excuse(&mut self) {
         if let Some(index) = &mut self.index {
             index.is_excused = true;
         }
