@@ -120,7 +120,7 @@ fn opposite(
         let remedy = if gradient.iter().all(|slope| slope.is_finite()) {
             "bound its denominator from below by `quotient::pole_floor`"
         } else {
-            "the derivatives of the energy overflow here, too: see the rule `domain`"
+            "the derivatives of the energy are no finite numbers here, either: see the rule `domain`"
         };
         return judge.finite(name, stored, twist[2], remedy);
     }

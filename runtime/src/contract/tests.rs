@@ -463,6 +463,17 @@ fn violations_have_a_line_for_each_fact() {
     );
 }
 
+#[test]
+fn lost_digits_are_not_told_as_a_mistake() {
+    let text = |found: f64| {
+        let (rule, component) = (Rule::Moduli, "shear modulus".into());
+        Violation::Differs { rule, component, stretches: [1.0; 3], found, expected: 1.0, tolerance: 1e-13 }
+            .to_string()
+    };
+    assert!(text(1.0 + 1e-11).contains("likelier digits lost than a mistake in the formula"));
+    assert!(!text(1.0 + 1e-3).contains("digits lost"));
+}
+
 /// A (exp(a (I1b − 3)) − 1), which overflows as J falls.
 struct Exponential {
     size: f64,
@@ -592,7 +603,8 @@ fn an_energy_without_a_value_is_told_of_by_the_rule_domain() {
     }
     assert!(text(Rule::Domain, f64::NEG_INFINITY).contains("    found       -inf\n"));
     let other = text(Rule::Objectivity, f64::NAN);
-    let line = "    found       NaN, where NaN is expected: not a finite number, here or near by; see the rule `domain`";
+    let line = "    found       NaN, where NaN is expected: not a finite number, here or near by, but an overflow, or a root, \
+                real power or logarithm of something negative; see the rule `domain`";
     assert_eq!(other.lines().last(), Some(line), "{other}");
 }
 

@@ -6,6 +6,13 @@ use std::fmt;
 use super::Rule;
 use super::judge::FINITE;
 
+/// What rounding explains is exceeded by more than this where a formula is wrong: by ten orders of magnitude, mostly.
+const MISTAKE: f64 = 1e6;
+/// What else it is.
+const DIGITS: &str = "so small a difference is likelier digits lost than a mistake in the formula: where something nearly cancels, such \
+                      as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters; where an \
+                      exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
+
 /// A broken promise.
 ///
 /// As text it has a line for the rule, one for each of the facts and, where one is known, one for the remedy:
@@ -81,7 +88,8 @@ impl fmt::Display for Violation {
                 write!(f, "    found       {found:e}")
             };
         // Of no use beside numbers that are none: a difference, or a remedy for their sign.
-        let see_domain = "not a finite number, here or near by; see the rule `domain`";
+        let see_domain = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
+                          negative; see the rule `domain`";
         match self {
             Self::Differs { component, stretches, found, expected, tolerance, .. } => {
                 where_and_what(f, component, *stretches, *found)?;
@@ -93,7 +101,15 @@ impl fmt::Display for Violation {
                 if *tolerance == 0.0 {
                     write!(f, "    difference  {difference:.1e}, where both must have the same bits")
                 } else {
-                    write!(f, "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}")
+                    write!(
+                        f,
+                        "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}"
+                    )?;
+                    if difference < MISTAKE * tolerance {
+                        write!(f, "\n    remedy      {DIGITS}")
+                    } else {
+                        Ok(())
+                    }
                 }
             }
             Self::WrongKind { component, stretches, found, expected, remedy, .. } => {
