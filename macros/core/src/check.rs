@@ -253,13 +253,17 @@ pub fn rest(
         let isochoric = first(graph, isochoric);
         let names = invariants(written.declaration);
         let domain = if written.volume == Volume::Positive { "" } else { " with `domain(J > 0.0)`" };
-        let instead = (!names.is_empty() && !is_stressed(graph, isochoric))
-            .then(|| format!("write {}{domain}, which leaves none", in_place(&names)));
+        let leaves_none = !names.is_empty() && !is_stressed(graph, isochoric);
+        let instead = leaves_none.then(|| format!("write {}{domain}, which leaves none", in_place(&names)));
+        // Where elements are flat, isochoric invariants are beyond limits.
+        let is_limited = written.declaration.options.extend.is_some() && !written.bounds.is_empty();
         let ways = match (remedy, instead) {
             (Some(Remedy::Isochoric), Some(instead)) => format!("{instead} and has a value wherever J > 0"),
             (Some(Remedy::Limit(limit)), _) => balance(graph, written, stress, samples, &[limit]),
-            (_, Some(instead)) => format!("{}; or {instead}", balance(graph, written, stress, samples, &[])),
-            (_, None) => balance(graph, written, stress, samples, &[]),
+            (_, Some(instead)) if !is_limited => {
+                format!("{}; or {instead}", balance(graph, written, stress, samples, &[]))
+            }
+            _ => balance(graph, written, stress, samples, &[]),
         };
         let message = format!(
             "this leaves the stress `{}` at rest: {}; or say `prestressed` in the attribute{}",
@@ -371,9 +375,19 @@ pub fn flat(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics
             !samples.iter().any(is_inside)
         };
         if let Some([l1, l2, _]) = FLAT.into_iter().find(|&flat| excludes(flat)) {
+            let names = identifiers(condition.to_token_stream());
+            let speaks_of =
+                |words: [&str; 2]| words.into_iter().any(|word| names.iter().any(|name| name == word));
+            let instead = if speaks_of(["I1b", "I2b"]) {
+                "bound what stays moderate there, such as I1 in place of I1b"
+            } else if speaks_of(["I1", "I2"]) {
+                "this condition, and write `I1b` for `I1` in the energy, which is 3 or more wherever J > 0"
+            } else {
+                "this condition"
+            };
             let message = format!(
                 "`extend` continues the energy beyond J > 0, but where elements are flat, such as at the stretches {l1}, {l2} and 0, \
-                 this does not hold: remove `extend`, or bound what stays moderate there, such as I1 in place of I1b"
+                 this does not hold: remove `extend`, or {instead}"
             );
             diagnostics.error(condition, message);
         }

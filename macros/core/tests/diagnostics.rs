@@ -156,6 +156,8 @@ fn names() {
     );
     check_added("I3", "I3", "write `J.powi(2)`");
     check_added("I1_bar", "I1_bar", "write `I1b`");
+    check_added("Ib2", "Ib2", "write `I2b`");
+    check_added("e.powf(-mu * (I1 - 3.0))", "e", "write `x.exp()` for eˣ");
     check_added(
         "E",
         "E",
@@ -325,6 +327,8 @@ fn numbers_before_names() {
     check_body(&GOOD.replace("mu *", "2mu *"), &[("2mu", "write `2 * mu` for a product")]);
     check_arguments("domain(J > 0.0, I1 < 3mu)", &[("3mu", "write `3 * mu` for a product")]);
     check_arguments("domain(J > 0.0), admissible(2mu > 1.0)", &[("2mu", "write `2 * mu` for a product")]);
+    check_added("2(mu * (1.0 - 1.0))", "2", "`2` is not a function: write `2 * (…)` for a product");
+    check_added("(mu)(mu - mu)", "(mu)", "this is not a function: write `*` behind it for a product");
 }
 
 #[test]
@@ -636,12 +640,23 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
 fn what_is_extended_has_room_for_flat_elements() {
     let energy =
         "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { mu * (I1b - 3) + m * (J - 1).powi(2) }";
-    for condition in ["I1b - 3.0 < m", "I1 > 2.0"] {
+    for (condition, instead) in [
+        ("I1b - 3.0 < m", "remove `extend`, or bound what stays moderate there"),
+        ("I1 > 2.0", "remove `extend`, or this condition, and write `I1b` for `I1` in the energy"),
+        ("J > 0.5", "remove `extend`, or this condition"),
+    ] {
         let domain = format!("domain(J > 0.0, {condition})");
         check(&domain, energy, &[]);
-        check(&format!("{domain}, extend"), energy, &[(condition, "where elements are flat")]);
+        check(&format!("{domain}, extend"), energy, &[(condition, instead)]);
     }
     check("domain(J > 0.0, I1 - 3.0 < m), extend", energy, &[]);
+    // Nor is such a condition where one leads that takes the advice of another message.
+    let limited = "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { -mu * (1 - (I1 - 3) / m).ln() }";
+    let message = |arguments: &str| {
+        mistakes(arguments, limited).into_iter().map(|(_, message)| message).collect::<String>()
+    };
+    assert!(message("domain(J > 0.0, I1 - 3.0 < m)").contains("or write `I1b` for `I1`"));
+    assert!(!message("domain(J > 0.0, I1 - 3.0 < m), extend").contains("I1b"));
 }
 
 #[test]

@@ -134,6 +134,9 @@ impl Resolver<'_> {
 
     fn real_power(&mut self, base: Id, argument: &Expr) -> Id {
         let exponent = self.expression(argument);
+        if self.is_unknown(base) {
+            return base;
+        }
         if self.depends_on_stretches(exponent) {
             return self.mistake(argument, "an exponent is made of numbers and parameters, not of stretches");
         }
@@ -156,7 +159,14 @@ impl Resolver<'_> {
         };
         let Some(name) = name else {
             self.excuse_names(call);
-            return self.mistake(&call.func, "a function is called on a number, such as `x.ln()`");
+            let message = match &*call.func {
+                Expr::Lit(number) => {
+                    let number = number.to_token_stream();
+                    format!("`{number}` is not a function: write `{number} * (…)` for a product")
+                }
+                _ => "this is not a function: write `*` behind it for a product".into(),
+            };
+            return self.mistake(&call.func, &message);
         };
         let text = name.to_string();
         if self.mistaken.contains(&text) {

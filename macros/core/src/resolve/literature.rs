@@ -6,8 +6,8 @@ use super::tensors;
 pub(super) fn name(name: &str) -> Option<&'static str> {
     Some(match plain(name).as_str() {
         "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
-        "I1bar" | "Ibar1" | "I1iso" => "write `I1b`",
-        "I2bar" | "Ibar2" | "I2iso" => "write `I2b`",
+        "I1bar" | "Ibar1" | "I1iso" | "Ib1" => "write `I1b`",
+        "I2bar" | "Ibar2" | "I2iso" | "Ib2" => "write `I2b`",
         "trC" | "IC" => "write `I1`",
         "IIC" => "write `I2`, or `I1.powi(2) - 2.0 * I2` for C : C",
         "detF" => "write `J`",
@@ -16,6 +16,7 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
             "an energy is written in the stretches or in `I1`, `I2`, `J`: C has eigenvalues `l1.powi(2)` and so on, the Green strain E \
              `(l1.powi(2) - 1.0) / 2.0`"
         }
+        "e" => "write `x.exp()` for eˣ",
         "PI" | "pi" => "write the number, `3.141592653589793`",
         _ => return None,
     })
