@@ -51,10 +51,10 @@ fn domain(declaration: &Declaration, texts: &Texts) -> String {
 fn outside(declaration: &Declaration) -> String {
     let options = &declaration.options;
     match (&options.extend, &options.refuse) {
-        (Some(conditions), _) if conditions.is_empty() => " It can be continued beyond that.".to_owned(),
+        (Some(conditions), _) if conditions.is_empty() => " It can be continued beyond J > 0.".to_owned(),
         (Some(conditions), _) => {
             let conditions: Vec<_> = conditions.iter().map(condition_text).collect();
-            format!(" It can be continued beyond that where `{}`.", conditions.join(", "))
+            format!(" It can be continued beyond J > 0 where `{}`.", conditions.join(", "))
         }
         (None, Some(reason)) => format!(" It cannot be continued beyond that: {}.", reason.value()),
         (None, None) => String::new(),
@@ -134,7 +134,7 @@ mod tests {
             "ψ = 1/2 μ (I1 − 3) − μ ln J",
             "* `mu`: Shear modulus, Pa.",
             "They satisfy `mu > 0`.",
-            "**Domain**: `J > 0`. It can be continued beyond that.",
+            "**Domain**: `J > 0`. It can be continued beyond J > 0.",
             "**Small strain**: μ = μ, λ = 0.",
             "ψ₁ = μ λ₁ − μ/λ₁",
             "ψ₁₁ = μ + μ/λ₁²",

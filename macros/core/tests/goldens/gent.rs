@@ -20,7 +20,7 @@
 ///
 /// They satisfy `mu > 0, jm > 0`.
 ///
-/// **Domain**: `J > 0, I1 - 3 < jm`. It can be continued beyond that where `kappa >= 0`.
+/// **Domain**: `J > 0, I1 - 3 < jm`. It can be continued beyond J > 0 where `kappa >= 0`.
 ///
 /// **Small strain**: μ = μ, λ = κ + 2 μ/jm.
 ///

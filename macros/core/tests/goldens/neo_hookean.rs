@@ -18,7 +18,7 @@
 ///
 /// They satisfy `mu > 0`.
 ///
-/// **Domain**: `J > 0`. It can be continued beyond that where `lambda >= 0`.
+/// **Domain**: `J > 0`. It can be continued beyond J > 0 where `lambda >= 0`.
 ///
 /// **Small strain**: μ = μ, λ = λ.
 ///

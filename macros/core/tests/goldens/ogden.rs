@@ -23,7 +23,7 @@
 ///
 /// They satisfy `alpha[p] != 0`.
 ///
-/// **Domain**: `J > 0`. It can be continued beyond that where `mu[p] * alpha[p] > 0, kappa >= 0`.
+/// **Domain**: `J > 0`. It can be continued beyond J > 0 where `mu[p] * alpha[p] > 0, kappa >= 0`.
 ///
 /// **Small strain**: μ = 1/2 Σₚ μₚ αₚ, λ = κ.
 ///
