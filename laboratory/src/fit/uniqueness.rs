@@ -24,8 +24,10 @@ const SHARE: f64 = 0.01;
 /// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that is zero there.
 pub(super) fn indifferent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
     let mut is_silent = vec![true; numbers.values.len()];
+    let mut has_slopes = false;
     for place in places {
         let Some(slopes) = place.slopes() else { continue };
+        has_slopes = true;
         for row in slopes.row_iter() {
             let change = |(slope, &number): (&f64, &usize)| {
                 let value = place.values[number];
@@ -39,7 +41,7 @@ pub(super) fn indifferent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers
             }
         }
     }
-    (0..is_silent.len()).filter(|&number| is_silent[number]).collect()
+    (0..is_silent.len()).filter(|&number| has_slopes && is_silent[number]).collect()
 }
 
 /// What a minimum says of itself.
