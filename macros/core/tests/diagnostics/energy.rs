@@ -1,0 +1,317 @@
+//! Mistakes of the energy itself, whose words are understood: stress at rest, asymmetry, no value inside the domain.
+
+use super::{GOOD, check, check_added, check_body, mistakes};
+
+#[test]
+fn physics() {
+    check_added("mu * l1 * l2", "mu * l1 * l2", "does not change when `l2` and `l3` are exchanged");
+    let body =
+        "let skew = mu * (l1 + 2.0 * l2 + l3); sum(|p| m[p]) * (I1 - 3.0 - 2.0 * J.ln()) + (skew - mu)";
+    check_body(body, &[("mu * (l1 + 2.0 * l2 + l3)", "does not change when `l1` and `l2` are exchanged")]);
+    check_body(
+        "mu * (l1.powi(2) + l2.powi(2)) + sum(|p| m[p]) * l3.powi(2)",
+        &[("mu * (l1.powi(2) + l2.powi(2)) + sum(|p| m[p]) * l3.powi(2)", "`l2` and `l3` are exchanged")],
+    );
+    check_added(
+        "mu * (l1 + l2 + l3)",
+        "mu * (l1 + l2 + l3)",
+        "leaves the stress `mu` at rest: append `- mu * J.ln()`; or say `prestressed`",
+    );
+    check(
+        "",
+        "fn E([a, b, c]: [f64; 3], mu: f64, kappa: f64) -> f64 { mu / 2.0 * (I1 - 3.0) + kappa * J * J }",
+        &[(
+            "mu / 2.0 * (I1 - 3.0) + kappa * J * J",
+            "leaves the stress `mu + 2.0 * kappa` at rest: append `- (mu + 2.0 * kappa) * J.ln()` with `domain(J > 0.0)`, \
+             or `- (mu + 2.0 * kappa) * (J - 1.0)` with any domain; or say `prestressed`",
+        )],
+    );
+    for (attribute, term, message) in [
+        (
+            "",
+            "I1 - 3.0 - 2.0 * J.ln()",
+            "no value where J < 0, in inverted material: declare `domain(J > 0.0)`",
+        ),
+        (
+            "",
+            "I1b - 3.0",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is \
+             to be as good as upright",
+        ),
+        (
+            "",
+            "I1 - 3.0 + J.powi(-2)",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or",
+        ),
+        ("domain(J != 0.0)", "I1 - 3.0 - 2.0 * J.ln()", "no value where J < 0, in inverted material"),
+    ] {
+        let item = format!("fn E([a, b, c]: [f64; 3], mu: f64) -> f64 {{ mu * ({term}) }}");
+        check(attribute, &item, &[(&format!("mu * ({term})"), message)]);
+    }
+    check("prestressed", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * I1 }", &[]);
+    check_added("mu / (I1b - 3.0)", "mu / (I1b - 3.0)", "is not finite at rest");
+    check(
+        "",
+        "fn E([a, b, c]: [f64; 3], kappa: f64) -> f64 { kappa * (J - 1.0).powi(2) }",
+        &[("kappa * (J - 1.0).powi(2)", "the shear modulus of this energy is zero at rest")],
+    );
+    check(
+        "admissible(mu > 0.0, mu < -1.0)",
+        "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 - 2.0 * J.ln()) }",
+        &[("E", "no parameters were found")],
+    );
+}
+
+#[test]
+fn stress_at_rest_is_gathered() {
+    let says = |generics: &str, parameters: &str, energy: &str, stress: &str| {
+        let item = format!("fn E{generics}([l1, l2, l3]: [f64; 3], {parameters}) -> f64 {{ {energy} }}");
+        let found = mistakes("domain(J > 0.0)", &item);
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        assert!(message.contains(&format!("leaves the stress `{stress}` at rest")), "{message}");
+    };
+    let generics = "<const N: usize, const M: usize>";
+    let lists = "A: [f64; N], n: [f64; N], B: [f64; M], m: [f64; M]";
+    let strain =
+        |power: &str| format!("(l1.powf({power}) + l2.powf({power}) + l3.powf({power}) - 3) / {power}");
+    let (first, second) = (strain("n[p]"), strain("m[q]"));
+    let energy = format!("sum(|p| A[p] * {first}) + sum(|q| B[q] * {second})");
+    says(generics, lists, &energy, "sum(|p| A[p]) + sum(|p| B[p])");
+    let energy =
+        "sum(|p| A[p] * (I1 / 3).powf(n[p]) / n[p]) * 3 / 2 + sum(|q| B[q] * (I2 / 3).powf(m[q]) / m[q])";
+    says(generics, lists, energy, "sum(|p| A[p]) + 4.0 * sum(|p| B[p]) / 3.0");
+    let energy = "A * (I1.powf(n) + (I2 / J).powf(n) + I1 * 3.0.powf(n))";
+    says("", "A: f64, n: f64", energy, "2.0 * A * 3.0.powf(n) + A * n * 3.0.powf(n)");
+}
+
+/// An incompressible solid lacks a term; where the volume is spoken of, what is written is wrong.
+#[test]
+fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
+    let says_so = |attribute: &str, energy: &str| {
+        let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 {{ mu * n * ({energy}) }}");
+        let [(_, message)] = &mistakes(attribute, &item)[..] else { panic!("{energy}") };
+        message.ends_with(
+            "in the attribute (if the paper's solid is compressible, a factor or a power is mistyped)",
+        )
+    };
+    assert!(says_so("domain(J > 0.0)", "I1.powf(n) + (I2 / J).powf(n)"));
+    assert!(says_so("domain(J > 0.0)", "l1 + l2 + l3"));
+    assert!(says_so("", "I1 - 3.0 + J"));
+    assert!(!says_so("", "I1 - 3.0"));
+    assert!(!says_so("", "l1.powi(4) + l2.powi(4) + l3.powi(4) - 3.0"));
+}
+
+#[test]
+fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
+    let check = |energy: &str, isochoric: Option<&str>| {
+        let declared = |energy: &str| {
+            let item = format!(
+                "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: [f64; N], a: [f64; N]) -> f64 {{ \
+                 b * (J - 1.0).powi(2) + mu * sum(|p| m[p] * a[p]) * (I1b - 3.0) + {energy} }}"
+            );
+            mistakes("domain(J > 0.0)", &item)
+        };
+        let found = declared(energy);
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        let (_, rest) = message.split_once("append `").expect(message);
+        let (term, rest) = rest.split_once('`').expect(message);
+        let balanced = format!("{energy} {term}");
+        assert_eq!(declared(&balanced), [], "{balanced}");
+        let said = rest.strip_prefix("; or write ").and_then(|rest| rest.split_once(", which leaves none"));
+        assert_eq!(said.map(|(said, _)| said), isochoric, "{message}");
+    };
+    check("mu * (I1 - 3) + b * (I2 - 3)", Some("`I1b`, `I2b` for `I1`, `I2`"));
+    check("-mu * (I1 - 3) / 2 - b * I1", Some("`I1b` for `I1`"));
+    check("mu * (I1 - 3) + b * J", None);
+    check("mu * (b.sqrt() * I1 / 3).powf(mu) + (b * J).exp()", None);
+    check("sum(|k| m[k] / a[k] * (l1.powf(a[k]) + l2.powf(a[k]) + l3.powf(a[k]) - 3))", None);
+    check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
+}
+
+/// A term in `J - 1.0` is offered just where it does without another domain.
+#[test]
+fn what_is_printed_has_a_value_wherever_it_is_said_to() {
+    let check = |arguments: &str, energy: &str, place: Option<&str>| {
+        let declared = |arguments: &str, term: &str| {
+            let item = format!(
+                "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N], a: [f64; N]) -> f64 {{ \
+                 {energy} + sum(|p| m[p] * a[p]) * mu * (J - 1).powi(2) {term} }}"
+            );
+            mistakes(arguments, &item)
+        };
+        let found = declared(arguments, "");
+        let [(_, message)] = &found[..] else { panic!("{energy}: {found:#?}") };
+        let (_, rest) = message.split_once("append `").expect(message);
+        let (logarithm, rest) = rest.split_once("` with `domain(J > 0.0)`").expect(message);
+        assert_eq!(declared("domain(J > 0.0)", logarithm), [], "{energy} {logarithm}");
+        let linear = logarithm.replace("J.ln()", "(J - 1.0)");
+        let offered = place.map(|place| format!(", or `{linear}` with {place}; or "));
+        assert!(rest.starts_with(offered.as_deref().unwrap_or("; or ")), "{message}");
+        assert_eq!(declared(arguments, &linear).is_empty(), place.is_some(), "{energy} {linear}");
+    };
+    let of_powers = "l1.powf(a[p]) + l2.powf(a[p]) + l3.powf(a[p]) - 3";
+    check("", &format!("sum(|p| m[p] * ({of_powers}))"), None);
+    check("", &format!("sum(|p| m[p] * ((a[p] * ({of_powers})).exp() - 1))"), None);
+    check("", "mu * (I1 + J.ln() / 2)", None);
+    check("", "mu * (I1 + J.powi(-2) / 2)", None);
+    check("", "mu * I1.powf(mu)", None);
+    check("", "mu * I1", Some("any domain"));
+    check("", "mu * (mu * (I1 - 3)).exp()", Some("any domain"));
+    check("", "mu * (1 + I1).powf(mu)", Some("any domain"));
+    check("domain(J != 0.0)", "mu * I1.powf(mu) + mu * J.sqrt()", None);
+    check("domain(J != 0.0)", "mu * (I1 + J.powi(-2) / 2)", Some("the declared one"));
+}
+
+/// Beside rest, rounding leaves what vanishes there of either sign.
+#[test]
+fn what_vanishes_at_rest_has_whole_powers() {
+    for (factor, written, power) in [
+        ("mu", "(I1 - 3.0).sqrt()", "(I1 - 3.0).sqrt()"),
+        ("mu", "(J - 1.0).cbrt()", "(J - 1.0).cbrt()"),
+        ("mu", "(I1b - 3.0).powf(2.5)", "(I1b - 3.0).powf(5.0 / 2.0)"),
+        ("mu", "(mu * (I1b - 3.0)).powf(2.0 * mu)", "(mu * (I1b - 3.0)).powf(2.0 * mu)"),
+        ("sum(|p| m[p])", "(2.0 * J.ln()).powf(mu)", "(2.0 * J.ln()).powf(mu)"),
+    ] {
+        let term = format!("{factor} * {written}");
+        check_added(&term, written, &format!("`{power}` is of what vanishes at rest"));
+    }
+    let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
+    check_added(of_entries, of_entries, "`(2.0 * J.ln()).powf(m[p])` is of what vanishes at rest");
+    check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
+}
+
+#[test]
+fn what_vanishes_elsewhere_is_a_limit() {
+    let energy = |term: &str| {
+        format!(
+            "fn E([l1, l2, l3]: [f64; 3], mu: f64, b: f64) -> f64 {{ mu * b * (J - 1.0).powi(2) + {term} }}"
+        )
+    };
+    for (term, limit) in [
+        ("mu / (1 - b * I1b / 3)", "1.0 - b * I1b / 3.0 > 0.0"),
+        ("-mu * b * (1 - (I1b - 3) / b).ln()", "1.0 - (I1b - 3.0) / b > 0.0"),
+        ("mu * (I1b - 4 - b).recip()", "I1b - b - 4.0 < 0.0"),
+        ("mu * (I1b - 3) + mu * (1 - b * (J - 1).powi(2)).sqrt()", "1.0 - b * (J - 1.0).powi(2) > 0.0"),
+        ("mu * (4 + b - I2b).powf(b)", "b + 4.0 - I2b > 0.0"),
+    ] {
+        let [(_, message)] = &mistakes("domain(J > 0.0)", &energy(term))[..] else { panic!("{term}") };
+        let domain = format!("domain(J > 0.0, {limit})");
+        assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
+        check(&domain, &energy(term), &[]);
+    }
+    // Parameters that are admissible decide.
+    let logarithm = "(1 + b * (I1b - 3)).ln()";
+    let term = format!("mu * {logarithm}");
+    check("domain(J > 0.0)", &energy(&term), &[]);
+    check("domain(J > 0.0), admissible(b < 0.0)", &energy(&term), &[(logarithm, "inside the domain")]);
+    // What I1 leaves when volume is lost, I1b keeps.
+    for term in
+        ["mu * (I1 - 3 + b).powf(b)", "mu * (b + b * (I1 - 2).ln())", "mu * (I1 - 3 + b.powi(2)).sqrt()"]
+    {
+        let [(_, message)] = &mistakes("domain(J > 0.0), prestressed", &energy(term))[..] else {
+            panic!("{term}")
+        };
+        assert!(
+            message.contains(": write `I1b` for `I1`, which is at least 3 wherever J > 0"),
+            "{term}: {message}"
+        );
+        let [(_, message)] = &mistakes("", &energy(term))[..] else { panic!("{term}") };
+        let way = ": write `I1b` for `I1` with `domain(J > 0.0)`, which leaves none and has a value wherever J > 0; or";
+        assert!(message.contains(way), "{term}: {message}");
+        check("domain(J > 0.0)", &energy(&term.replace("I1", "I1b")), &[]);
+    }
+    // An upper limit is none of these, though the sign of its distance from 3 be unknown.
+    let locking = "mu * (1 - (-b * (I1 - 3) / (m - 3)).exp()) - mu * (m - 3) * (1 - (I1 - 3) / (m - 3)).ln() + b * (J - 1).powi(2)";
+    let locking = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: f64) -> f64 {{ {locking} }}");
+    let [(_, message)] = &mistakes("", &locking)[..] else { panic!("{locking}") };
+    assert!(
+        message.contains("* J.ln()` with `domain(J > 0.0, 1.0 - (I1 - 3.0) / (m - 3.0) > 0.0)`"),
+        "{message}"
+    );
+    // It is the denominator that vanishes, and the whole term that has none.
+    check(
+        "",
+        "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 * J) + mu / (2.0 - J) }",
+        &[("mu / (2.0 - J)", "declare `domain(2.0 - J > 0.0)`")],
+    );
+}
+
+/// I2 vanishes on lines, I1 at points, and there negative powers have no value.
+#[test]
+fn what_collapses_to_a_line_or_a_point_has_a_value() {
+    let energy = |term: &str| {
+        format!(
+            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, b: f64, m: [f64; N]) -> f64 {{ \
+             mu * b * (I1 - 3 - 2 * (J - 1)) + sum(|p| m[p]) * (J - 1).powi(2) + {term} }}"
+        )
+    };
+    for (term, power, place, condition) in [
+        (
+            "mu * (I2 / 3).powf(1 + b)",
+            "(I2 / 3).powf(1 + b)",
+            "λ2 = λ3 = 0, in what is collapsed to a line",
+            "b + 1.0",
+        ),
+        (
+            "mu * (I1 / 3).powf(b)",
+            "(I1 / 3).powf(b)",
+            "λ1 = λ2 = λ3 = 0, in what is collapsed to a point",
+            "b",
+        ),
+        (
+            "mu * J.powi(2).powf(2 - b)",
+            "J.powi(2).powf(2 - b)",
+            "λ3 = 0, in what is collapsed to a sheet",
+            "2.0 - b",
+        ),
+        (
+            "sum(|q| m[q] * I1.powf(m[q] / 2))",
+            "sum(|q| m[q] * I1.powf(m[q] / 2))",
+            "λ1 = λ2 = λ3 = 0",
+            "m[p] / 2.0",
+        ),
+    ] {
+        let [(tokens, message)] = &mistakes("prestressed, admissible(mu > 0.0)", &energy(term))[..] else {
+            panic!("{term}")
+        };
+        assert!(term.contains(tokens.as_str()) && tokens.contains(power), "{tokens}");
+        let says = |part: &str| assert!(message.contains(part), "{message}");
+        says(&format!("has no value where its exponent is negative and {place}"));
+        let admissible = format!("admissible(mu > 0.0, {condition} > 0.0)");
+        says(&format!("declare `{admissible}`, or `domain(J > 0.0)`"));
+        check(&format!("prestressed, {admissible}"), &energy(term), &[]);
+        check("prestressed, domain(J > 0.0)", &energy(term), &[]);
+    }
+    check("prestressed", &energy("mu * I2.ln()"), &[("I2.ln()", "`I2.ln()` has no value where λ2 = λ3 = 0")]);
+    let of_sums = "mu * I1.powf(sum(|q| m[q]))";
+    let message = "negative and λ1 = λ2 = λ3 = 0, in what is collapsed to a point: declare `domain(J > 0.0)`";
+    check("prestressed", &energy(of_sums), &[("I1.powf(sum(|q| m[q]))", message)]);
+    check("prestressed", &energy("mu / I1"), &[("mu / I1", "has no value where λ1 = λ2 = λ3 = 0")]);
+    for fine in ["mu * I2.sqrt()", "mu * (1 + I1).powf(b)", "mu * (1 + I1).ln()", "mu * (b * b * I2).exp()"] {
+        check("prestressed", &energy(fine), &[]);
+    }
+}
+
+/// Conditions that exclude what is flat are none of an energy that is continued from there.
+#[test]
+fn what_is_extended_has_room_for_flat_elements() {
+    let energy =
+        "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { mu * (I1b - 3) + m * (J - 1).powi(2) }";
+    for (condition, instead) in [
+        ("I1b - 3.0 < m", "remove `extend`, or bound what stays moderate there"),
+        ("I1 > 2.0", "remove `extend`, or this condition, and write `I1b` for `I1` in the energy"),
+        ("J > 0.5", "remove `extend`, or this condition"),
+    ] {
+        let domain = format!("domain(J > 0.0, {condition})");
+        check(&domain, energy, &[]);
+        check(&format!("{domain}, extend"), energy, &[(condition, instead)]);
+    }
+    check("domain(J > 0.0, I1 - 3.0 < m), extend", energy, &[]);
+    // Nor is such a condition where one leads that takes the advice of another message.
+    let limited = "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { -mu * (1 - (I1 - 3) / m).ln() }";
+    let message = |arguments: &str| {
+        mistakes(arguments, limited).into_iter().map(|(_, message)| message).collect::<String>()
+    };
+    assert!(message("domain(J > 0.0, I1 - 3.0 < m)").contains("or write `I1b` for `I1`"));
+    assert!(!message("domain(J > 0.0, I1 - 3.0 < m), extend").contains("I1b"));
+}

@@ -1,0 +1,257 @@
+//! What is said of a broken rule: its facts, and a remedy that helps.
+
+use super::*;
+
+#[test]
+fn violations_have_a_line_for_each_fact() {
+    let differs = Violation::Differs {
+        rule: Rule::Quotients,
+        component: pair_name("flip", 0),
+        stretches: [1.5, 1.5, 0.5],
+        found: 0.0,
+        expected: 2.0,
+        tolerance: 1e-14,
+    };
+    let wrong_kind = Violation::WrongKind {
+        rule: Rule::Rest,
+        component: pair_name("flip", 2),
+        stretches: [1.0; 3],
+        found: -1e5,
+        expected: "a positive number",
+        remedy: Some("shear modulus".into()),
+    };
+    assert_eq!(
+        Violations(vec![differs, wrong_kind]).to_string(),
+        "quotients: flips and twists keep their digits at every gap between stretches, zero included\n    \
+         component   flip of stretches 1 and 2\n    \
+         stretches   1.5, 1.5, 0.5\n    \
+         found       0e0\n    \
+         expected    2e0\n    \
+         difference  2.0e0, of which rounding explains 1.0e-14\n\
+         rest: F = I is free of stress, and shear is resisted there\n    \
+         component   flip of stretches 2 and 3\n    \
+         stretches   1, 1, 1\n    \
+         found       -1e5\n    \
+         expected    a positive number\n    \
+         remedy      shear modulus"
+    );
+}
+
+#[test]
+fn lost_digits_are_not_told_as_a_mistake() {
+    let text = |found: f64| {
+        let (rule, component) = (Rule::Moduli, "shear modulus".into());
+        Violation::Differs { rule, component, stretches: [1.0; 3], found, expected: 1.0, tolerance: 1e-13 }
+            .to_string()
+    };
+    assert!(text(1.0 + 1e-11).contains("likelier digits lost than a mistake in the formula"));
+    assert!(!text(1.0 + 1e-3).contains("digits lost"));
+}
+
+/// A (exp(a (I1b − 3)) − 1), which overflows as J falls.
+struct Exponential {
+    size: f64,
+    rate: f64,
+}
+
+impl Exponential {
+    /// J^(−2/3) and I1.
+    fn measures<R: Real>([l1, l2, l3]: [R; 3]) -> (R, R) {
+        let scale = (l1 * l2 * l3).cbrt();
+        (R::splat(1.0) / (scale * scale), l1 * l1 + l2 * l2 + l3 * l3)
+    }
+}
+
+impl Material for Exponential {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let (scale, i1) = Self::measures(l);
+        let exponent = R::splat(self.rate) * (scale * i1 - R::splat(3.0));
+        R::splat(self.size) * (exponent.exp() - R::splat(1.0))
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        self.blocks(l).gradient
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (scale, i1) = Self::measures(l);
+        let (two, third, rate) = (R::splat(2.0), R::splat(1.0 / 3.0), R::splat(self.rate));
+        let slope = R::splat(self.size) * rate * (rate * (scale * i1 - R::splat(3.0))).exp();
+        // Of I1b: its derivatives, ∂²/∂λi∂λj but for what i = j adds, and what that is.
+        let first = l.map(|l| two * scale * (l - third * i1 / l));
+        let mixed = |i: usize, j: usize| {
+            let product = first[i] / l[j] + two * scale * l[j] / l[i];
+            rate * first[i] * first[j] - two * third * product
+        };
+        let same = |i: usize, j: usize| two * scale * (R::splat(1.0) + third * i1 / (l[i] * l[j]));
+        let opposite = |i: usize, j: usize| two * scale * (R::splat(1.0) - third * i1 / (l[i] * l[j]));
+        let hessian = derivatives::ENTRIES
+            .map(|(i, j)| slope * if i == j { mixed(i, i) + same(i, i) } else { mixed(i, j) });
+        Blocks {
+            gradient: first.map(|first| slope * first),
+            hessian: [hessian[0], hessian[1], hessian[2], hessian[3], hessian[4], hessian[5]],
+            flip: PAIRS.map(|(i, j)| slope * same(i, j)),
+            twist: PAIRS.map(|(i, j)| slope * opposite(i, j)),
+        }
+    }
+
+    fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
+        R::splat(0.0).less(l[0] * l[1] * l[2])
+    }
+
+    fn has_pole(&self) -> bool {
+        false
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn an_energy_that_overflows_is_defined() {
+    let soft = Exponential { size: 1.95e5, rate: 0.018 };
+    let flat = [1.0, 1.0, 8e-9];
+    assert!(soft.admits(flat) && soft.energy(flat) == f64::INFINITY);
+    check_passes(&soft, &Settings::default());
+    // At the samples themselves, overflow is a mistake of the energy, its parameters or the range.
+    let stiff = Exponential { size: 1.0, rate: 200.0 };
+    let text = |verdict: Result<Finding, Violation>| verdict.expect_err("overflow").to_string();
+    assert!(text(domain(&stiff, &Settings::default())).contains("overflows there"));
+    // In an extension, of where it begins as well.
+    let extended = Defective(ExtendedNeoHookean { epsilon: 0.3 }, Defect::OverflowsInExtension);
+    assert!(text(domain(&extended, &Settings::default())).contains("choose a greater `epsilon`"));
+}
+
+#[test]
+fn what_only_the_wider_format_holds_is_told_as_that() {
+    let steep = Exponential { size: 1.0, rate: 40.0 };
+    domain(&steep, &Settings::default()).unwrap_or_else(|violation| panic!("{violation}"));
+    let verdict = single_precision(&steep, &Settings::default());
+    assert!(verdict.is_err_and(|violation| violation.to_string().contains("`f32` ends at 3.4e38")));
+}
+
+/// [`SaintVenantKirchhoff`] with an energy that has no value below I1 = 3, or one of −∞.
+struct Undefined(f64);
+
+impl Material for Undefined {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let is_short = (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]).less(R::splat(3.0));
+        R::select(is_short, R::splat(self.0), SaintVenantKirchhoff.energy(l))
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        SaintVenantKirchhoff.gradient(l)
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        SaintVenantKirchhoff.blocks(l)
+    }
+
+    fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
+        SaintVenantKirchhoff.admits(l)
+    }
+
+    fn has_pole(&self) -> bool {
+        false
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn an_energy_without_a_value_is_told_of_by_the_rule_domain() {
+    let text = |rule: Rule, energy: f64| {
+        let verdict = check_rule(rule, &Undefined(energy), &Settings::default());
+        verdict.and_then(Result::err).map(|violation| violation.to_string()).unwrap_or_default()
+    };
+    let domain = text(Rule::Domain, f64::NAN);
+    for line in [
+        "    component   energy\n",
+        "    found       NaN\n    expected    a finite number\n    remedy      the domain admits these stretches, but",
+        "write `I1b` for `I1`",
+    ] {
+        assert!(domain.contains(line), "{domain}");
+    }
+    assert!(text(Rule::Domain, f64::NEG_INFINITY).contains("    found       -inf\n"));
+    let other = text(Rule::Objectivity, f64::NAN);
+    let line = "    found       NaN, where NaN is expected: not a finite number, here or near by, but an overflow, or a root, \
+                real power or logarithm of something negative; see the rule `domain`";
+    assert_eq!(other.lines().last(), Some(line), "{other}");
+}
+
+#[test]
+fn an_extension_that_does_not_restore_says_what_to_change() {
+    let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
+    let remedy = |defect| match extension(&extended(defect), &Settings::default()) {
+        Err(Violation::WrongKind { remedy: Some(remedy), .. }) => remedy,
+        verdict => panic!("{verdict:?}"),
+    };
+    assert!(remedy(Defect::AttractsCollapse).contains("as in `extend(kappa > 0.0)`"));
+    assert!(remedy(Defect::EndsAtInversion).contains("write that limit in what no sign changes"));
+}
+
+#[test]
+fn what_never_restores_is_not_told_to_begin_later() {
+    let remedy = |curvature| match extension(&Pulling { curvature }, &Settings::default()) {
+        Err(Violation::WrongKind { remedy: Some(remedy), .. }) => remedy,
+        verdict => panic!("{verdict:?}"),
+    };
+    let [milder, steeper] = [1.0, -0.1].map(remedy);
+    assert!(milder.contains("falls there, too: choose a smaller `epsilon`"), "{milder}");
+    assert!(
+        steeper.contains("the steeper the flatter: if it is that of an incompressible solid"),
+        "{steeper}"
+    );
+    assert!(!steeper.contains("smaller `epsilon`"), "{steeper}");
+}
+
+/// Σ f(λ), f′ = 1 + c λ, which pulls elements flat. It is declared for all stretches, and only says that it is extended.
+struct Pulling {
+    curvature: f64,
+}
+
+impl Pulling {
+    fn slope<R: Real>(&self, l: R) -> R {
+        R::splat(1.0) + R::splat(self.curvature) * l
+    }
+}
+
+impl Material for Pulling {
+    fn energy<R: Real>(&self, l: [R; 3]) -> R {
+        let [e1, e2, e3] = l.map(|l| l * (R::splat(1.0) + R::splat(0.5 * self.curvature) * l));
+        e1 + e2 + e3
+    }
+
+    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
+        l.map(|l| self.slope(l))
+    }
+
+    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
+        let (c, zero) = (R::splat(self.curvature), R::splat(0.0));
+        Blocks {
+            gradient: self.gradient(l),
+            hessian: [c, c, c, zero, zero, zero],
+            flip: [c; 3],
+            twist: PAIRS.map(|(i, j)| (self.slope(l[i]) + self.slope(l[j])) / (l[i] + l[j])),
+        }
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn inversion(&self) -> Inversion {
+        Inversion::Extend { epsilon: 0.3 }
+    }
+
+    fn has_pole(&self) -> bool {
+        true
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
