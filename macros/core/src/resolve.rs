@@ -27,6 +27,8 @@ pub struct Resolver<'a> {
     scope: Scope,
     /// let-bindings in scope.
     bindings: HashMap<String, Id>,
+    /// Names of all let-bindings so far.
+    bound: HashSet<String>,
     /// The index of the sum around.
     index: Option<Index>,
     /// Names that were read, or that a mistake has been reported of.
@@ -80,6 +82,7 @@ impl<'a> Resolver<'a> {
             diagnostics,
             scope: Scope::Stretches,
             bindings: HashMap::new(),
+            bound: HashSet::new(),
             index: None,
             used: HashSet::new(),
             mistaken: declaration.mistaken.iter().map(Ident::to_string).collect(),
@@ -218,6 +221,7 @@ impl<'a> Resolver<'a> {
             return None;
         }
         self.bindings.insert(name.to_string(), value);
+        self.bound.insert(name.to_string());
         if self.is_unknown(value) {
             self.mistaken.insert(name.to_string());
             return None;

@@ -59,6 +59,14 @@ impl Resolver<'_> {
             return self
                 .mistake(name, &format!("`{text}` is the length of lists: a number needs a parameter"));
         }
+        if self.bound.contains(&text) {
+            return self.mistake(
+                name,
+                &format!(
+                    "`{text}` is known only in the `{{ … }}` of its `let`: write out here what it stands for"
+                ),
+            );
+        }
         let known = self.known_names();
         let hint = match (literature::name(&text), nearest(&text, known.iter().map(String::as_str))) {
             (Some(hint), _) if self.scope != Scope::Parameters => hint.to_owned(),

@@ -171,6 +171,15 @@ fn names() {
     check_body(&format!("let mu = 1.0; {GOOD}"), &[("mu", "`mu` is taken already")]);
     check_body(&format!("let x = mu; let x = 2.0 * x; x + {GOOD}"), &[("x", "`x` is taken already")]);
     check_body("mu * (I1 - 3.0 - 2.0 * J.ln())", &[("m", "`m` does not occur")]);
+    // A condition does not see into the body, nor an energy into a block that has ended.
+    let condition = |arguments: &str, body: &str| {
+        let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {{ {body} }}");
+        check(arguments, &item, &[("x", "`x` is known only in the `{ … }` of its `let`: write out here")]);
+    };
+    let body = "let x = I1 - 3.0; mu * (x - 2.0 * J.ln())";
+    condition("domain(J > 0.0, x < 2.0)", body);
+    condition("domain(J > 0.0), admissible(mu > x)", body);
+    condition("domain(J > 0.0)", "mu * ({ let x = I1 - 3.0; x } - 2.0 * J.ln() + 0.0 * x)");
 }
 
 #[test]
