@@ -291,8 +291,8 @@ pub enum Inadmissible {
     Violated {
         /// The condition as declared.
         condition: &'static str,
-        /// The parameters as given, such as `mu = -1`.
-        given: String,
+        /// The parameters that it names, as given.
+        given: Vec<Given>,
     },
     /// The shear modulus at rest is not positive, or the bulk modulus negative, or one is not finite.
     UnstableRest {
@@ -332,8 +332,8 @@ pub enum Inadmissible {
     DoesNotRestore {
         /// The condition that would make it restore.
         condition: &'static str,
-        /// The parameters as given.
-        given: String,
+        /// The parameters that it names, as given.
+        given: Vec<Given>,
     },
     /// A Poisson's ratio is asked for that is below what an energy has by itself.
     BelowOwnPoisson {
@@ -355,7 +355,9 @@ impl fmt::Display for Inadmissible {
             Self::NotFinite { parameter, value } => {
                 write!(f, "`{parameter}` is {value}; it must be a finite number")
             }
-            Self::Violated { condition, given } => write!(f, "`{condition}` must hold, but {given}"),
+            Self::Violated { condition, given } => {
+                write!(f, "`{condition}` must hold, but {}", listed(given))
+            }
             Self::UnstableRest { moduli } if !(moduli.mu + moduli.bulk()).is_finite() => write!(
                 f,
                 "the small-strain moduli are no finite numbers, shear modulus {} Pa and bulk modulus {} Pa: \
@@ -397,8 +399,9 @@ impl fmt::Display for Inadmissible {
             ),
             Self::DoesNotRestore { condition, given } => write!(
                 f,
-                "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {given}; \
-                 use `Inversion::Refuse` or other parameters"
+                "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {}; \
+                 use `Inversion::Refuse` or other parameters",
+                listed(given)
             ),
             Self::BelowOwnPoisson { poisson, lowest } => write!(
                 f,
@@ -412,6 +415,43 @@ impl fmt::Display for Inadmissible {
 }
 
 impl std::error::Error for Inadmissible {}
+
+fn listed(given: &[Given]) -> String {
+    given.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Given {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Place in the list, counted from 0, if the parameter is one.
+    pub index: Option<usize>,
+    /// Its value.
+    pub value: f64,
+}
+
+impl Given {
+    /// A parameter that is a number.
+    #[must_use]
+    pub const fn scalar(parameter: &'static str, value: f64) -> Self {
+        Self { parameter, index: None, value }
+    }
+
+    /// An entry of a parameter that is a list.
+    #[must_use]
+    pub const fn entry(parameter: &'static str, index: usize, value: f64) -> Self {
+        Self { parameter, index: Some(index), value }
+    }
+}
+
+impl fmt::Display for Given {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.parameter)?;
+        self.index.map_or(Ok(()), |index| write!(f, "[{index}]"))?;
+        write!(f, " = {}", self.value)
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::mem::discriminant;
 
-use piola::material::Inadmissible;
+use piola::material::{Given, Inadmissible};
 
 use crate::data::Unanswered;
 
@@ -41,14 +41,13 @@ impl Refusal {
 
     /// The entries of lists that a constructor speaks of, each with its name among the numbers, which count from 1:
     /// `beta[0]` and `beta_1`.
-    pub(super) fn entries(&self) -> Vec<(&str, String)> {
+    pub(super) fn entries(&self) -> Vec<(String, String)> {
         let Self::Inadmissible(Inadmissible::Violated { given, .. }) = self else { return Vec::new() };
-        let entry = |given| {
-            let (entry, _value) = str::split_once(given, " = ")?;
-            let (list, index) = entry.strip_suffix(']')?.split_once('[')?;
-            Some((entry, format!("{list}_{}", index.parse::<usize>().ok()? + 1)))
+        let names = |&Given { parameter, index, .. }: &Given| {
+            let index = index?;
+            Some((format!("{parameter}[{index}]"), format!("{parameter}_{}", index + 1)))
         };
-        given.split(", ").filter_map(entry).collect()
+        given.iter().filter_map(names).collect()
     }
 }
 
@@ -67,11 +66,10 @@ mod tests {
 
     #[test]
     fn entries_of_lists_go_by_the_names_of_numbers() {
-        let given = |given: &str| {
-            Refusal::Inadmissible(Inadmissible::Violated { condition: "", given: given.into() })
-        };
-        let names = [("mu[0]", "mu_1".to_owned()), ("alpha[11]", "alpha_12".to_owned())];
-        assert_eq!(given("mu[0] = -1, kappa = 2, alpha[11] = 0.5").entries(), names);
-        assert_eq!(given("kappa = 2").entries(), []);
+        let given =
+            vec![Given::entry("mu", 0, -1.0), Given::scalar("kappa", 2.0), Given::entry("alpha", 11, 0.5)];
+        let violated = Refusal::Inadmissible(Inadmissible::Violated { condition: "", given });
+        let names = [("mu[0]", "mu_1"), ("alpha[11]", "alpha_12")];
+        assert_eq!(violated.entries(), names.map(|(entry, number)| (entry.to_owned(), number.to_owned())));
     }
 }

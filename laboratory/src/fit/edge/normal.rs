@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     fn violated(condition: &'static str) -> Refusal {
-        Refusal::Inadmissible(Inadmissible::Violated { condition, given: String::new() })
+        Refusal::Inadmissible(Inadmissible::Violated { condition, given: Vec::new() })
     }
 
     /// 3 x + 4 y ≤ 5 and x ≤ 1, which meet at (1, 1/2).

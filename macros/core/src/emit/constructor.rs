@@ -148,16 +148,12 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
     let names = identifiers(condition.to_token_stream());
     let given =
         declaration.parameters.iter().filter(|parameter| names.contains(&parameter.name)).map(|parameter| {
-            let name = &parameter.name;
+            let (name, text) = (&parameter.name, parameter.name.to_string());
             match &list {
                 Some((_, index)) if parameter.length().is_some() => {
-                    let format = format!("{name}[{{}}] = {{}}");
-                    quote!(::std::format!(#format, #index, #name[#index]))
+                    quote!(::piola::material::Given::entry(#text, #index, #name[#index]))
                 }
-                _ => {
-                    let format = format!("{name} = {{}}");
-                    quote!(::std::format!(#format, #name))
-                }
+                _ => quote!(::piola::material::Given::scalar(#text, #name)),
             }
         });
     let test = typed(condition);
@@ -166,7 +162,7 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
         if !(#test) {
             return Err(::piola::material::Inadmissible::#error {
                 condition: #text,
-                given: [#(#given),*].join(", "),
+                given: ::std::vec![#(#given),*],
             });
         }
     };

@@ -108,14 +108,14 @@ impl Gent {
         if !(mu > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "mu > 0",
-                given: [::std::format!("mu = {}", mu)].join(", "),
+                given: ::std::vec![::piola::material::Given::scalar("mu", mu)],
             });
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
         if !(jm > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "jm > 0",
-                given: [::std::format!("jm = {}", jm)].join(", "),
+                given: ::std::vec![::piola::material::Given::scalar("jm", jm)],
             });
         }
         let material = Self {
@@ -152,7 +152,7 @@ impl Gent {
             if !(kappa >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "kappa >= 0",
-                    given: [::std::format!("kappa = {}", kappa)].join(", "),
+                    given: ::std::vec![::piola::material::Given::scalar("kappa", kappa)],
                 });
             }
         }

@@ -95,7 +95,7 @@ impl NeoHookean {
         if !(mu > 0f64) {
             return Err(::piola::material::Inadmissible::Violated {
                 condition: "mu > 0",
-                given: [::std::format!("mu = {}", mu)].join(", "),
+                given: ::std::vec![::piola::material::Given::scalar("mu", mu)],
             });
         }
         let material = Self {
@@ -150,7 +150,9 @@ impl NeoHookean {
             if !(lambda >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "lambda >= 0",
-                    given: [::std::format!("lambda = {}", lambda)].join(", "),
+                    given: ::std::vec![
+                        ::piola::material::Given::scalar("lambda", lambda)
+                    ],
                 });
             }
         }

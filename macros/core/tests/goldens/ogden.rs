@@ -104,7 +104,9 @@ impl<const N: usize> Ogden<N> {
             if !(alpha[p] != 0f64) {
                 return Err(::piola::material::Inadmissible::Violated {
                     condition: "alpha[p] != 0",
-                    given: [::std::format!("alpha[{}] = {}", p, alpha[p])].join(", "),
+                    given: ::std::vec![
+                        ::piola::material::Given::entry("alpha", p, alpha[p])
+                    ],
                 });
             }
         }
@@ -143,11 +145,10 @@ impl<const N: usize> Ogden<N> {
                 if !(mu[p] * alpha[p] > 0f64) {
                     return Err(::piola::material::Inadmissible::DoesNotRestore {
                         condition: "mu[p] * alpha[p] > 0",
-                        given: [
-                            ::std::format!("mu[{}] = {}", p, mu[p]),
-                            ::std::format!("alpha[{}] = {}", p, alpha[p]),
-                        ]
-                            .join(", "),
+                        given: ::std::vec![
+                            ::piola::material::Given::entry("mu", p, mu[p]),
+                            ::piola::material::Given::entry("alpha", p, alpha[p])
+                        ],
                     });
                 }
             }
@@ -155,7 +156,7 @@ impl<const N: usize> Ogden<N> {
             if !(kappa >= 0f64) {
                 return Err(::piola::material::Inadmissible::DoesNotRestore {
                     condition: "kappa >= 0",
-                    given: [::std::format!("kappa = {}", kappa)].join(", "),
+                    given: ::std::vec![::piola::material::Given::scalar("kappa", kappa)],
                 });
             }
         }
