@@ -9,7 +9,7 @@ use divan::counter::ItemsCount;
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola_tests::speed::{Arrays, IN_CACHE, Task, materials};
+use piola_speed::{Arrays, IN_CACHE, Task, materials};
 
 fn main() {
     divan::main();

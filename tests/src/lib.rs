@@ -7,7 +7,7 @@
 //! * [`compiled`]: the evaluation of a point, compiled once;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of them;
 //! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in `STABILITY.md`;
-//! * [`speed`]: what is timed and counted;
+//! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
 //! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and the contract of every material;
@@ -21,5 +21,4 @@ pub mod declared;
 pub mod multiprecision;
 pub mod quotients;
 pub mod soundness;
-pub mod speed;
 pub mod stability;

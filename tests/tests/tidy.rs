@@ -72,6 +72,7 @@ fn unsafe_code_stays_in_the_lanes_and_says_why() {
         "tests/src",
         "tests/examples",
         "tests/benches",
+        "tests/speed",
     ];
     for (path, text) in folders.into_iter().flat_map(sources) {
         let lines: Vec<&str> = text.lines().collect();

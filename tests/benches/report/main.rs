@@ -16,8 +16,8 @@ use std::time::{Duration, SystemTime};
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use piola::lanes::Backend;
+use piola_speed::{Effort, processor};
 use piola_tests::cases::Case;
-use piola_tests::speed::{Effort, processor};
 
 mod charts;
 mod data;

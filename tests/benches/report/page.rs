@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use piola::Real;
-use piola_tests::speed::{RESOLUTION, beats};
+use piola_speed::{RESOLUTION, beats};
 
 use crate::charts::{Chart, best_settings, materials};
 use crate::data::{GrowthRow, PointRow, Report, StepRow};

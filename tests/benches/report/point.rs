@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;
 
 use indicatif::ProgressBar;
+use piola_speed::{Effort, Times, front, time_all_in_turns};
 use piola_tests::cases::{Case, Quantity};
-use piola_tests::speed::{Effort, Times, front, time_all_in_turns};
 
 use crate::data::PointRow;
 

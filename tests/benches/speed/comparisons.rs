@@ -6,12 +6,11 @@ use piola::Material;
 use piola::batch::{Batch, Energy, Layout, Stages};
 use piola::lanes::Backend;
 use piola_materials::{NeoHookean, StVenantKirchhoff};
+use piola_speed::{Arrays, Effort, IN_CACHE, LAMBDA, MU, Task, Times, materials, ogden, time_in_turns};
 use piola_tests::baselines::hand_written;
-use piola_tests::speed::{
-    Arrays, Effort, IN_CACHE, LAMBDA, MU, PointByPoint, Task, Times, materials, ogden, time_in_turns,
-};
 
 use super::measure::side_by_side;
+use super::point_by_point::PointByPoint;
 use super::tables::{cell, header, row};
 
 /// Generated code beside energies by hand, through the same batches.

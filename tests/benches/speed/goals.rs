@@ -6,7 +6,7 @@
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola_tests::speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
+use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
 
 use super::measure::{in_cache, streaming};
 use super::tables::{cell, header, row};

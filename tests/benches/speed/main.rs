@@ -8,11 +8,12 @@
 use std::time::Duration;
 
 use piola::lanes::Backend;
-use piola_tests::speed::{Effort, IN_CACHE, STREAMING, processor};
+use piola_speed::{Effort, IN_CACHE, STREAMING, processor};
 
 mod comparisons;
 mod goals;
 mod measure;
+mod point_by_point;
 mod tables;
 
 fn main() {

@@ -3,7 +3,7 @@
 use piola::batch::{Batch, Energy, Layout, Stages};
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola_tests::speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};
+use piola_speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};
 
 /// The same arrays again and again.
 pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, batch: &Batch<'_, E>) -> Times {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
-use piola_tests::speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
+use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
 
 use super::measure::{in_cache as measure_in_cache, streaming as measure_streaming};
 

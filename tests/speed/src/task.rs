@@ -129,8 +129,8 @@ impl Input {
     pub(super) fn draw(self, random: &mut Random) -> Vec<f64> {
         match self {
             Self::Nothing => Vec::new(),
-            Self::Deformation => deformation(random),
-            Self::RestShape => [deformation(random), vec![random.uniform(0.5, 1.5)]].concat(),
+            Self::Deformation => deformation(random).to_vec(),
+            Self::RestShape => [&deformation(random)[..], &[random.uniform(0.5, 1.5)]].concat(),
             Self::Factors | Self::Increment => {
                 (0..self.numbers()).map(|_| random.uniform(-1.0, 1.0)).collect()
             }
@@ -138,13 +138,19 @@ impl Input {
     }
 }
 
-fn deformation(random: &mut Random) -> Vec<f64> {
+/// The deformation gradients of [`Arrays`](crate::Arrays), row by row, without end.
+pub fn deformation_gradients() -> impl Iterator<Item = [f64; 9]> {
+    let mut random = Random::new(1);
+    std::iter::repeat_with(move || deformation(&mut random))
+}
+
+fn deformation(random: &mut Random) -> [f64; 9] {
     loop {
         let f: [f64; 9] = std::array::from_fn(|k| f64::from(k % 4 == 0) + 0.3 * random.uniform(-1.0, 1.0));
         let determinant = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6])
             + f[2] * (f[3] * f[7] - f[4] * f[6]);
         if determinant > 0.0 {
-            return f.to_vec();
+            return f;
         }
     }
 }

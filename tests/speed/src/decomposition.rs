@@ -9,8 +9,7 @@ use piola::point::{Matrix3, Svd, svd, svd_signed_by_determinant};
 
 use super::IN_CACHE;
 use super::arrays::Aligned;
-use super::task::Input;
-use piola::random::Random;
+use super::task::deformation_gradients;
 
 /// [`IN_CACHE`] deformation gradients and room for their frames and stretches.
 #[derive(Debug)]
@@ -27,9 +26,9 @@ impl<E: Element> Decompositions<E> {
     /// The points of [`Arrays`](super::Arrays).
     #[must_use]
     pub fn new() -> Self {
-        let (mut F, mut random) = (Aligned::new(9 * ROW), Random::new(1));
-        for point in 0..IN_CACHE {
-            for (k, number) in Input::Deformation.draw(&mut random).into_iter().enumerate() {
+        let mut F = Aligned::new(9 * ROW);
+        for (point, numbers) in deformation_gradients().take(IN_CACHE).enumerate() {
+            for (k, number) in numbers.into_iter().enumerate() {
                 F[k * ROW + point] = E::splat(number);
             }
         }

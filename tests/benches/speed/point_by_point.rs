@@ -9,51 +9,38 @@ use std::hint::black_box;
 use piola::Material;
 use piola::lanes::{Backend, Kernel, Lanes};
 use piola::point::{Matrix3, stress, svd};
-
-use super::IN_CACHE;
-use super::task::Input;
-use crate::baselines::decompositions;
-use crate::baselines::svd_gradients::{self, Regularization};
-use piola::random::Random;
+use piola_speed::{IN_CACHE, deformation_gradients};
+use piola_tests::baselines::decompositions;
+use piola_tests::baselines::svd_gradients::{self, Regularization};
 
 /// [`IN_CACHE`] deformation gradients with room for P and the 81 entries of dP/dF.
 ///
 /// [`svd_gradients`], a scalar at a time: what a good engineer makes of \[SZLSB11\] without lanes.
 #[derive(Debug)]
-pub struct PointByPoint {
+pub(crate) struct PointByPoint {
     F: Vec<Matrix3<f64>>,
     results: Vec<(Matrix3<f64>, [[f64; 9]; 9])>,
 }
 
 impl PointByPoint {
-    /// The points of [`Arrays`](super::Arrays).
-    #[must_use]
-    pub fn new() -> Self {
-        let mut random = Random::new(1);
-        let mut F = vec![[[0.0; 3]; 3]; IN_CACHE];
-        for F in &mut F {
-            F.as_flattened_mut().copy_from_slice(&Input::Deformation.draw(&mut random));
-        }
+    /// The points of [`Arrays`](piola_speed::Arrays).
+    pub(crate) fn new() -> Self {
+        let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
+        let F = deformation_gradients().take(IN_CACHE).map(rows).collect();
         Self { F, results: vec![Default::default(); IN_CACHE] }
     }
 
     /// Computes all after the decomposition of this library, compiled for the instructions of a back end: the compiler may use
     /// them as it likes.
-    pub fn run(&mut self, material: &impl Material, backend: Backend) {
+    pub(crate) fn run(&mut self, material: &impl Material, backend: Backend) {
         backend.run(Compute::<_, false> { material, points: self });
         black_box(&self.results);
     }
 
     /// The same after the decomposition that a library has ready, nalgebra's. A point where it fails keeps its numbers.
-    pub fn run_with_library(&mut self, material: &impl Material, backend: Backend) {
+    pub(crate) fn run_with_library(&mut self, material: &impl Material, backend: Backend) {
         backend.run(Compute::<_, true> { material, points: self });
         black_box(&self.results);
-    }
-}
-
-impl Default for PointByPoint {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

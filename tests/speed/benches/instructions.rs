@@ -1,7 +1,7 @@
 //! Counts the instructions of every kernel with callgrind, which no other program on the machine disturbs.
 //!
-//! `cargo bench -p piola-tests --bench instructions` prints them; with `-- --check` it compares them with the
-//! committed ones of this compiler's version, `tests/instructions/rustc-*.txt`, and fails where a kernel has grown by more
+//! `cargo bench -p piola-speed --bench instructions` prints them; with `-- --check` it compares them with the
+//! committed ones of this compiler's version, `tests/speed/instructions/rustc-*.txt`, and fails where a kernel has grown by more
 //! than 3 %; with `-- --bless` it writes those. Where valgrind or AVX2 is missing it says so and checks nothing.
 //!
 //! Instructions are not time. But where nothing but the code has changed, more of them are a reason to measure.
@@ -16,7 +16,7 @@ use std::{env, fs};
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
-use piola_tests::speed::{Arrays, Decompositions, IN_CACHE, Task, materials};
+use piola_speed::{Arrays, Decompositions, IN_CACHE, Task, materials};
 
 /// By how much a kernel may grow.
 const SLACK: f64 = 1.03;
