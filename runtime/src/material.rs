@@ -15,15 +15,15 @@
 //!
 //! This module knows no matrices: how the derivatives become a stress is the business of [`crate::point`].
 
-use std::fmt;
-
 use crate::lanes::{Mask, Real};
 
 mod fittable;
+mod inadmissible;
 mod normalised;
 mod varying;
 
 pub use fittable::Fittable;
+pub use inadmissible::{Given, Inadmissible};
 pub use normalised::Normalised;
 pub use varying::{Each, Mixed, Parameters, Uniform, Varying};
 
@@ -276,197 +276,9 @@ pub trait Declared: Material + Sized {
     }
 }
 
-/// Why a material cannot be built from these parameters.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Inadmissible {
-    /// A parameter is infinite or NaN.
-    NotFinite {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A condition of the declaration does not hold.
-    Violated {
-        /// The condition as declared.
-        condition: &'static str,
-        /// The parameters that it names, as given.
-        given: Vec<Given>,
-    },
-    /// The shear modulus at rest is not positive, or the bulk modulus negative, or one is not finite.
-    UnstableRest {
-        /// The moduli that follow from the parameters.
-        moduli: Moduli,
-    },
-    /// Young's modulus is not positive, or Poisson's ratio outside −1 < ν < 1/2.
-    YoungPoisson {
-        /// Young's modulus, Pa.
-        young: f64,
-        /// Poisson's ratio.
-        poisson: f64,
-    },
-    /// The rest state carries stress, which functions given as parameters do not cancel.
-    StressedRest {
-        /// ψ1(1, 1, 1), Pa.
-        stress: f64,
-    },
-    /// The threshold of the extension is outside 0 < ε < 1.
-    Threshold {
-        /// The threshold as given.
-        epsilon: f64,
-    },
-    /// The material has no extension.
-    NoExtension {
-        /// Name of the material.
-        material: &'static str,
-        /// Why, as its declaration says.
-        reason: Option<&'static str>,
-    },
-    /// The material does not know the derivatives of its stress by its parameters.
-    NotFittable {
-        /// Name of the material.
-        material: &'static str,
-    },
-    /// The extension would not restore an inverted point.
-    DoesNotRestore {
-        /// The condition that would make it restore.
-        condition: &'static str,
-        /// The parameters that it names, as given.
-        given: Vec<Given>,
-    },
-    /// A Poisson's ratio is asked for that is below what an energy has by itself.
-    BelowOwnPoisson {
-        /// As asked for.
-        poisson: f64,
-        /// The energy's own, which is the lowest that it can be normalised to.
-        lowest: f64,
-    },
-    /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
-    Shape {
-        /// What was expected.
-        expected: String,
-    },
-}
-
-impl fmt::Display for Inadmissible {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotFinite { parameter, value } => {
-                write!(f, "`{parameter}` is {value}; it must be a finite number")
-            }
-            Self::Violated { condition, given } => {
-                write!(f, "`{condition}` must hold, but {}", listed(given))
-            }
-            Self::UnstableRest { moduli } if !(moduli.mu + moduli.bulk()).is_finite() => write!(
-                f,
-                "the small-strain moduli are no finite numbers, shear modulus {} Pa and bulk modulus {} Pa: \
-                 these parameters divide by zero or overflow somewhere in the energy",
-                moduli.mu,
-                moduli.bulk()
-            ),
-            Self::UnstableRest { moduli } if moduli.mu > 0.0 => write!(
-                f,
-                "the rest state would be unstable: the small-strain bulk modulus is {} Pa and must not be negative, which a greater \
-                 resistance to changes of volume mends",
-                moduli.bulk()
-            ),
-            Self::UnstableRest { moduli } => write!(
-                f,
-                "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive",
-                moduli.mu
-            ),
-            Self::YoungPoisson { young, poisson } => write!(
-                f,
-                "Young's modulus is {young} Pa and Poisson's ratio {poisson}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
-                 what hardly changes its volume"
-            ),
-            Self::StressedRest { stress } => write!(
-                f,
-                "the rest state would carry a stress of {stress} Pa; let the derivatives of the functions cancel at 1"
-            ),
-            Self::Threshold { epsilon } => {
-                write!(f, "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1")
-            }
-            Self::NoExtension { material, reason } => {
-                write!(f, "{material} has no extension beyond its domain")?;
-                reason.map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
-                write!(f, "; use `Inversion::Refuse`")
-            }
-            Self::NotFittable { material } => write!(
-                f,
-                "{material} has no derivatives of its stress by its parameters; declare it with `fit` and numbers as parameters"
-            ),
-            Self::DoesNotRestore { condition, given } => write!(
-                f,
-                "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {}; \
-                 use `Inversion::Refuse` or other parameters",
-                listed(given)
-            ),
-            Self::BelowOwnPoisson { poisson, lowest } => write!(
-                f,
-                "Poisson's ratio {poisson} is below {lowest}, that of the energy itself, to which resistance to changes of \
-                 volume can be added but not taken away: lower its volumetric parameter first, or, of an energy of the \
-                 catalogue, let `Entry::matching` choose its parameters"
-            ),
-            Self::Shape { expected } => write!(f, "{expected}"),
-        }
-    }
-}
-
-impl std::error::Error for Inadmissible {}
-
-fn listed(given: &[Given]) -> String {
-    given.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
-}
-
-/// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] = 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given {
-    /// Name of the parameter.
-    pub parameter: &'static str,
-    /// Place in the list, counted from 0, if the parameter is one.
-    pub index: Option<usize>,
-    /// Its value.
-    pub value: f64,
-}
-
-impl Given {
-    /// A parameter that is a number.
-    #[must_use]
-    pub const fn scalar(parameter: &'static str, value: f64) -> Self {
-        Self { parameter, index: None, value }
-    }
-
-    /// An entry of a parameter that is a list.
-    #[must_use]
-    pub const fn entry(parameter: &'static str, index: usize, value: f64) -> Self {
-        Self { parameter, index: Some(index), value }
-    }
-}
-
-impl fmt::Display for Given {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.parameter)?;
-        self.index.map_or(Ok(()), |index| write!(f, "[{index}]"))?;
-        write!(f, " = {}", self.value)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_unstable_rest_state_is_told_by_the_modulus_that_makes_it_so() {
-        let unstable = |mu, lambda| Inadmissible::UnstableRest { moduli: Moduli { mu, lambda } }.to_string();
-        assert!(unstable(-1.0, 1.0).ends_with("shear modulus is -1 Pa and must be positive"));
-        assert!(unstable(1.5, -2.0).contains("bulk modulus is -1 Pa and must not be negative"));
-        // ν = 1/2, and 0/0.
-        for (mu, lambda) in [(1.0, f64::INFINITY), (f64::NAN, 1.0)] {
-            assert!(unstable(mu, lambda).contains("divide by zero or overflow"), "{mu} {lambda}");
-        }
-    }
 
     #[test]
     fn moduli_are_those_that_they_came_from() {
