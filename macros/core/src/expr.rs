@@ -251,6 +251,24 @@ mod tests {
     }
 
     #[test]
+    fn cube_roots_keep_the_sign() {
+        let mut g = Graph::default();
+        let x = g.stretch(0);
+        let minus = g.neg(x);
+        let thirds = |n| Exponent::rational(Rational::new(n, 3).unwrap());
+        for n in [-4, -2, 4] {
+            assert_eq!(g.power(minus, thirds(n)), g.power(x, thirds(n)));
+        }
+        for n in [-5, -1, 1] {
+            let power = g.power(x, thirds(n));
+            assert_eq!(g.power(minus, thirds(n)), g.neg(power));
+        }
+        // Other roots of what may be negative are as they are written.
+        let fifths = Exponent::rational(Rational::new(2, 5).unwrap());
+        assert_ne!(g.power(minus, fifths), g.power(x, fifths));
+    }
+
+    #[test]
     fn overflow_is_reported() {
         let mut g = Graph::default();
         let big = g.integer(i64::MAX);

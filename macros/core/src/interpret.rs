@@ -172,9 +172,7 @@ impl Interpreter<'_> {
         let r = self.exponent(exponent);
         let power = match exponent {
             // By its real cube root a negative number has such powers: J^(−2/3) is even in each stretch.
-            Exponent { real: None, rational } if rational.denominator() == 3 => {
-                value.cbrt().powi(rational.numerator() as i32)
-            }
+            exponent if exponent.is_of_cube_root() => value.cbrt().powi(exponent.rational.numerator() as i32),
             _ if r.fract() == 0.0 => value.powi(r as i32),
             _ => value.powf(r),
         };

@@ -280,6 +280,25 @@ fn ogden_needs_three_powers_for_each_term_and_energy_alone_no_quotient() {
     assert_eq!(count(&all), (3, 3));
 }
 
+/// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and no power of a
+/// mirrored I1b.
+#[test]
+fn twists_of_isochoric_powers_need_one_power() {
+    let item = quote! {
+        fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 { mu / n * (I1b / 3.0).powf(n) + mu * (J - 1.0).powi(2) }
+    };
+    let mut model = compile("power of I1b", &quote!(domain(J > 0.0)), &item);
+    let twist = model.plain.twist;
+    let program = model.program(&twist);
+    let operations = program.statements.iter().filter_map(|statement| match statement {
+        Statement::Let(_, op) => Some(*op),
+        Statement::Loop { .. } => None,
+    });
+    let count = |is: fn(&Op) -> bool| operations.clone().filter(is).count();
+    assert_eq!(count(|op| matches!(op, Op::Power(..))), 1);
+    assert_eq!(count(|op| matches!(op, Op::PowerQuotient { .. })), 0);
+}
+
 #[test]
 fn moduli_follow_from_the_energy() {
     let (_, _, arguments, item) = energies().swap_remove(5);

@@ -34,6 +34,11 @@ impl Exponent {
         if self.real.is_some() { None } else { self.rational.as_integer() }
     }
 
+    /// Whether it is n/3: the one root that numbers below zero have everywhere, as [`cbrt`](f64::cbrt).
+    pub(crate) fn is_of_cube_root(self) -> bool {
+        self.real.is_none() && self.rational.denominator() == 3
+    }
+
     pub(super) fn is_zero(self) -> bool {
         self.real.is_none() && self.rational.is_zero()
     }

@@ -67,8 +67,16 @@ impl Graph {
             }
             // c·t and Π have whole powers factor by factor; real ones only where every factor is known positive.
             Node::Linear { constant, terms } if constant.is_zero() && terms.len() == 1 => {
+                let (term, factor) = terms[0];
+                // A cube root keeps the sign: (−t)^(4/3) = t^(4/3).
+                if factor == Rational::ONE.negated() && exponent.is_of_cube_root() {
+                    if exponent.rational.numerator() % 2 != 0 {
+                        *coefficient = coefficient.negated();
+                    }
+                    self.gather(term, exponent, coefficient, into);
+                    return;
+                }
                 if let Some(n) = exponent.as_integer() {
-                    let (term, factor) = terms[0];
                     let power = self.exact(factor.checked_powi(n));
                     *coefficient = self.exact(coefficient.checked_mul(power));
                     self.gather(term, exponent, coefficient, into);
