@@ -1,31 +1,47 @@
 //! Expressions as one line of Unicode, for documentation and messages.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 
 use crate::expr::{Exponent, Extended, Graph, Id, Node};
 use crate::parse::Declaration;
 use crate::rational::Rational;
 
+mod shared;
+
+pub use shared::{Formulas, formulas, formulas_by_invariants};
+
 /// A node as a formula, such as `1/2 μ (I1 − 3) − μ ln J`.
 #[must_use]
 pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
+    by_stretches(graph, declaration).line(id)
+}
+
+fn by_stretches<'a>(graph: &'a mut Graph, declaration: &'a Declaration) -> Printer<'a> {
     let stretches = [0, 1, 2].map(|i| graph.stretch(i));
     let squares = stretches.map(|stretch| graph.powi(stretch, 2));
     let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
     let volume = graph.product_of(&stretches);
     let names = ["λ₁", "λ₂", "λ₃"];
-    let invariants = vec![("I1", squares.to_vec()), ("I2", pairs.to_vec())];
+    // Sums of products of stretches with one exponent for the k-th, and another for the rest.
+    let mut isochoric = |one: i128, rest: i128| {
+        let [one, rest] =
+            [one, rest].map(|thirds| Rational::new(thirds, 3).map_or(Exponent::ONE, Exponent::rational));
+        let factors = |k| [0, 1, 2].map(|i| (stretches[i], if i == k { one } else { rest }));
+        [0, 1, 2].map(|k| graph.product(&factors(k))).to_vec()
+    };
+    let invariants = vec![
+        ("I1", squares.to_vec()),
+        ("I2", pairs.to_vec()),
+        ("I1 J^(−2/3)", isochoric(4, -2)),
+        ("I2 J^(−4/3)", isochoric(-4, 2)),
+    ];
     let volume = Some(Volume { stretches, product: volume });
-    Printer { graph, declaration, names, volume, invariants, budget: Cell::new(LONGEST) }
-        .print(id, Context::Sum)
+    Printer { volume, invariants, ..Printer::new(graph, declaration, names) }
 }
 
-/// The same of a node in which the three stretches stand for I1, I2 and J.
-#[must_use]
-pub fn formula_by_invariants(graph: &Graph, declaration: &Declaration, id: Id) -> String {
-    let names = ["I1", "I2", "J"];
-    Printer { graph, declaration, names, volume: None, invariants: Vec::new(), budget: Cell::new(LONGEST) }
-        .print(id, Context::Sum)
+fn by_invariants<'a>(graph: &'a Graph, declaration: &'a Declaration) -> Printer<'a> {
+    Printer::new(graph, declaration, ["I1", "I2", "J"])
 }
 
 /// Nodes after which a formula is cut off: a graph can be exponentially smaller than what it stands for.
@@ -55,12 +71,37 @@ struct Printer<'a> {
     invariants: Vec<(&'static str, Vec<Id>)>,
     /// Nodes that may still be printed.
     budget: Cell<usize>,
+    /// Nodes that stand under a name, and how often each has done so.
+    named: HashMap<Id, String>,
+    uses: RefCell<HashMap<Id, usize>>,
 }
 
-impl Printer<'_> {
+impl<'a> Printer<'a> {
+    fn new(graph: &'a Graph, declaration: &'a Declaration, names: [&'static str; 3]) -> Self {
+        Self {
+            graph,
+            declaration,
+            names,
+            volume: None,
+            invariants: Vec::new(),
+            budget: Cell::new(LONGEST),
+            named: HashMap::new(),
+            uses: RefCell::default(),
+        }
+    }
+
+    fn line(&self, id: Id) -> String {
+        self.budget.set(LONGEST);
+        self.print(id, Context::Sum)
+    }
+
     fn print(&self, id: Id, context: Context) -> String {
         if self.volume.as_ref().is_some_and(|volume| volume.product == id) {
             return "J".to_owned();
+        }
+        if let Some(name) = self.named.get(&id) {
+            *self.uses.borrow_mut().entry(id).or_default() += 1;
+            return name.clone();
         }
         let Some(rest) = self.budget.get().checked_sub(1) else { return "…".to_owned() };
         self.budget.set(rest);
@@ -175,16 +216,19 @@ impl Printer<'_> {
         parenthesise(text, context >= Context::Power)
     }
 
-    /// The same with a power of J for equal powers of the three stretches, which those of J become in the graph.
+    /// The same with a power of J for powers of the three stretches, which those of J become in the graph: for equal ones, and
+    /// for fractions that whole powers of stretches are left of, λ₁^(4/3) λ₂^(−2/3) λ₃^(−2/3) being J^(−2/3) λ₁².
     fn with_volume(&self, factors: &[(Id, Exponent)]) -> Vec<(Id, Exponent)> {
         let mut factors = factors.to_vec();
         let Some(Volume { stretches, product }) = &self.volume else { return factors };
         let exponent = |id: &Id| factors.iter().find(|(base, _)| base == id).map(|&(_, exponent)| exponent);
-        let shared = exponent(&stretches[0]);
-        if let Some(shared) = shared.filter(|_| stretches.iter().all(|id| exponent(id) == shared)) {
-            factors.retain(|(base, _)| !stretches.contains(base));
-            factors.push((*product, shared));
-        }
+        let exponents: Vec<_> = stretches.iter().filter_map(exponent).collect();
+        let Ok(exponents) = <[Exponent; 3]>::try_from(exponents) else { return factors };
+        let Some((shared, left)) = shared_power(exponents) else { return factors };
+        factors.retain(|(base, _)| !stretches.contains(base));
+        factors.push((*product, shared));
+        let left = stretches.iter().zip(left).filter(|(_, n)| *n != 0);
+        factors.extend(left.map(|(&stretch, n)| (stretch, Exponent::integer(n))));
         factors
     }
 
@@ -221,6 +265,23 @@ impl Printer<'_> {
             }
         }
     }
+}
+
+/// The power of J in powers of the three stretches, and which whole ones are left.
+fn shared_power(exponents: [Exponent; 3]) -> Option<(Exponent, [i64; 3])> {
+    let [a, b, c] = exponents;
+    if a == b && b == c {
+        return Some((a, [0; 3]));
+    }
+    if exponents.iter().any(|exponent| exponent.real.is_some() || exponent.as_integer().is_some()) {
+        return None;
+    }
+    let mut sorted = exponents.map(|exponent| exponent.rational);
+    sorted.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+    let [_, shared, _] = sorted;
+    let left = exponents.map(|exponent| exponent.rational.checked_add(shared.negated())?.as_integer());
+    let [Some(a), Some(b), Some(c)] = left else { return None };
+    Some((Exponent::rational(shared), [a, b, c]))
 }
 
 /// Σ coefficient · name + constant.
@@ -270,7 +331,7 @@ fn multiple(coefficient: Rational, text: String) -> String {
 }
 
 fn subscript(n: usize) -> char {
-    ['₀', '₁', '₂', '₃'].get(n).copied().unwrap_or('?')
+    ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'].get(n).copied().unwrap_or('?')
 }
 
 fn superscript(n: i64) -> String {

@@ -1,4 +1,5 @@
-//! What the compiler writes of the catalogue, as committed: whole expansions, and how many operations each result takes.
+//! What the compiler writes of the catalogue, as committed: whole expansions, the formulas that rustdoc shows, and how many
+//! operations each result takes.
 //!
 //! `PIOLA_BLESS=1 cargo test -p piola-codegen --test goldens` writes the files anew.
 
@@ -8,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use piola_codegen::count::{LEGEND, counts, table};
 use piola_codegen::{declarations, expand, understand};
+use proc_macro2::TokenStream;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -51,8 +53,22 @@ fn check_expansion(material: &str) {
     let source =
         fs::read_to_string(catalogue().join(format!("{material}.rs"))).expect("a file of the catalogue");
     let (arguments, item) = declarations(&source).expect("Rust").pop().expect("a declaration");
-    let file = syn::parse2(expand(arguments, item)).expect("an expansion is Rust");
-    check(&format!("{material}.rs"), &prettyplease::unparse(&file));
+    check(&format!("{material}.rs"), &expansion(arguments, item));
+}
+
+fn expansion(arguments: TokenStream, item: TokenStream) -> String {
+    prettyplease::unparse(&syn::parse2(expand(arguments, item)).expect("an expansion is Rust"))
+}
+
+/// All of the catalogue, in the order of their files.
+fn all() -> impl Iterator<Item = (TokenStream, TokenStream)> {
+    let folder = fs::read_dir(catalogue()).expect("the catalogue");
+    let mut paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    paths.into_iter().flat_map(|path| {
+        let source = fs::read_to_string(path).expect("a file of the catalogue");
+        declarations(&source).expect("Rust")
+    })
 }
 
 #[test]
@@ -72,17 +88,30 @@ fn an_energy_with_a_bound_expands_as_committed() {
 
 #[test]
 fn results_take_the_operations_committed() {
-    let folder = fs::read_dir(catalogue()).expect("the catalogue");
-    let mut paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
     let mut text = format!("# Operations of the catalogue\n\n{LEGEND}.\n");
-    for path in paths {
-        let source = fs::read_to_string(path).expect("a file of the catalogue");
-        for (arguments, item) in declarations(&source).expect("Rust") {
-            let (declaration, mut model) = understand(arguments, item).expect("an energy without mistakes");
-            let table = table(&declaration, &counts(&mut model));
-            write!(text, "\n## {}\n\n{table}", declaration.name).expect("text");
-        }
+    for (arguments, item) in all() {
+        let (declaration, mut model) = understand(arguments, item).expect("an energy without mistakes");
+        let table = table(&declaration, &counts(&mut model));
+        write!(text, "\n## {}\n\n{table}", declaration.name).expect("text");
     }
     check("counts.md", &text);
+}
+
+#[test]
+fn rustdoc_shows_the_formulas_committed() {
+    let mut text = "# Formulas of the catalogue\n".to_owned();
+    for (arguments, item) in all() {
+        let expansion = expansion(arguments, item);
+        let (_, shown) = expansion.split_once("/// **Derivatives**").expect("a section");
+        let (shown, rest) = shown.split_once("/// **Operations**").expect("the next section");
+        let lines: Vec<_> = shown.lines().map(|line| line.trim_start_matches("///").trim_start()).collect();
+        let name = rest.split_once("pub struct ").map_or("", |(_, rest)| rest);
+        let name = name.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+        for result in ["ψ₁", "ψ₁₁", "ψ₁₂", "D⁻₁₂", "D⁺₁₂"] {
+            let is_whole = |line: &&str| line.starts_with(&format!("{result} = ")) && !line.contains('…');
+            assert_eq!(lines.iter().filter(|line| is_whole(line)).count(), 1, "{name}: {result}");
+        }
+        write!(text, "\n## {name}\n\n**Derivatives** {}\n", lines.join("\n").trim_end()).expect("text");
+    }
+    check("formulas.md", &text);
 }

@@ -2,14 +2,11 @@
 //! operations each result takes.
 
 use crate::count::{LEGEND, counts, table};
-use crate::formula::{formula, formula_by_invariants};
+use crate::formula::{Formulas, formulas, formulas_by_invariants};
 use crate::model::Model;
 use crate::parse::Declaration;
 
 use super::{Texts, condition_text};
-
-/// Formulas with more characters than this are left out: nobody reads them.
-const LONGEST: usize = 240;
 
 /// The documentation of the type, after what its declaration says.
 pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
@@ -71,28 +68,22 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
         ("D⁻₁₂", plain.flip[0]),
         ("D⁺₁₂", plain.twist[0]),
     ];
-    let by_stretches = by_stretches.map(|(name, id)| (name, formula(&mut model.graph, declaration, id)));
-    let by_stretches = lines(&by_stretches);
-    let mut sections = Vec::new();
-    if !by_stretches.is_empty() {
-        sections.push(format!(
-            "**Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\\[x, y\\] \
-             is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than {LONGEST} \
-             characters are left out:\n\n```text\n{by_stretches}```"
-        ));
-    }
+    let (names, roots): (Vec<_>, Vec<_>) = by_stretches.into_iter().unzip();
+    let by_stretches = formulas(&mut model.graph, declaration, &roots);
+    let parts =
+        if by_stretches.parts.is_empty() { "" } else { "; parts that occur more than once have names" };
+    let mut text = format!(
+        "**Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\\[x, y\\] \
+         is (f(x) − f(y))/(x − y); the others follow by exchange of stretches{parts}:\n\n{}",
+        block(&names, &by_stretches)
+    );
     if let Some(invariants) = &model.invariants {
-        let names = ["∂ψ/∂I1", "∂ψ/∂I2", "∂ψ/∂J"].into_iter().zip(invariants.gradient);
-        let by_invariants =
-            names.map(|(name, id)| (name, formula_by_invariants(&model.graph, declaration, id)));
-        let by_invariants = lines(&by_invariants.collect::<Vec<_>>());
-        if !by_invariants.is_empty() {
-            sections.push(format!(
-                "**By the invariants**, from which the stress needs no stretches:\n\n```text\n{by_invariants}```"
-            ));
-        }
+        let names = ["∂ψ/∂I1", "∂ψ/∂I2", "∂ψ/∂J"];
+        let by_invariants = formulas_by_invariants(&model.graph, declaration, &invariants.gradient);
+        text += "\n\n**By the invariants**, from which the stress needs no stretches:\n\n";
+        text += &block(&names, &by_invariants);
     }
-    sections.join("\n\n")
+    text
 }
 
 /// What the word `fit` gives.
@@ -101,10 +92,11 @@ fn by_parameters(declaration: &Declaration) -> String {
     if declaration.options.fit { text.to_owned() } else { String::new() }
 }
 
-/// Those of the formulas that somebody would read.
-fn lines(formulas: &[(&str, String)]) -> String {
-    let short = formulas.iter().filter(|(_, text)| text.chars().count() <= LONGEST);
-    short.map(|(name, text)| format!("{name} = {text}\n")).collect()
+/// Parts first, then the formulas that they are parts of.
+fn block(names: &[&str], Formulas { parts, formulas }: &Formulas) -> String {
+    let parts = parts.iter().map(|(name, text)| format!("{name} = {text}\n"));
+    let formulas = names.iter().zip(formulas).map(|(name, text)| format!("{name} = {text}\n"));
+    format!("```text\n{}```", parts.chain(formulas).collect::<String>())
 }
 
 /// What each result costs.

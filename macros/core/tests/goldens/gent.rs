@@ -24,7 +24,7 @@
 ///
 /// **Small strain**: μ = μ, λ = κ + 2 μ/jm.
 ///
-/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than 240 characters are left out:
+/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches:
 ///
 /// ```text
 /// ψ₁ = μ λ₁/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₂ λ₃ − μ/λ₁

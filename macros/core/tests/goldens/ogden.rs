@@ -27,7 +27,7 @@
 ///
 /// **Small strain**: μ = 1/2 Σₚ μₚ αₚ, λ = κ.
 ///
-/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches, and formulas of more than 240 characters are left out:
+/// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches:
 ///
 /// ```text
 /// ψ₁ = Σₚ μₚ λ₁^(αₚ − 1) + κ (J − 1) λ₂ λ₃ − (Σₚ μₚ)/λ₁
