@@ -69,6 +69,9 @@ fn data_of_ones_own_are_fitted_as_they_ask_for() {
     let text = piola(folder.path(), &["fit", "yeoh", "--data", "bulk.csv", "--hold", "c2", "--absolute"]);
     assert!(text.contains("kappa=2000000\n") && text.contains(" held\n"), "{text}");
     assert!(text.contains("held: the data say nothing about it"), "{text}");
+    // The same file under the curve that goes through it.
+    let text = piola(folder.path(), &["curve", "yeoh", "--data", "bulk.csv", "--param", "kappa=2000000"]);
+    assert!(text.contains("volumetric 1.00000"), "{text}");
 }
 
 #[test]

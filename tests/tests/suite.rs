@@ -160,6 +160,10 @@ fn constructors_refuse_what_is_inadmissible() {
         |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");
     let plain = Inversion::Refuse;
     check(message("stvk", &[&[f64::NAN], &[1.0]], plain), "`mu` is NaN; it must be a finite number");
+    check(
+        message("ogden", &[&[1.0, 1.0], &[2.0, f64::INFINITY], &[1.0]], plain),
+        "`alpha[1]` is inf; it must",
+    );
     check(message("stvk", &[&[-1.0], &[1.0]], plain), "`mu > 0` must hold, but mu = -1");
     check(message("stvk", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
     check(message("stvk", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");

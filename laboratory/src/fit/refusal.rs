@@ -43,10 +43,7 @@ impl Refusal {
     /// `beta[0]` and `beta_1`.
     pub(super) fn entries(&self) -> Vec<(String, String)> {
         let Self::Inadmissible(Inadmissible::Violated { given, .. }) = self else { return Vec::new() };
-        let names = |&Given { parameter, index, .. }: &Given| {
-            let index = index?;
-            Some((format!("{parameter}[{index}]"), format!("{parameter}_{}", index + 1)))
-        };
+        let names = |given: &Given| Some((given.name(), format!("{}_{}", given.parameter, given.index? + 1)));
         given.iter().filter_map(names).collect()
     }
 }

@@ -10,10 +10,8 @@ use super::Moduli;
 pub enum Inadmissible {
     /// A parameter is infinite or NaN.
     NotFinite {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
+        /// Which, and what it is.
+        given: Given,
     },
     /// A condition of the declaration does not hold.
     Violated {
@@ -80,8 +78,8 @@ pub enum Inadmissible {
 impl fmt::Display for Inadmissible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { parameter, value } => {
-                write!(f, "`{parameter}` is {value}; it must be a finite number")
+            Self::NotFinite { given } => {
+                write!(f, "`{}` is {}; it must be a finite number", given.name(), given.value)
             }
             Self::Violated { condition, given } => {
                 write!(f, "`{condition}` must hold, but {}", listed(given))
@@ -167,13 +165,18 @@ impl Given {
     pub const fn entry(parameter: &'static str, index: usize, value: f64) -> Self {
         Self { parameter, index: Some(index), value }
     }
+
+    /// `mu` or `alpha[2]`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let Self { parameter, index, .. } = self;
+        index.map_or_else(|| (*parameter).to_owned(), |index| format!("{parameter}[{index}]"))
+    }
 }
 
 impl fmt::Display for Given {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.parameter)?;
-        self.index.map_or(Ok(()), |index| write!(f, "[{index}]"))?;
-        write!(f, " = {}", self.value)
+        write!(f, "{} = {}", self.name(), self.value)
     }
 }
 

@@ -50,12 +50,20 @@ fn new(declaration: &Declaration) -> TokenStream {
     let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
     let finite = numbers.map(|parameter| {
         let (name, text) = (&parameter.name, parameter.name.to_string());
-        let values = if parameter.length().is_some() { quote!(#name) } else { quote!([#name]) };
-        quote! {
-            for value in #values {
-                if !value.is_finite() {
-                    return Err(::piola::material::Inadmissible::NotFinite { parameter: #text, value });
+        let check = |value: TokenStream, given: TokenStream| {
+            quote! {
+                if !#value.is_finite() {
+                    return Err(::piola::material::Inadmissible::NotFinite { given: ::piola::material::Given::#given });
                 }
+            }
+        };
+        if parameter.length().is_none() {
+            return check(quote!(#name), quote!(scalar(#text, #name)));
+        }
+        let check = check(quote!(value), quote!(entry(#text, index, value)));
+        quote! {
+            for (index, value) in #name.into_iter().enumerate() {
+                #check
             }
         }
     });

@@ -80,29 +80,20 @@ impl Gent {
         jm: f64,
         kappa: f64,
     ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-        for value in [mu] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "mu",
-                    value,
-                });
-            }
+        if !mu.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("mu", mu),
+            });
         }
-        for value in [jm] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "jm",
-                    value,
-                });
-            }
+        if !jm.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("jm", jm),
+            });
         }
-        for value in [kappa] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "kappa",
-                    value,
-                });
-            }
+        if !kappa.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("kappa", kappa),
+            });
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
         if !(mu > 0f64) {

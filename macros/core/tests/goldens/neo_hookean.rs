@@ -75,21 +75,15 @@ impl NeoHookean {
         mu: f64,
         lambda: f64,
     ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-        for value in [mu] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "mu",
-                    value,
-                });
-            }
+        if !mu.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("mu", mu),
+            });
         }
-        for value in [lambda] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "lambda",
-                    value,
-                });
-            }
+        if !lambda.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("lambda", lambda),
+            });
         }
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
         if !(mu > 0f64) {

@@ -75,29 +75,24 @@ impl<const N: usize> Ogden<N> {
         alpha: [f64; N],
         kappa: f64,
     ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-        for value in mu {
+        for (index, value) in mu.into_iter().enumerate() {
             if !value.is_finite() {
                 return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "mu",
-                    value,
+                    given: ::piola::material::Given::entry("mu", index, value),
                 });
             }
         }
-        for value in alpha {
+        for (index, value) in alpha.into_iter().enumerate() {
             if !value.is_finite() {
                 return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "alpha",
-                    value,
+                    given: ::piola::material::Given::entry("alpha", index, value),
                 });
             }
         }
-        for value in [kappa] {
-            if !value.is_finite() {
-                return Err(::piola::material::Inadmissible::NotFinite {
-                    parameter: "kappa",
-                    value,
-                });
-            }
+        if !kappa.is_finite() {
+            return Err(::piola::material::Inadmissible::NotFinite {
+                given: ::piola::material::Given::scalar("kappa", kappa),
+            });
         }
         for p in 0..alpha.len() {
             #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
