@@ -14,7 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{LEGEND}.");
     for path in std::env::args().skip(1) {
         let source = std::fs::read_to_string(&path).map_err(|error| format!("{path}: {error}"))?;
-        for (arguments, item) in piola_codegen::declarations(&source)? {
+        let declarations = piola_codegen::declarations(&source)?;
+        if declarations.is_empty() {
+            return Err(format!("{path}: no function has the attribute `material`").into());
+        }
+        for (arguments, item) in declarations {
             let (declaration, mut model) = piola_codegen::understand(arguments, item)?;
             println!("\n## {}\n\n{}", declaration.name, table(&declaration, &counts(&mut model)).trim_end());
         }

@@ -42,6 +42,8 @@ pub mod volume;
 pub mod young_poisson;
 
 use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{Attribute, Item, ItemFn, Meta};
 
 use diagnostics::Diagnostics;
 use model::Model;
@@ -69,24 +71,34 @@ pub fn understand(arguments: TokenStream, item: TokenStream) -> syn::Result<(Dec
     diagnostics.finish(understood)
 }
 
-/// The declarations of a Rust source file, each as the arguments of its attribute and its item.
+/// The declarations of a Rust source file and of the modules written out in it, each as the arguments of its attribute and its
+/// item.
 ///
 /// # Errors
 /// Where the text is not Rust.
 pub fn declarations(source: &str) -> syn::Result<Vec<(TokenStream, TokenStream)>> {
     let mut found = Vec::new();
-    for item in syn::parse_file(source)?.items {
-        let syn::Item::Fn(mut function) = item else { continue };
-        let is_declaration = |attribute: &syn::Attribute| {
-            attribute.path().segments.last().is_some_and(|last| last.ident == "material")
-        };
-        if let Some(k) = function.attrs.iter().position(is_declaration) {
-            let arguments = match function.attrs.remove(k).meta {
-                syn::Meta::List(list) => list.tokens,
-                _ => TokenStream::new(),
-            };
-            found.push((arguments, quote::ToTokens::to_token_stream(&function)));
+    collect(syn::parse_file(source)?.items, &mut found);
+    Ok(found)
+}
+
+fn collect(items: Vec<Item>, found: &mut Vec<(TokenStream, TokenStream)>) {
+    for item in items {
+        match item {
+            Item::Fn(function) => found.extend(declaration(function)),
+            Item::Mod(module) => collect(module.content.map(|(_, items)| items).unwrap_or_default(), found),
+            _ => {}
         }
     }
-    Ok(found)
+}
+
+fn declaration(mut function: ItemFn) -> Option<(TokenStream, TokenStream)> {
+    let is_material =
+        |attribute: &Attribute| attribute.path().segments.last().is_some_and(|last| last.ident == "material");
+    let k = function.attrs.iter().position(is_material)?;
+    let arguments = match function.attrs.remove(k).meta {
+        Meta::List(list) => list.tokens,
+        _ => TokenStream::new(),
+    };
+    Some((arguments, function.into_token_stream()))
 }

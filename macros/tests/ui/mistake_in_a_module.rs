@@ -1,0 +1,16 @@
+use piola::Material;
+
+mod solids {
+    use piola::material;
+
+    #[material(domain(J > 0.0))]
+    pub(crate) fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
+        mu / 2.0 * (I1 - 3.0 - 2.0 * J.len())
+    }
+}
+
+fn main() -> Result<(), piola::material::Inadmissible> {
+    let solid = solids::Solid::new(1e6)?;
+    assert!(solid.mu() < solid.energy([1.0; 3]));
+    Ok(())
+}
