@@ -23,10 +23,10 @@ use crate::spelling::list;
 
 mod arguments;
 mod collapsed;
+mod mistakes;
 
 use arguments::Remedy;
-pub use arguments::{limits, powers};
-pub use collapsed::collapsed;
+use mistakes::Mistakes;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
@@ -167,18 +167,42 @@ pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnos
     }
 }
 
+/// The energy must have a value wherever its domain reaches, and no stress at rest. Gives whether all is well at rest.
+pub fn values(
+    graph: &mut Graph,
+    written: &Written<'_>,
+    gradient: Id,
+    samples: &[Point],
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let mut mistakes = Mistakes::new(diagnostics);
+    arguments::powers(graph, written, samples, &mut mistakes);
+    if !written.declaration.options.prestressed {
+        rest(graph, written, gradient, samples, &mut mistakes);
+    }
+    let is_well_at_rest = mistakes.is_empty();
+    // What has no value where the volume vanishes has none in what is collapsed, and `domain(J > 0.0)` mends both.
+    if volume(graph, written, samples, &mut mistakes) {
+        collapsed::collapsed(graph, written, &mut mistakes);
+    }
+    arguments::limits(graph, written, samples, &mut mistakes);
+    is_well_at_rest
+}
+
 /// Where the domain does not say `J > 0.0`, inverted material has an energy, and where it does not say `J != 0.0`, what is flat.
-pub fn volume(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+/// Gives whether it has.
+fn volume(graph: &Graph, written: &Written<'_>, samples: &[Point], mistakes: &mut Mistakes<'_>) -> bool {
     // What functions are defined for is their own affair.
     if written.declaration.has_functions() {
-        return;
+        return true;
     }
-    for &(sign, message) in beyond(written.volume) {
-        if has_no_value(graph, written, written.energy, sign, samples) {
-            let culprit = written.culprit(|part| has_no_value(graph, written, part, sign, samples));
-            return diagnostics.error(culprit, format!("this has no value {message}"));
-        }
+    let is_short = |&&(sign, _): &&(f64, &str)| has_no_value(graph, written, written.energy, sign, samples);
+    let Some(&(sign, message)) = beyond(written.volume).iter().find(is_short) else { return true };
+    let breaks = |part| has_no_value(graph, written, part, sign, samples);
+    if !mistakes.is_known(breaks) {
+        mistakes.report(written, written.culprit(breaks), format!("this has no value {message}"));
     }
+    false
 }
 
 /// The signs of J, +1 apart, that a domain has, and what to say where an energy has no value there.
@@ -210,24 +234,28 @@ fn has_no_value(graph: &Graph, written: &Written<'_>, part: Id, sign: f64, sampl
 }
 
 /// ψ1 must vanish at λ = 1.
-pub fn rest(
+fn rest(
     graph: &mut Graph,
     written: &Written<'_>,
     gradient: Id,
     samples: &[Point],
-    diagnostics: &mut Diagnostics,
+    mistakes: &mut Mistakes<'_>,
 ) {
     let first = |graph: &mut Graph, part| Differentiator::default().by_stretch(graph, part, 0);
     let is_finite = |graph: &Graph, derivative| {
         samples.iter().all(|point| evaluate(graph, derivative, &at_rest(point)).value.is_finite())
     };
     if !is_finite(graph, gradient) {
-        let culprit = written.culprit(|part| {
+        let mut breaks = |part| {
             let derivative = first(graph, part);
             !is_finite(graph, derivative)
-        });
-        return diagnostics
-            .error(culprit, "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by nothing that vanishes there, and take no \
+        };
+        // What else leaves stress at rest is seen once this is finite.
+        if mistakes.is_known(&mut breaks) {
+            return;
+        }
+        return mistakes
+            .report(written, written.culprit(breaks), "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by nothing that vanishes there, and take no \
              logarithm of it");
     }
     let one = graph.constant(Rational::ONE);
@@ -242,10 +270,14 @@ pub fn rest(
     };
     // Only the constructor knows the slopes of functions.
     if !written.declaration.has_functions() && is_stressed(graph, gradient) {
-        let culprit = written.culprit(|part| {
+        let mut breaks = |part| {
             let derivative = first(graph, part);
             is_stressed(graph, derivative)
-        });
+        };
+        if mistakes.is_known(&mut breaks) {
+            return;
+        }
+        let culprit = written.culprit(breaks);
         let stress = graph.substitute(gradient, [one; 3]);
         let stress = legible(graph, written.declaration, stress);
         let remedy = arguments::vanishing(graph, written).map(|(_, remedy)| remedy);
@@ -271,7 +303,7 @@ pub fn rest(
             ways,
             if is_of_volumes(written.declaration) { MISTYPED } else { "" },
         );
-        diagnostics.error(culprit, message);
+        mistakes.report(written, culprit, message);
     }
 }
 
@@ -309,12 +341,11 @@ fn balance(
     } else {
         format!("- {}", factor(graph, declaration, stress))
     };
-    let conditions = bounds(declaration).map(|condition| condition.to_token_stream().to_string());
-    let conditions: Vec<_> =
-        std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits.iter().cloned()).collect();
-    let domain = format!(" with `domain({})`", conditions.join(", "));
+    let domain = format!(" with {}", positive_domain(declaration, limits));
     if cancels(graph, written.energy, stress) {
-        return format!("append `{term} * (J - 1.0)`, or remove the term in `J.ln()`");
+        let is_needed = !limits.is_empty() || !has_value(graph, written, samples);
+        let domain = if is_needed { &domain } else { "" };
+        return format!("append `{term} * (J - 1.0)`{domain}, or remove the term in `J.ln()`");
     }
     let logarithm = format!("append `{term} * J.ln()`");
     if !limits.is_empty() {
@@ -326,6 +357,14 @@ fn balance(
         Volume::Nonzero => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with the declared one"),
         Volume::Any => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with any domain"),
     }
+}
+
+/// The declared domain where J > 0, with further conditions.
+fn positive_domain(declaration: &Declaration, limits: &[String]) -> String {
+    let conditions = bounds(declaration).map(|condition| condition.to_token_stream().to_string());
+    let conditions: Vec<_> =
+        std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits.iter().cloned()).collect();
+    format!("`domain({})`", conditions.join(", "))
 }
 
 /// Whether the energy needs no further condition on J.
@@ -406,7 +445,7 @@ pub fn stiffness(
         let Value { value, magnitude } = evaluate(graph, shear, point);
         value.abs() <= NOISE * magnitude
     });
-    if vanishes && !written.declaration.has_functions() && diagnostics.is_clean() {
+    if vanishes && !written.declaration.has_functions() {
         diagnostics.error(
             written.culprit(|_| false),
             "the shear modulus of this energy is zero at rest: add a term that resists shear, such as `mu / 2.0 * (I1b - 3.0)`",

@@ -164,21 +164,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
     check::fractions(&graph, &written, diagnostics);
-    if diagnostics.is_clean() {
-        check::powers(&mut graph, &written, &samples, diagnostics);
-    }
-    if !options.prestressed && diagnostics.is_clean() {
-        check::rest(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
-    }
-    if diagnostics.is_clean() {
-        check::volume(&graph, &written, &samples, diagnostics);
-    }
-    if diagnostics.is_clean() {
-        check::collapsed(&mut graph, &written, diagnostics);
-    }
-    if diagnostics.is_clean() {
-        check::limits(&mut graph, &written, diagnostics);
-    }
+    let is_well_at_rest = diagnostics.is_clean()
+        && check::values(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     if options.extend.is_some() {
         check::flat(&graph, &written, &samples, diagnostics);
     }
@@ -197,7 +184,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         derive(&mut graph, extended, &samples, false)
     });
     let moduli = moduli(&mut graph, &plain);
-    if !options.prestressed {
+    // What takes the stress at rest away may resist shear.
+    if !options.prestressed && is_well_at_rest {
         check::stiffness(&graph, &written, moduli, &samples, diagnostics);
     }
     let invariants = by_invariants(declaration, &mut graph);

@@ -3,8 +3,10 @@
 
 use quote::ToTokens;
 
-use super::{CANDIDATES, NOISE, Random, Written, at_rest, candidate, in_place, invariants, isochoric};
-use crate::diagnostics::Diagnostics;
+use super::{
+    CANDIDATES, Mistakes, NOISE, Random, Written, at_rest, candidate, has_value, in_place, invariants,
+    isochoric, positive_domain,
+};
 use crate::expr::{Exponent, Graph, Id, Node};
 use crate::hash::HashMap;
 use crate::interpret::{Point, Value, evaluate, evaluate_with};
@@ -61,6 +63,11 @@ impl Argument {
         found
     }
 
+    /// Whether an expression is one of those of a part.
+    pub(super) fn is_in(graph: &Graph, part: Id, of: Id) -> bool {
+        Self::all(graph, part).iter().any(|argument| argument.of == of)
+    }
+
     fn depends_on(&self, graph: &Graph, is: impl Fn(&Node) -> bool) -> bool {
         graph.reachable(&[self.of]).into_iter().any(|id| is(graph.node(id)))
     }
@@ -72,7 +79,12 @@ impl Argument {
 }
 
 /// Beside rest, rounding leaves what vanishes there of either sign, and powers that are not whole have no value for one of them.
-pub fn powers(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+pub(super) fn powers(
+    graph: &mut Graph,
+    written: &Written<'_>,
+    samples: &[Point],
+    mistakes: &mut Mistakes<'_>,
+) {
     let vanishes = |graph: &Graph, of: Id| {
         samples.iter().all(|point| {
             let Value { value, magnitude } = evaluate(graph, of, &at_rest(point));
@@ -93,7 +105,7 @@ pub fn powers(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagn
     let is_it = |part| {
         Argument::all(graph, part).iter().any(|argument| argument.is_real_power() && argument.of == of)
     };
-    diagnostics.error(written.holder(is_it), message);
+    mistakes.report(written, written.holder(is_it), message);
 }
 
 /// What would do to something that vanishes inside the domain.
@@ -105,8 +117,16 @@ pub(super) enum Remedy {
 }
 
 /// What vanishes within the domain, away from rest, is a limit of it, or wants other invariants.
-pub fn limits(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) {
+pub(super) fn limits(
+    graph: &mut Graph,
+    written: &Written<'_>,
+    samples: &[Point],
+    mistakes: &mut Mistakes<'_>,
+) {
     let Some((of, remedy)) = vanishing(graph, written) else { return };
+    if mistakes.is_known(|part| Argument::is_in(graph, part, of)) {
+        return;
+    }
     let declaration = written.declaration;
     let names = invariants(declaration);
     let remedy = match remedy {
@@ -115,18 +135,22 @@ pub fn limits(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagno
             format!("write {}, which {is} at least 3 wherever J > 0", in_place(&names))
         }
         Remedy::Limit(limit) => {
-            let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
-            let conditions: Vec<_> = conditions.chain([limit]).collect();
+            let domain = if has_value(graph, written, samples) {
+                let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
+                let conditions: Vec<_> = conditions.chain([limit]).collect();
+                format!("`domain({})`", conditions.join(", "))
+            } else {
+                positive_domain(declaration, &[limit])
+            };
             let is_parameter = |id| matches!(graph.node(id), Node::Parameter(_));
             let has_parameters = graph.reachable(&[of]).into_iter().any(is_parameter);
             let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
-            format!("declare `domain({})`{or}", conditions.join(", "))
+            format!("declare {domain}{or}")
         }
     };
     let text = source(graph, declaration, of);
     let message = format!("`{text}` vanishes inside the domain, and there this has no value: {remedy}");
-    let is_it = |part| Argument::all(graph, part).iter().any(|argument| argument.of == of);
-    diagnostics.error(written.holder(is_it), message);
+    mistakes.report(written, written.holder(|part| Argument::is_in(graph, part, of)), message);
 }
 
 /// What vanishes inside the domain and must not, and what would do.

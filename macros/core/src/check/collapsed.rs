@@ -3,8 +3,7 @@
 use quote::ToTokens;
 
 use super::arguments::{Argument, is_good};
-use super::{CANDIDATES, Random, Written, candidate};
-use crate::diagnostics::Diagnostics;
+use super::{CANDIDATES, Mistakes, Random, Written, candidate};
 use crate::expr::{Graph, Id, Node};
 use crate::interpret::{Point, evaluate};
 use crate::model::Volume;
@@ -22,8 +21,11 @@ const COLLAPSED: [([f64; 3], &str); 3] = [
 const DRAWS: usize = 64;
 
 /// Logarithms, denominators and negative powers of what vanishes there, such as I2 on a line, have no value.
-pub fn collapsed(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagnostics) {
+pub(super) fn collapsed(graph: &mut Graph, written: &Written<'_>, mistakes: &mut Mistakes<'_>) {
     let Some((argument, place)) = without_value(graph, written) else { return };
+    if mistakes.is_known(|part| Argument::is_in(graph, part, argument.of)) {
+        return;
+    }
     let real = argument.exponent.filter(|exponent| exponent.real.is_some());
     let real = real.map(|exponent| graph.exponent_value(exponent));
     let power = match argument.exponent {
@@ -36,8 +38,7 @@ pub fn collapsed(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Dia
         "`{}` has no value where {negative}{place}: declare {admissible}`domain(J > 0.0)`",
         source(graph, written.declaration, power)
     );
-    let is_it = |part| Argument::all(graph, part).iter().any(|other| other.of == argument.of);
-    diagnostics.error(written.holder(is_it), message);
+    mistakes.report(written, written.holder(|part| Argument::is_in(graph, part, argument.of)), message);
 }
 
 /// That the exponent is positive, beside what the declaration says; conditions on parameters have no sums.

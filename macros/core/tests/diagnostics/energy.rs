@@ -315,3 +315,70 @@ fn what_is_extended_has_room_for_flat_elements() {
     assert!(message("domain(J > 0.0, I1 - 3.0 < m)").contains("or write `I1b` for `I1`"));
     assert!(!message("domain(J > 0.0, I1 - 3.0 < m), extend").contains("I1b"));
 }
+
+/// Of different terms, or of one term and of one that is missing.
+#[test]
+fn independent_mistakes_come_at_once() {
+    let energy = |body: &str| {
+        format!(
+            "fn E([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, m: f64) -> f64 {{ m * (J - 1).powi(2) + {body} }}"
+        )
+    };
+    let stressed = "leaves the stress `2.0 * mu` at rest";
+    let inverted = "no value where J < 0, in inverted material: declare `domain(J > 0.0)`";
+    let logarithm = "kappa * J.ln().powi(2)";
+    check(
+        "",
+        &energy(&format!("mu * (I1 - 3) + {logarithm}")),
+        &[("mu * (I1 - 3)", stressed), (logarithm, inverted)],
+    );
+    check(
+        "domain(J > 0.0)",
+        &energy("kappa * (I1b - 3).powf(2.5) + mu * I1"),
+        &[("(I1b - 3).powf(2.5)", "is of what vanishes at rest"), ("mu * I1", stressed)],
+    );
+    check(
+        "",
+        &energy("kappa / (I1b - 3) + mu * J.ln()"),
+        &[("kappa / (I1b - 3)", "is not finite at rest"), ("mu * J.ln()", inverted)],
+    );
+    check(
+        "",
+        "fn E([l1, l2, l3]: [f64; 3], kappa: f64) -> f64 { kappa * J.ln().powi(2) }",
+        &[(logarithm, inverted), (logarithm, "the shear modulus of this energy is zero at rest")],
+    );
+    // What one says to declare holds what the other does.
+    let limited = "mu * (1 - (I1 - 3) / m).ln()";
+    let both = "domain(J > 0.0, 1.0 - (I1 - 3.0) / m > 0.0)";
+    let energy = energy(&format!("{limited} + {logarithm}"));
+    check(
+        "prestressed",
+        &energy,
+        &[(logarithm, inverted), ("(1 - (I1 - 3) / m).ln()", &format!("declare `{both}`"))],
+    );
+    check(&format!("prestressed, {both}"), &energy, &[]);
+}
+
+/// A term that breaks several rules is reported once, by whatever name it goes.
+#[test]
+fn one_term_is_one_mistake() {
+    let check = |arguments: &str, body: &str, tokens: &str, message: &str| {
+        let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, b: f64) -> f64 {{ {body} }}");
+        check(arguments, &item, &[(tokens, message)]);
+    };
+    let volume = "b * mu * (J - 1).powi(2)";
+    check(
+        "domain(J > 0.0)",
+        &format!("let root = (I1 - 3 + b).powf(b); mu * root + {volume}"),
+        "mu * root",
+        "leaves the stress",
+    );
+    check("", &format!("mu * (I1 + J.ln()) + {volume}"), "mu * (I1 + J.ln())", "with `domain(J > 0.0)`");
+    check(
+        "",
+        &format!("mu * ((l1 - 1).powi(2) + (l2 - 1).powi(2) + (l3 - 1).powi(2)) - mu * J.ln() + {volume}"),
+        "mu * J.ln()",
+        "append `+ mu * (J - 1.0)` with `domain(J > 0.0)`, or remove the term in `J.ln()`",
+    );
+    check("", &format!("mu * (J - 1).cbrt() + {volume}"), "(J - 1).cbrt()", "is of what vanishes at rest");
+}
