@@ -8,27 +8,44 @@ use super::{Kind, Parameter, WORDS, documentation, identifiers};
 use crate::diagnostics::Diagnostics;
 use crate::spelling::taken;
 
-/// Methods and fields of every material, which a parameter's own method would hide.
-const METHODS: [&str; 19] = [
+/// What every material has by name, which a parameter's own method would hide.
+const MEMBERS: [&str; 31] = [
+    // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
-    "inversion",
     "with_inversion",
+    "clone",
+    // Of `Material`.
     "energy",
-    "energy_by_invariants",
     "gradient",
-    "gradient_by_invariants",
     "gradient_at_strains",
     "blocks",
     "admits",
+    "HAS_INVARIANTS",
+    "energy_by_invariants",
+    "gradient_by_invariants",
     "admits_invariants",
     "has_pole",
     "ends_at_zero_volume",
+    "inversion",
+    "stated_moduli",
+    // Of `Declared`.
+    "DESCRIPTION",
     "from_values",
-    "values",
     "moduli",
+    "normalised_to",
+    // Of `Fittable`.
+    "values",
     "gradient_by_parameters",
-    "clone",
+    // Of `Varying`.
+    "energy_of",
+    "gradient_of",
+    "gradient_at_strains_of",
+    "blocks_of",
+    "admits_of",
+    "energy_by_invariants_of",
+    "gradient_by_invariants_of",
+    "admits_invariants_of",
 ];
 
 /// The parameters of a signature, with the lengths of the lists among them.
@@ -299,8 +316,45 @@ fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Whether a name is a word of energies or a method of materials.
+/// Whether a name is a word of energies or a member of materials.
 pub(crate) fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
-    WORDS.contains(&text.as_str()) || METHODS.contains(&text.as_str()) || text == "sum"
+    WORDS.contains(&text.as_str()) || MEMBERS.contains(&text.as_str()) || text == "sum"
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use syn::{Item, TraitItem};
+
+    use super::is_reserved;
+
+    /// The runtime is known to this crate as text alone.
+    #[test]
+    fn what_the_traits_of_materials_name_is_reserved() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../runtime/src");
+        for (file, name) in [
+            ("material.rs", "Material"),
+            ("material.rs", "Declared"),
+            ("material/fittable.rs", "Fittable"),
+            ("material/varying.rs", "Varying"),
+        ] {
+            let source = fs::read_to_string(folder.join(file)).expect("a file of the runtime");
+            let items = syn::parse_file(&source).expect("Rust").items;
+            let found = items.into_iter().find_map(|item| match item {
+                Item::Trait(item) if item.ident == name => Some(item),
+                _ => None,
+            });
+            for member in found.expect(name).items {
+                let member = match member {
+                    TraitItem::Fn(function) => function.sig.ident,
+                    TraitItem::Const(constant) => constant.ident,
+                    _ => continue,
+                };
+                assert!(is_reserved(&member), "{name}::{member}");
+            }
+        }
+    }
 }
