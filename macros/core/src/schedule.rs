@@ -31,22 +31,30 @@ pub struct Value(pub usize);
 
 /// One operation on values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs, reason = "each is the operation it names")]
 pub enum Op {
     /// The bits of an `f64`.
     Literal(u64),
+    /// λ1, λ2 or λ3.
     Stretch(Stretch),
+    /// λ − 1 of one of them.
     Strain(Stretch),
+    /// A number among the parameters.
     Parameter(Parameter),
     /// The current entry of a list.
     Entry(Parameter),
+    /// The threshold ε of the extension.
     Epsilon,
     /// Smallest denominator of a quotient at a pole.
     PoleFloor,
+    /// −a.
     Neg(Value),
+    /// First + second.
     Add(Value, Value),
+    /// First − second.
     Sub(Value, Value),
+    /// First · second.
     Mul(Value, Value),
+    /// First / second.
     Div(Value, Value),
     /// First · second + third.
     MulAdd(Value, Value, Value),
@@ -54,9 +62,13 @@ pub enum Op {
     NegMulAdd(Value, Value, Value),
     /// First · second − third.
     MulSub(Value, Value, Value),
+    /// Square root.
     Sqrt(Value),
+    /// Cube root.
     Cbrt(Value),
+    /// Natural logarithm.
     Ln(Value),
+    /// Exponential function.
     Exp(Value),
     /// The logarithm that all powers of a number are made from.
     Logarithm(Value),
@@ -66,30 +78,43 @@ pub enum Op {
     LnProduct([Value; 3]),
     /// Derivative of the given order of a function that is a parameter.
     Function(Parameter, u8, Value),
+    /// Divided difference of such a derivative.
     FunctionQuotient(Parameter, u8, Value, Value),
+    /// The larger of two.
     Max(Value, Value),
     /// min(first − second, 0).
     Below(Value, Value),
+    /// The second where the first is negative, else the third.
     WhereNegative(Value, Value, Value),
+    /// Fraction of the interval between the first two that lies above the third.
     ShareAbove(Value, Value, Value),
+    /// Fraction of the interval between the first two that lies below the third.
     ShareBelow(Value, Value, Value),
-    /// What quotients of logarithms and powers of two numbers share: from both, their reciprocals, their logarithms.
+    /// What quotients of logarithms and powers of two numbers a, b share.
     Pair {
+        /// a, b.
         values: [Value; 2],
+        /// 1/a, 1/b.
         reciprocals: [Value; 2],
+        /// The [`Logarithm`](Self::Logarithm)s of a and b.
         logarithms: [Value; 2],
     },
-    /// Of a pair.
+    /// (ln a − ln b) / (a − b), from their pair.
     LnQuotient(Value),
-    /// Of a pair, from both powers and the exponent.
+    /// (a^r − b^r) / (a − b).
     PowerQuotient {
+        /// Of a and b.
         pair: Value,
+        /// a^r, b^r.
         powers: [Value; 2],
+        /// r.
         exponent: Value,
     },
-    /// From both numbers and their exponentials.
+    /// (eᵃ − eᵇ) / (a − b).
     ExpQuotient {
+        /// a, b.
         values: [Value; 2],
+        /// eᵃ, eᵇ.
         exponentials: [Value; 2],
     },
 }
