@@ -32,7 +32,7 @@ use proc_macro::TokenStream;
 /// * `fit`: it is `piola::material::Fittable` too, with the derivatives of its stress by its parameters.
 ///
 /// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no other, the type
-/// also has `from_young_poisson(young, poisson, other parameters…)`.
+/// also has `from_young_poisson(young, poisson, other parameters…)`, unless it is `prestressed` or a parameter is a function.
 ///
 /// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is used.
 #[proc_macro_attribute]
