@@ -44,6 +44,9 @@ const LONGEST: usize = 8;
 /// Rounding errors of a few hundred operations, relative to the magnitudes that enter, stay below this.
 const NOISE: f64 = 1e-12;
 
+/// The longest term, in bytes, that a message quotes: what is longer is better read where it stands.
+const QUOTABLE: usize = 40;
+
 /// What the checks need of a declaration whose names are understood.
 pub struct Written<'a> {
     /// The tokens.
@@ -146,7 +149,7 @@ fn candidate(declaration: &Declaration, random: &mut Random, attempt: usize, vol
 }
 
 /// ψ must not change when two stretches are exchanged.
-pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
+pub fn isotropy(graph: &mut Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
     for (i, j) in [(0, 1), (1, 2)] {
         let is_asymmetric = |id: Id| {
             samples.iter().any(|point| {
@@ -156,13 +159,19 @@ pub fn isotropy(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnos
             })
         };
         if is_asymmetric(written.energy) {
-            let names = &written.declaration.stretches;
+            let Written { declaration, nodes, energy, .. } = written;
+            let culprit = written.culprit(is_asymmetric);
+            let part = culprit.and_then(|part| nodes.of(part)).filter(|part| part != energy);
+            let part = part.map(|part| format!("`{}`", source(graph, declaration, part)));
+            let part = part.filter(|part| part.len() <= QUOTABLE);
             let message = format!(
-                "an isotropic energy does not change when `{}` and `{}` are exchanged, but this does: write the same for all \
-                 three stretches",
-                names[i], names[j]
+                "an isotropic energy does not change when `{}` and `{}` are exchanged, but {} does: write the same for all three \
+                 stretches",
+                declaration.stretches[i],
+                declaration.stretches[j],
+                part.as_deref().unwrap_or("this"),
             );
-            return diagnostics.error(written.culprit(is_asymmetric), message);
+            return diagnostics.error(culprit, message);
         }
     }
 }

@@ -153,7 +153,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
     let samples = check::samples(&mut graph, &written, diagnostics);
     if !samples.is_empty() {
-        check::isotropy(&graph, &written, &samples, diagnostics);
+        check::isotropy(&mut graph, &written, &samples, diagnostics);
     }
     if !diagnostics.is_clean() {
         return None;

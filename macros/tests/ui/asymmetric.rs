@@ -1,12 +1,12 @@
 use piola::{Material, material};
 
-#[material]
-pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
-    mu * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2)) + mu * (l3 - 1.0)
+#[material(domain(J > 0.0))]
+pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
+    mu / 2.0 * (I1 - 3.0 - 2.0 * J.ln()) + kappa * (l3 - 1.0).powi(2)
 }
 
 fn main() -> Result<(), piola::material::Inadmissible> {
-    let solid = Solid::new(1e6)?;
+    let solid = Solid::new(1e6, 1e7)?;
     assert!(solid.mu() < solid.energy([1.0; 3]));
     Ok(())
 }

@@ -316,6 +316,15 @@ fn what_is_extended_has_room_for_flat_elements() {
     assert!(!message("domain(J > 0.0, I1 - 3.0 < m), extend").contains("I1b"));
 }
 
+#[test]
+fn the_asymmetric_term_is_named_where_it_is_short() {
+    check_added("mu * l1 * l2", "mu * l1 * l2", "but `mu * l1 * l2` does: write");
+    let long = "mu * (l1 - 1.0).powi(2) * (l2 - 1.0).powi(2) * (J - 2.0).exp()";
+    check_added(long, long, "but this does: write");
+    let whole = "mu * l1 + sum(|p| m[p]) * l2";
+    check_body(whole, &[(whole, "but this does: write")]);
+}
+
 /// Of different terms, or of one term and of one that is missing.
 #[test]
 fn independent_mistakes_come_at_once() {
