@@ -22,7 +22,7 @@
 //!
 //! | rule | what must hold |
 //! |---|---|
-//! | [`rest`] | no stress, no twist at F = I, and a positive shear modulus |
+//! | [`rest`] | no stress, no twist at F = I, [unless they are meant](Settings::stress_free_at_rest), and a positive shear modulus |
 //! | [`domain`] | numbers are finite where they are admitted, and [`Material::ends_at_zero_volume`] tells the truth |
 //! | [`objectivity`] | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
 //! | [`isotropy`] | rotating the rest shape does likewise, and equal stretches are interchangeable |
@@ -102,7 +102,24 @@ pub struct Settings {
     pub seed: u64,
     /// Stretches are drawn between these, 0 < smallest < 1 < largest.
     pub range: (f64, f64),
-    /// Whether the material claims that F = I is free of stress.
+    /// Whether the material claims that F = I is free of stress: `false` for one that is declared `prestressed`.
+    ///
+    /// ```
+    /// use piola::contract::{Settings, check};
+    ///
+    /// /// A gel that swells.
+    /// #[piola::material(domain(J > 0.0), prestressed)]
+    /// pub fn Gel([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ kappa: f64) -> f64 {
+    ///     mu / 2.0 * I1 + kappa / 2.0 * (J - 1.0).powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let gel = Gel::new(1e4, 1e6)?;
+    /// assert!(check(&gel, &Settings::default()).is_err());
+    /// check(&gel, &Settings { stress_free_at_rest: false, ..Settings::default() })?;
+    /// # Ok(())
+    /// # }
+    /// ```
     pub stress_free_at_rest: bool,
 }
 

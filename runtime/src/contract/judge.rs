@@ -26,6 +26,31 @@ impl Judge {
         expected: f64,
         tolerance: f64,
     ) -> Result<(), Violation> {
+        self.compare_or(component, stretches, found, expected, tolerance, None)
+    }
+
+    /// |found| ≤ tolerance.
+    pub(super) fn vanishes(
+        &mut self,
+        component: impl FnOnce() -> String,
+        stretches: [f64; 3],
+        found: f64,
+        tolerance: f64,
+        remedy: &str,
+    ) -> Result<(), Violation> {
+        self.compare_or(component, stretches, found, 0.0, tolerance, Some(remedy))
+    }
+
+    /// |found − expected| ≤ tolerance, or a remedy.
+    fn compare_or(
+        &mut self,
+        component: impl FnOnce() -> String,
+        stretches: [f64; 3],
+        found: f64,
+        expected: f64,
+        tolerance: f64,
+        remedy: Option<&str>,
+    ) -> Result<(), Violation> {
         let difference = (found - expected).abs();
         self.comparisons += 1;
         // A NaN on either side is no agreement.
@@ -35,8 +60,8 @@ impl Judge {
             }
             return Ok(());
         }
-        let (rule, component) = (self.rule, component());
-        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance })
+        let (rule, component, remedy) = (self.rule, component(), remedy.map(Into::into));
+        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
     /// The same bits; all NaN are the same.
@@ -52,7 +77,8 @@ impl Judge {
             return Ok(());
         }
         let (rule, component) = (self.rule, component());
-        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance: 0.0 })
+        let (tolerance, remedy) = (0.0, None);
+        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
     /// found > 0.

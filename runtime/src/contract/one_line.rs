@@ -28,6 +28,19 @@
 /// # fn main() {}
 /// ```
 ///
+/// A material declared `prestressed` carries stress at rest, which the rule `rest` is told by
+/// [`stress_free_at_rest: false`](crate::contract::Settings::stress_free_at_rest):
+///
+/// ```
+/// # /// A gel that swells.
+/// # #[piola::material(domain(J > 0.0), prestressed)]
+/// # pub fn Gel([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ kappa: f64) -> f64 {
+/// #     mu / 2.0 * I1 + kappa / 2.0 * (J - 1.0).powi(2)
+/// # }
+/// piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false);
+/// # fn main() {}
+/// ```
+///
 /// A rule that does not apply, as that on extensions of a material that refuses inversion, is kept. What each was judged on is
 /// what `cargo test -- --show-output` shows.
 #[macro_export]

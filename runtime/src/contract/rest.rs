@@ -4,7 +4,7 @@ use super::evaluation::blocks_at;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
 use crate::material::{Material, Moduli};
 
-/// At F = I: no stress (where claimed), twists of zero, flips of ψ11 − ψ12 = 2μ > 0.
+/// At F = I: no stress and twists of zero, unless [`Settings::stress_free_at_rest`] is `false`; flips of ψ11 − ψ12 = 2μ > 0.
 ///
 /// # Errors
 /// The first violation.
@@ -15,7 +15,7 @@ pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Vi
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
     for k in 0..3 {
         if settings.stress_free_at_rest {
-            judge.compare(|| gradient_name(k), stretches, blocks.gradient[k], 0.0, tolerance)?;
+            judge.vanishes(|| gradient_name(k), stretches, blocks.gradient[k], tolerance, STRESSED)?;
             judge.compare(|| pair_name("twist", k), stretches, blocks.twist[k], 0.0, tolerance)?;
         }
         let shear = blocks.hessian[0] - blocks.hessian[3];
@@ -24,6 +24,11 @@ pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Vi
     }
     judge.finding()
 }
+
+/// What to do about stress at rest, be it a mistake or meant.
+const STRESSED: &str = "append to the energy what cancels this stress, such as `- mu * J.ln()`; or, where the rest state carries it \
+                        on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
+                        `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
 /// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
 ///

@@ -34,6 +34,8 @@ fn right_materials_pass() {
 /// What can be wrong with a material.
 #[derive(Clone, Copy)]
 enum Defect {
+    /// Of every part: a defect only where the rest state is to be free of stress.
+    Prestress,
     PrestressOfOnePart,
     StressTooLargeByAMillionth,
     HessianTooLargeByAMillionth,
@@ -62,7 +64,7 @@ impl<M: Material> Material for Defective<M> {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         let right = self.0.energy(l);
         match self.1 {
-            Defect::PrestressOfOnePart => right + l[0] + l[1] + l[2],
+            Defect::Prestress | Defect::PrestressOfOnePart => right + l[0] + l[1] + l[2],
             Defect::PrefersFirstStretch => right + quartic(l[0])[0],
             Defect::JumpingEnergy => {
                 right + R::select(l[2].less(R::splat(0.8)), R::splat(1e-6), R::splat(0.0))
@@ -85,6 +87,12 @@ impl<M: Material> Material for Defective<M> {
         let gradient = blocks.gradient;
         let (diagonal, mixed) = ([h11, h22, h33], [h12, h13, h23]);
         match self.1 {
+            Defect::Prestress => {
+                blocks.gradient = gradient.map(|g| g + R::splat(1.0));
+                for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
+                    blocks.twist[pair] = blocks.twist[pair] + R::splat(2.0) / (l[i] + l[j]);
+                }
+            }
             Defect::PrestressOfOnePart => blocks.gradient = gradient.map(|g| g + R::splat(1.0)),
             Defect::StressTooLargeByAMillionth => {
                 blocks.gradient = gradient.map(|g| g * R::splat(1.0 + 1e-6))
@@ -320,6 +328,25 @@ fn defects_that_one_rule_sees_are_named_by_it() {
         Rule::Quotients,
         "twist of stretches 2 and 3 at a pole",
     );
+}
+
+#[test]
+fn stress_at_rest_that_is_meant_is_no_defect() {
+    let prestressed = || Defective(NeoHookean, Defect::Prestress);
+    check_names_alone(&prestressed(), Rule::Rest, "derivative of the energy by stretch 1");
+    let meant = Settings { stress_free_at_rest: false, ..Settings::default() };
+    check(&prestressed(), &meant).unwrap_or_else(|violations| panic!("{violations}"));
+    // What else is wrong is found all the same, at rest as elsewhere.
+    let broken =
+        |defect| check(&Defective(prestressed(), defect), &meant).expect_err("a defect went unnoticed");
+    for (defect, rule) in [
+        (Defect::StressTooLargeByAMillionth, Rule::StressSlope),
+        (Defect::HessianTooLargeByAMillionth, Rule::TangentSlope),
+        (Defect::VanishingShearAtTheGap, Rule::Rest),
+    ] {
+        let violations = broken(defect);
+        assert!(violations.0.iter().any(|violation| violation.rule() == rule), "{violations}");
+    }
 }
 
 #[test]

@@ -42,6 +42,8 @@ pub enum Violation {
         expected: f64,
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
+        /// What to write instead, where the rule knows; told where the difference is too large to be digits lost.
+        remedy: Option<String>,
     },
     /// A value that must be positive, negative or finite isn't.
     WrongKind {
@@ -87,11 +89,14 @@ impl fmt::Display for Violation {
                 writeln!(f, "    stretches   {l1}, {l2}, {l3}")?;
                 write!(f, "    found       {found:e}")
             };
+        let told = |f: &mut fmt::Formatter<'_>, remedy: Option<&str>| {
+            remedy.map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
+        };
         // Of no use beside numbers that are none: a difference, or a remedy for their sign.
         let see_domain = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
                           negative; see the rule `domain`";
         match self {
-            Self::Differs { component, stretches, found, expected, tolerance, .. } => {
+            Self::Differs { component, stretches, found, expected, tolerance, remedy, .. } => {
                 where_and_what(f, component, *stretches, *found)?;
                 let difference = (found - expected).abs();
                 if difference.is_nan() || tolerance.is_nan() {
@@ -105,11 +110,8 @@ impl fmt::Display for Violation {
                         f,
                         "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}"
                     )?;
-                    if difference < MISTAKE * tolerance {
-                        write!(f, "\n    remedy      {DIGITS}")
-                    } else {
-                        Ok(())
-                    }
+                    let lost = (difference < MISTAKE * tolerance).then_some(DIGITS);
+                    told(f, lost.or(remedy.as_deref()))
                 }
             }
             Self::WrongKind { component, stretches, found, expected, remedy, .. } => {
@@ -118,7 +120,7 @@ impl fmt::Display for Violation {
                     return write!(f, ", where {expected} is expected: {see_domain}");
                 }
                 write!(f, "\n    expected    {expected}")?;
-                remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
+                told(f, remedy.as_deref())
             }
             Self::NothingToCheck { .. } => {
                 write!(f, "    the material admits none of the sampled stretches: choose another `range`")

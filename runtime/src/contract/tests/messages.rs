@@ -11,6 +11,7 @@ fn violations_have_a_line_for_each_fact() {
         found: 0.0,
         expected: 2.0,
         tolerance: 1e-14,
+        remedy: None,
     };
     let wrong_kind = Violation::WrongKind {
         rule: Rule::Rest,
@@ -40,12 +41,32 @@ fn violations_have_a_line_for_each_fact() {
 #[test]
 fn lost_digits_are_not_told_as_a_mistake() {
     let text = |found: f64| {
-        let (rule, component) = (Rule::Moduli, "shear modulus".into());
-        Violation::Differs { rule, component, stretches: [1.0; 3], found, expected: 1.0, tolerance: 1e-13 }
-            .to_string()
+        Violation::Differs {
+            rule: Rule::Moduli,
+            component: "shear modulus".into(),
+            stretches: [1.0; 3],
+            found,
+            expected: 1.0,
+            tolerance: 1e-13,
+            remedy: Some("state another".into()),
+        }
+        .to_string()
     };
-    assert!(text(1.0 + 1e-11).contains("likelier digits lost than a mistake in the formula"));
-    assert!(!text(1.0 + 1e-3).contains("digits lost"));
+    let (lost, mistaken) = (text(1.0 + 1e-11), text(1.0 + 1e-3));
+    assert!(lost.contains("likelier digits lost than a mistake in the formula"), "{lost}");
+    assert!(!lost.contains("state another"), "{lost}");
+    assert!(mistaken.ends_with("1.0e-13\n    remedy      state another"), "{mistaken}");
+}
+
+#[test]
+fn stress_at_rest_is_told_how_to_say_that_it_is_meant() {
+    let verdict = rest(&Defective(NeoHookean, Defect::Prestress), &Settings::default());
+    let text = verdict.expect_err("stress at rest").to_string();
+    assert!(text.contains("    remedy      append to the energy what cancels this stress"), "{text}");
+    assert!(
+        text.contains("`piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`"),
+        "{text}"
+    );
 }
 
 /// A (exp(a (I1b − 3)) − 1), which overflows as J falls.
