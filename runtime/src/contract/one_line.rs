@@ -78,80 +78,37 @@ macro_rules! contract {
                 })
             }
 
-            #[test]
-            fn rest() {
-                keep($crate::contract::Rule::Rest);
-            }
-
-            #[test]
-            fn domain() {
-                keep($crate::contract::Rule::Domain);
-            }
-
-            #[test]
-            fn objectivity() {
-                keep($crate::contract::Rule::Objectivity);
-            }
-
-            #[test]
-            fn isotropy() {
-                keep($crate::contract::Rule::Isotropy);
-            }
-
-            #[test]
-            fn symmetric_tangent() {
-                keep($crate::contract::Rule::SymmetricTangent);
-            }
-
-            #[test]
-            fn stress_slope() {
-                keep($crate::contract::Rule::StressSlope);
-            }
-
-            #[test]
-            fn tangent_slope() {
-                keep($crate::contract::Rule::TangentSlope);
-            }
-
-            #[test]
-            fn dual_numbers() {
-                keep($crate::contract::Rule::DualNumbers);
-            }
-
-            #[test]
-            fn quotients() {
-                keep($crate::contract::Rule::Quotients);
-            }
-
-            #[test]
-            fn strains() {
-                keep($crate::contract::Rule::Strains);
-            }
-
-            #[test]
-            fn invariants() {
-                keep($crate::contract::Rule::Invariants);
-            }
-
-            #[test]
-            fn extension() {
-                keep($crate::contract::Rule::Extension);
-            }
-
-            #[test]
-            fn moduli() {
-                keep($crate::contract::Rule::Moduli);
-            }
-
-            #[test]
-            fn single_precision() {
-                keep($crate::contract::Rule::SinglePrecision);
-            }
-
-            #[test]
-            fn lanes() {
-                keep($crate::contract::Rule::Lanes);
+            $crate::contract! { @tests
+                rest: Rest,
+                domain: Domain,
+                objectivity: Objectivity,
+                isotropy: Isotropy,
+                symmetric_tangent: SymmetricTangent,
+                stress_slope: StressSlope,
+                tangent_slope: TangentSlope,
+                dual_numbers: DualNumbers,
+                quotients: Quotients,
+                strains: Strains,
+                invariants: Invariants,
+                extension: Extension,
+                moduli: Moduli,
+                single_precision: SinglePrecision,
+                lanes: Lanes,
             }
         }
+    };
+    // Of the list above, for the macro's own use.
+    (@tests $($test:ident: $rule:ident,)*) => {
+        $(
+            #[test]
+            fn $test() {
+                keep($crate::contract::Rule::$rule);
+            }
+        )*
+
+        /// These tests, in the order of the rules: as many as there are.
+        #[cfg(test)]
+        pub(super) const TESTS: [($crate::contract::Rule, fn()); $crate::contract::Rule::ALL.len()] =
+            [$(($crate::contract::Rule::$rule, $test)),*];
     };
 }

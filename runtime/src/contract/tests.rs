@@ -392,4 +392,39 @@ mod one_line {
         range: (0.3, 3.0),
         points: 16,
     );
+
+    #[test]
+    fn every_rule_is_a_test() {
+        assert_eq!(neo_hookean::TESTS.map(|(rule, _)| rule), Rule::ALL);
+    }
+
+    // Inside a function, what the macro writes is no test of this crate, and may fail.
+    #[test]
+    fn tests_fail_where_their_rule_is_broken_and_nowhere_else() {
+        crate::contract!(overstated: Defective(NeoHookean, Defect::OverstatedShear), points: 8);
+        for (rule, test) in overstated::TESTS {
+            let message = failure(test);
+            assert_eq!(message.is_some(), rule == Rule::Moduli, "{rule}: {message:?}");
+            assert!(message.is_none_or(|message| message.contains("component   shear modulus")));
+        }
+    }
+
+    #[test]
+    fn tests_fail_where_there_is_no_material() {
+        crate::contract!(refused: no_rubber()?);
+        crate::contract!(panicking: no_rubber().expect("a material"));
+        for (rule, test) in refused::TESTS.into_iter().chain(panicking::TESTS) {
+            assert!(failure(test).is_some_and(|message| message.contains("no such rubber")), "{rule}");
+        }
+    }
+
+    fn no_rubber() -> Result<NeoHookean, &'static str> {
+        Err("no such rubber")
+    }
+
+    /// What a test panics with, if it does.
+    fn failure(test: fn()) -> Option<String> {
+        let panic = std::panic::catch_unwind(test).err()?;
+        Some(*panic.downcast::<String>().expect("a formatted message"))
+    }
 }
