@@ -11,6 +11,9 @@ use crate::point::matrix::multiply;
 
 /// ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
 ///
+/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is enough to change
+/// its numbers beyond their tolerance, or where they are none. Else what is judged is how [`point`](crate::point) rotates.
+///
 /// # Errors
 /// The first violation.
 pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
@@ -39,6 +42,9 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
 }
 
 /// A : (dP/dF) B = B : (dP/dF) A for random A, B.
+///
+/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by blocks that are no finite
+/// numbers. Else what is judged is the tangent that [`point`](crate::point) makes of them.
 ///
 /// # Errors
 /// The first violation.

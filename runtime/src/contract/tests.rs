@@ -56,6 +56,8 @@ enum Defect {
     EndsAtInversion,
     UnboundedPole,
     OverflowsInExtension,
+    EnergyLosesDigits,
+    CurvatureWithoutValue,
 }
 
 struct Defective<M>(M, Defect);
@@ -71,6 +73,11 @@ impl<M: Material> Material for Defective<M> {
             }
             Defect::OverflowsInExtension => {
                 R::select(l[2].less(R::splat(-0.1)), R::splat(f64::INFINITY), right)
+            }
+            Defect::EnergyLosesDigits => {
+                // Zero but for its rounding, which depends on the last digit of the stretch.
+                let root = l[0].sqrt();
+                right + R::splat(1e6) * (root * root - l[0])
             }
             Defect::AttractsCollapse => right + R::splat(100.0) * below(l[2]) * below(l[2]) * below(l[2]),
             _ => right,
@@ -156,7 +163,11 @@ impl<M: Material> Material for Defective<M> {
             Defect::UnboundedPole => {
                 blocks.twist = PAIRS.map(|(i, j)| (gradient[i] + gradient[j]) / (l[i] + l[j]));
             }
+            Defect::CurvatureWithoutValue => {
+                blocks.hessian[0] = R::select(l[0].less(R::splat(1.5)), R::splat(f64::NAN), h11);
+            }
             Defect::LinearInStrains
+            | Defect::EnergyLosesDigits
             | Defect::OverstatedShear
             | Defect::JumpingEnergy
             | Defect::DeniesItsEnd
@@ -296,6 +307,8 @@ fn defects_are_named() {
     check_names(&plain(Defect::VanishingShearAtTheGap), Rule::Rest, "flip");
     check_names(&Defective(SaintVenantKirchhoff, Defect::NaiveTwist), Rule::Quotients, "twist");
     check_names(&plain(Defect::PrefersFirstStretch), Rule::Isotropy, "stretch 2");
+    check_names(&plain(Defect::EnergyLosesDigits), Rule::Objectivity, "energy after a rotation");
+    check_names(&plain(Defect::CurvatureWithoutValue), Rule::SymmetricTangent, "two random increments");
     check_names(&extended(Defect::JumpingCurvature), Rule::TangentSlope, "stress");
     check_names(&extended(Defect::AttractsCollapse), Rule::Extension, "stretch 3");
 }
