@@ -17,13 +17,26 @@ const DIGITS: &str = "so small a difference is likelier digits lost than a mista
 ///
 /// As text it has a line for the rule, one for each of the facts and, where one is known, one for the remedy:
 ///
-/// ```text
+/// ```
+/// use piola::contract::{Rule, Violation};
+///
+/// let violation = Violation::Differs {
+///     rule: Rule::Quotients,
+///     component: "flip of stretches 1 and 2, which are 1e-9 of their mean apart".into(),
+///     stretches: [1.50000000075, 1.49999999925, 0.5],
+///     found: 0.0,
+///     expected: 2.0,
+///     tolerance: 1e-14,
+///     remedy: None,
+/// };
+/// let text = "\
 /// quotients: flips and twists keep their digits at every gap between stretches, zero included
 ///     component   flip of stretches 1 and 2, which are 1e-9 of their mean apart
-///     stretches   1.5000000007500001, 1.49999999925, 0.5
+///     stretches   1.50000000075, 1.49999999925, 0.5
 ///     found       0e0
 ///     expected    2e0
-///     difference  2e0, of which rounding explains 1e-14
+///     difference  2.0e0, of which rounding explains 1.0e-14";
+/// assert_eq!(violation.to_string(), text);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
