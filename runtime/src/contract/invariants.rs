@@ -2,7 +2,7 @@
 
 use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::samples::at_samples;
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
+use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
 
 /// Of a material with [`HAS_INVARIANTS`](Material::HAS_INVARIANTS), where it admits the invariants:
@@ -12,12 +12,13 @@ use crate::material::Material;
 /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
 ///
 /// # Errors
-/// The first violation; [`Violation::NothingToCheck`] without invariants.
+/// The first violation; [`Violation::DoesNotApply`] without invariants.
 pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Finding, Violation> {
+    let rule = Rule::Invariants;
     if !M::HAS_INVARIANTS {
-        return Judge::new(Rule::Invariants).finding();
+        return Err(Violation::DoesNotApply { rule, lacks: "energy by invariants" });
     }
-    at_samples(Rule::Invariants, material, settings, |judge, stretches, _| {
+    at_samples(rule, material, settings, |judge, stretches, _| {
         let [a, b, c] = stretches.map(|l| l * l);
         let invariants = [a + b + c, a * b + a * c + b * c, stretches.iter().product()];
         if !material.admits_invariants(invariants) {

@@ -20,10 +20,13 @@ const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 /// Depths beyond the [`range`](Settings::range) are left out.
 ///
 /// # Errors
-/// The first violation; [`Violation::NothingToCheck`] of a material that refuses.
+/// The first violation; [`Violation::DoesNotApply`] of a material that refuses.
 pub fn extension(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Extension);
-    let Inversion::Extend { epsilon } = material.inversion() else { return judge.finding() };
+    let rule = Rule::Extension;
+    let Inversion::Extend { epsilon } = material.inversion() else {
+        return Err(Violation::DoesNotApply { rule, lacks: "extension beyond its domain" });
+    };
+    let mut judge = Judge::new(rule);
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {

@@ -33,10 +33,13 @@ const STRESSED: &str = "append to the energy what cancels this stress, such as `
 /// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
 ///
 /// # Errors
-/// The first violation; [`Violation::NothingToCheck`] where it states none.
+/// The first violation; [`Violation::DoesNotApply`] where it states none.
 pub fn moduli(material: &impl Material) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Moduli);
-    let Some(stated) = material.stated_moduli() else { return judge.finding() };
+    let rule = Rule::Moduli;
+    let Some(stated) = material.stated_moduli() else {
+        return Err(Violation::DoesNotApply { rule, lacks: "stated moduli" });
+    };
+    let mut judge = Judge::new(rule);
     let stretches = [1.0; 3];
     let tolerance = 64.0 * UNIT * stiffness(&blocks_at(material, stretches));
     let found = Moduli::at_rest(material);

@@ -73,10 +73,17 @@ pub enum Violation {
         /// What to write instead, where the rule knows.
         remedy: Option<String>,
     },
-    /// The material admits none of the sampled points, or has nothing that the rule is about.
+    /// The material admits none of the points at which the rule looks.
     NothingToCheck {
         /// The rule.
         rule: Rule,
+    },
+    /// The material has nothing that the rule is about, which [`check_rule`](super::check_rule) would not have asked for.
+    DoesNotApply {
+        /// The rule.
+        rule: Rule,
+        /// What the material has not, such as `stated moduli`.
+        lacks: &'static str,
     },
 }
 
@@ -85,9 +92,10 @@ impl Violation {
     #[must_use]
     pub fn rule(&self) -> Rule {
         match self {
-            Self::Differs { rule, .. } | Self::WrongKind { rule, .. } | Self::NothingToCheck { rule } => {
-                *rule
-            }
+            Self::Differs { rule, .. }
+            | Self::WrongKind { rule, .. }
+            | Self::NothingToCheck { rule }
+            | Self::DoesNotApply { rule, .. } => *rule,
         }
     }
 }
@@ -136,8 +144,13 @@ impl fmt::Display for Violation {
                 told(f, remedy.as_deref())
             }
             Self::NothingToCheck { .. } => {
-                write!(f, "    the material admits none of the sampled stretches: choose another `range`")
+                write!(
+                    f,
+                    "    the material admits none of the points at which this is judged: choose another `range`, or more \
+                     `points`"
+                )
             }
+            Self::DoesNotApply { lacks, .. } => write!(f, "    does not apply: the material has no {lacks}"),
         }
     }
 }

@@ -59,6 +59,32 @@ fn lost_digits_are_not_told_as_a_mistake() {
 }
 
 #[test]
+fn why_nothing_was_compared_is_told() {
+    let settings = Settings { points: 16, ..Settings::default() };
+    let check = |verdict: Result<Finding, Violation>, rule: Rule, expected: &str| {
+        let violation = verdict.expect_err("nothing to compare");
+        assert_eq!(violation.rule(), rule);
+        assert_eq!(violation.to_string(), format!("{rule}: {}\n    {expected}", rule.promise()));
+    };
+    check(moduli(&NeoHookean), Rule::Moduli, "does not apply: the material has no stated moduli");
+    check(
+        extension(&NeoHookean, &settings),
+        Rule::Extension,
+        "does not apply: the material has no extension beyond its domain",
+    );
+    check(
+        invariants(&NeoHookean, &settings),
+        Rule::Invariants,
+        "does not apply: the material has no energy by invariants",
+    );
+    let none = "the material admits none of the points at which this is judged: choose another `range`, or more `points`";
+    let without_points = Settings { points: 0, ..settings };
+    check(objectivity(&NeoHookean, &without_points), Rule::Objectivity, none);
+    check(extension(&ExtendedNeoHookean { epsilon: 0.3 }, &without_points), Rule::Extension, none);
+    check(invariants(&ByInvariants { w2: -0.5 }, &without_points), Rule::Invariants, none);
+}
+
+#[test]
 fn stress_at_rest_is_told_how_to_say_that_it_is_meant() {
     let verdict = rest(&Defective(NeoHookean, Defect::Prestress), &Settings::default());
     let text = verdict.expect_err("stress at rest").to_string();
