@@ -10,7 +10,8 @@
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
-//! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and the contract of every material;
+//! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors refuse;
+//! * `tests/contract.rs`: the contract of every material;
 //! * `tests/tidy.rs`: the rules of the house.
 
 pub mod baselines;
