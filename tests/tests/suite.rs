@@ -189,6 +189,16 @@ fn constructors_refuse_what_is_inadmissible() {
         message("ogden", &[&[2.0, 1.0], &[2.0, -1.0], &[1.0]], EXTEND),
         "`mu[p] * alpha[p] > 0` must hold, but mu[1] = 1, alpha[1] = -1",
     );
-    let threshold = Inversion::Extend { epsilon: 1.5 };
-    check(message("neo_hookean_lnj", &[&[1.0], &[1.0]], threshold), "0 < epsilon < 1");
+    for epsilon in [-0.1, 0.0, 1.0, 1.5, f64::INFINITY, f64::NAN] {
+        let found = message("neo_hookean_lnj", &[&[1.0], &[1.0]], Inversion::Extend { epsilon });
+        check(found, &format!("threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1"));
+    }
+    for epsilon in [f64::MIN_POSITIVE, 1.0 - f64::EPSILON] {
+        assert_eq!(message("neo_hookean_lnj", &[&[1.0], &[1.0]], Inversion::Extend { epsilon }), "");
+    }
+    // At rest the stress is f′(1) + 2 g′(1) + h′(1), of straight lines here: 4 − 6 + h′(1).
+    let spline =
+        |h: &[f64]| message("stretch_spline", &[&[0.5, 0.0, 1.5, 8.0], &[0.5, -3.0, 1.5, -3.0], h], plain);
+    check(spline(&[0.5, 0.0, 1.5, 6.0]), "the rest state would carry a stress of 1 Pa");
+    assert_eq!(spline(&[0.5, -1.0, 1.5, 5.0]), "");
 }
