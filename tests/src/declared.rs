@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use piola::Inversion;
 use piola::material::Description;
-use piola_codegen::hash::HashMap;
-use piola_codegen::interpret::{Point, evaluate, evaluate_with};
+use piola_codegen::algebra::hash::HashMap;
+use piola_codegen::algebra::interpret::{Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
-use piola_codegen::parse::{Declaration, parse};
+use piola_codegen::read::parse::{Declaration, parse};
 
 /// All declarations of the catalogue's sources.
 ///

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use piola::Inversion;
 use piola::material::Description;
-use piola_codegen::parse::{Declaration, documentation};
+use piola_codegen::read::parse::{Declaration, documentation};
 use piola_materials::{CATALOGUE, Entry};
 use piola_tests::declared::declarations;
 

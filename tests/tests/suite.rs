@@ -3,10 +3,10 @@
 
 use piola::material::{Blocks, Declared, Inadmissible};
 use piola::{Inversion, Material, Real};
-use piola_codegen::expr::Id;
-use piola_codegen::interpret::{Point, Value, evaluate};
+use piola_codegen::algebra::expr::Id;
+use piola_codegen::algebra::interpret::{Point, Value, evaluate};
 use piola_codegen::model::{Model, Variant, Volume, model};
-use piola_codegen::parse::Declaration;
+use piola_codegen::read::parse::Declaration;
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::declared::declarations;
 

@@ -8,7 +8,7 @@
 
 use std::error::Error;
 
-use piola_codegen::count::{LEGEND, counts, table};
+use piola_codegen::schedule::count::{LEGEND, counts, table};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("{LEGEND}.");

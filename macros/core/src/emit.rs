@@ -4,9 +4,9 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::Expr;
 
-use crate::formula::formula;
 use crate::model::Model;
-use crate::parse::{Declaration, documentation};
+use crate::printer::formula::formula;
+use crate::read::parse::{Declaration, documentation};
 use constructor::constructor;
 use declared::declared;
 use fittable::fittable;
@@ -18,6 +18,7 @@ mod documentation;
 mod fittable;
 mod invariants;
 mod material;
+pub mod stub;
 mod writer;
 mod young_poisson;
 

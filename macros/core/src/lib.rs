@@ -8,53 +8,28 @@
 //!
 //! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
 
-pub mod by_parameters;
-pub mod check;
-pub mod count;
-mod culprit;
-pub mod diagnostics;
-pub mod diff;
-pub mod divided;
+pub mod algebra;
 pub mod emit;
-pub mod expand;
-pub mod expr;
-pub mod extension;
-pub mod fallback;
-pub mod formula;
-pub mod hash;
-pub mod increment;
-pub mod interpret;
-pub mod invariants;
-mod literals;
+pub mod judge;
 pub mod model;
-pub mod parse;
-pub mod quotient;
-pub mod rational;
-pub mod resolve;
+pub mod printer;
+pub mod read;
 pub mod schedule;
-pub mod simplify;
-mod sorted;
-pub mod source;
-mod spelling;
-#[cfg(test)]
-mod testing;
-pub mod volume;
-pub mod young_poisson;
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Attribute, Item, ItemFn, Meta};
 
-use diagnostics::Diagnostics;
 use model::Model;
-use parse::Declaration;
+use read::diagnostics::Diagnostics;
+use read::parse::{self, Declaration};
 
 /// The expansion of `#[material(arguments)] item`.
 #[must_use]
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     match understand(arguments, item.clone()) {
         Ok((declaration, model)) => emit::emit(&declaration, model),
-        Err(mistakes) => fallback::inert(&mistakes, item),
+        Err(mistakes) => emit::stub::inert(&mistakes, item),
     }
 }
 

@@ -5,25 +5,25 @@ use std::rc::Rc;
 use quote::ToTokens;
 use syn::{BinOp, Expr, Ident};
 
-use crate::by_parameters::by_parameters;
-use crate::check::{self, Written};
-use crate::diagnostics::Diagnostics;
-use crate::diff::Differentiator;
-use crate::expand::expand;
-use crate::expr::{Graph, Id};
-use crate::extension;
-use crate::hash::HashMap;
-use crate::increment::{Increments, at_rest};
-use crate::interpret::Point;
-use crate::invariants::{ByInvariants, by_invariants};
-use crate::parse::{Declaration, indexed_lists};
-use crate::quotient::Quotients;
-use crate::rational::Rational;
-use crate::resolve::Resolver;
+use crate::algebra::by_parameters::by_parameters;
+use crate::algebra::diff::Differentiator;
+use crate::algebra::expand::expand;
+use crate::algebra::expr::{Graph, Id};
+use crate::algebra::extension;
+use crate::algebra::hash::HashMap;
+use crate::algebra::increment::{Increments, at_rest};
+use crate::algebra::interpret::Point;
+use crate::algebra::invariants::{ByInvariants, by_invariants};
+use crate::algebra::quotient::Quotients;
+use crate::algebra::rational::Rational;
+use crate::algebra::simplify::simplify;
+use crate::algebra::volume::{Purpose, separate};
+use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
+use crate::judge::{self, Written};
+use crate::read::diagnostics::Diagnostics;
+use crate::read::parse::{Declaration, indexed_lists};
+use crate::read::resolve::Resolver;
 use crate::schedule::{Collector, Program, schedule};
-use crate::simplify::simplify;
-use crate::volume::{Purpose, separate};
-use crate::young_poisson::{YoungPoisson, young_poisson};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -151,9 +151,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
     let positive = volume == Volume::Positive;
     let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
-    let samples = check::samples(&mut graph, &written, diagnostics);
+    let samples = judge::samples(&mut graph, &written, diagnostics);
     if !samples.is_empty() {
-        check::isotropy(&mut graph, &written, &samples, diagnostics);
+        judge::isotropy(&mut graph, &written, &samples, diagnostics);
     }
     if !diagnostics.is_clean() {
         return None;
@@ -163,11 +163,11 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let bounds = bounds.iter().copied().map(&mut in_range).collect();
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
-    check::fractions(&graph, &written, diagnostics);
+    judge::fractions(&graph, &written, diagnostics);
     let is_well_at_rest = diagnostics.is_clean()
-        && check::values(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
+        && judge::values(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
     if options.extend.is_some() {
-        check::flat(&graph, &written, &samples, diagnostics);
+        judge::flat(&graph, &written, &samples, diagnostics);
     }
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
@@ -186,11 +186,11 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let moduli = moduli(&mut graph, &plain);
     // What takes the stress at rest away may resist shear.
     if !options.prestressed && is_well_at_rest {
-        check::stiffness(&graph, &written, moduli, &samples, diagnostics);
+        judge::stiffness(&graph, &written, moduli, &samples, diagnostics);
     }
     let invariants = by_invariants(declaration, &mut graph);
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, declaration, plain.gradient));
-    check::fractions(&graph, &written, diagnostics);
+    judge::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     let from_young_poisson = young_poisson(&graph, declaration, moduli);
     Some(Model {

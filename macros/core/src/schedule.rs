@@ -7,10 +7,10 @@
 //! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
 //! base are made from one logarithm.
 
-use crate::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
-use crate::hash::{HashMap, HashSet};
-use crate::rational::Rational;
-use crate::sorted::{Sorted, entry};
+use crate::algebra::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
+use crate::algebra::hash::{HashMap, HashSet};
+use crate::algebra::rational::Rational;
+use crate::schedule::sorted::{Sorted, entry};
 pub use collect::Collector;
 use order::Order;
 use parts::Parts;
@@ -18,12 +18,14 @@ use passes::{fuse_multiply_add, renumber};
 use powers::{Powers, Way};
 
 mod collect;
+pub mod count;
 mod degrees;
 mod order;
 mod parts;
 mod passes;
 mod powers;
 mod shifts;
+pub(crate) mod sorted;
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

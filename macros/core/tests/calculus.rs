@@ -1,9 +1,9 @@
 //! The calculus against the definitions it replaces, in the interpreter: no shared code but the expression graph.
 
-use piola_codegen::expr::{Graph, Id};
-use piola_codegen::interpret::{Point, evaluate};
+use piola_codegen::algebra::expr::{Graph, Id};
+use piola_codegen::algebra::interpret::{Point, evaluate};
 use piola_codegen::model::{Model, PAIRS, Variant, model};
-use piola_codegen::parse::parse;
+use piola_codegen::read::parse::parse;
 use piola_codegen::schedule::{Op, Statement};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -392,6 +392,6 @@ fn formulas_are_cut_off() {
     let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
     let mut model = compile("shared", &quote!(), &item);
     let declaration = parse(quote!(), item).expect("a declaration");
-    let text = piola_codegen::formula::formula(&mut model.graph, &declaration, model.energy);
+    let text = piola_codegen::printer::formula::formula(&mut model.graph, &declaration, model.energy);
     assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
 }

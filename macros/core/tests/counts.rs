@@ -1,7 +1,7 @@
 //! How many operations derivatives take, against those of a computer algebra system.
 
-use piola_codegen::count::{Count, Kind};
 use piola_codegen::model::Variant;
+use piola_codegen::schedule::count::{Count, Kind};
 use piola_codegen::understand;
 
 /// Operations and real powers of ψ with its three first and six second derivatives, where lists have three entries.

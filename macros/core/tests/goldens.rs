@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use piola_codegen::count::{LEGEND, counts, table};
+use piola_codegen::schedule::count::{LEGEND, counts, table};
 use piola_codegen::{declarations, expand, understand};
 use proc_macro2::TokenStream;
 

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use piola_codegen::algebra::young_poisson::Determined;
 use piola_codegen::declarations;
 use piola_codegen::understand;
-use piola_codegen::young_poisson::Determined;
 use proc_macro2::TokenStream;
 
 /// Those with `from_young_poisson`. Of the others, some have one modulus, some more than two parameters in their moduli, and

@@ -6,7 +6,7 @@ use quote::quote;
 use super::writer::Writer;
 use super::{Texts, condition_text, generics, naming};
 use crate::model::Model;
-use crate::parse::{Declaration, Kind};
+use crate::read::parse::{Declaration, Kind};
 
 /// `impl Declared`.
 pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {

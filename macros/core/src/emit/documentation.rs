@@ -1,10 +1,10 @@
 //! What rustdoc shows of a material: ψ and its derivatives as formulas, its parameters, domain and moduli, and how many
 //! operations each result takes.
 
-use crate::count::{LEGEND, counts, table};
-use crate::formula::{Formulas, formulas, formulas_by_invariants};
 use crate::model::Model;
-use crate::parse::Declaration;
+use crate::printer::formula::{Formulas, formulas, formulas_by_invariants};
+use crate::read::parse::Declaration;
+use crate::schedule::count::{LEGEND, counts, table};
 
 use super::{Texts, condition_text};
 

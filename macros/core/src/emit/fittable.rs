@@ -5,9 +5,9 @@ use quote::quote;
 
 use super::writer::{Writer, free_name};
 use super::{generics, naming};
-use crate::expr::Length;
+use crate::algebra::expr::Length;
 use crate::model::Model;
-use crate::parse::{Declaration, Kind};
+use crate::read::parse::{Declaration, Kind};
 
 /// `impl Fittable`, where it is asked for.
 pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStream {

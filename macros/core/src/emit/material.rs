@@ -7,9 +7,9 @@ use syn::Ident;
 use super::invariants;
 use super::writer::Writer;
 use super::{generics, naming};
-use crate::expr::Id;
+use crate::algebra::expr::Id;
 use crate::model::{Model, Variant, Volume};
-use crate::parse::Declaration;
+use crate::read::parse::Declaration;
 
 /// `impl Material`, and `impl Varying` where all parameters are numbers.
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::Ident;
 
-use crate::parse::Declaration;
+use crate::read::parse::Declaration;
 use crate::schedule::{Op, Program, Statement, Value};
 
 /// Writes programs with the names of one declaration.
@@ -277,7 +277,7 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
 
 /// How each value is written where it is used.
 #[derive(Default)]
-struct Names(crate::hash::HashMap<Value, TokenStream>);
+struct Names(crate::algebra::hash::HashMap<Value, TokenStream>);
 
 impl Names {
     fn get(&self, value: Value) -> Option<&TokenStream> {

@@ -5,10 +5,10 @@ use quote::quote;
 
 use super::doc;
 use super::writer::free_name;
-use crate::formula::combination;
-use crate::parse::Declaration;
-use crate::rational::Rational;
-use crate::young_poisson::{Determined, YoungPoisson};
+use crate::algebra::rational::Rational;
+use crate::algebra::young_poisson::{Determined, YoungPoisson};
+use crate::printer::formula::combination;
+use crate::read::parse::Declaration;
 
 /// `from_young_poisson`, with the parameters that are not determined in the order of the declaration.
 pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPoisson) -> TokenStream {

@@ -8,9 +8,9 @@
 //! within the range of the numbers wherever parameters and logarithms do.
 
 use super::degrees::Degrees;
-use crate::expr::{Exponent, Graph, Id, Node};
-use crate::hash::HashMap;
-use crate::rational::Rational;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
 
 /// What expressions become, each found once for all programs of a graph.
 #[derive(Debug, Default)]

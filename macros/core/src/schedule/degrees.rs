@@ -1,7 +1,7 @@
 //! How expressions grow when all stretches are scaled by t: the exponent n of t^n.
 
-use crate::expr::{Exponent, Graph, Id, Node};
-use crate::hash::HashMap;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
 
 /// For t → 0 and for t → ∞.
 pub(super) type Degree = [f64; 2];

@@ -8,9 +8,9 @@
 //! the program: such a part is computed once for all of them.
 
 use super::degrees::{Degree, Degrees, power, sum};
-use crate::expr::{Exponent, Graph, Id, Node};
-use crate::hash::HashMap;
-use crate::rational::Rational;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
 
 /// A base with an exponent, one of those into which [`parts`] takes powers.
 type Factor = (Id, Exponent);

@@ -13,9 +13,9 @@
 //!
 //! which saves a multiplication unless c s or c t is needed by another sum.
 
-use crate::expr::{Graph, Id, Node};
-use crate::hash::HashMap;
-use crate::rational::Rational;
+use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
 
 /// A sum as a constant and terms with their coefficients.
 pub(super) type Linear = (Rational, Vec<(Id, Rational)>);

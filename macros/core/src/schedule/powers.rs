@@ -1,9 +1,9 @@
 //! Which powers of each base are needed, and which one of them is computed.
 
-use crate::divided::LARGEST_ROOT;
-use crate::expr::{Exponent, Graph, Id, Node};
-use crate::hash::HashMap;
-use crate::rational::Rational;
+use crate::algebra::divided::LARGEST_ROOT;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
 
 /// Which powers of each base are needed, to choose the one that is computed.
 pub(super) struct Powers {

@@ -9,11 +9,11 @@
 //! sums have computed already.
 
 use super::powers::{Powers, Way};
-use crate::expr::{Exponent, Graph, Id, Node};
-use crate::hash::HashMap;
-use crate::rational::Rational;
-use crate::sorted::{Sorted, entry};
-use crate::volume::rewrite;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+use crate::algebra::volume::rewrite;
+use crate::schedule::sorted::{Sorted, entry};
 
 /// Bases with the whole exponents to which they are factors.
 type Shifts = Sorted<Id, i64>;

@@ -5,7 +5,7 @@ mod energy;
 use std::fs;
 use std::path::Path;
 
-use piola_codegen::interpret::evaluate;
+use piola_codegen::algebra::interpret::evaluate;
 use proc_macro2::TokenStream;
 
 /// The messages of a declaration, each with the tokens that it stands on.

@@ -1,0 +1,19 @@
+//! Calculus on expression graphs: exact fractions, derivatives, quotients, continuation and normal forms.
+
+pub mod by_parameters;
+pub mod diff;
+pub mod divided;
+pub mod expand;
+pub mod expr;
+pub mod extension;
+pub mod hash;
+pub mod increment;
+pub mod interpret;
+pub mod invariants;
+pub mod quotient;
+pub mod rational;
+pub mod simplify;
+#[cfg(test)]
+pub(crate) mod testing;
+pub mod volume;
+pub mod young_poisson;

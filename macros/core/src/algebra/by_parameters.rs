@@ -1,0 +1,142 @@
+//! Derivatives of the stress by the parameters, which a fit of these to measurements follows.
+//!
+//! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever these stand, and
+//! sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one variable, and b differentiated with
+//! whole sums inside it constant,
+//!
+//! ```text
+//! ∂e/∂m_q = Σ_T ∂e/∂T · ∂b/∂m (m_q, …)     over all sums T in e
+//! ```
+//!
+//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is asked. The factor
+//! on the left has none, so that an entry inside a sum is never mistaken for one outside.
+
+use crate::algebra::diff::Differentiator;
+use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::simplify::simplify;
+use crate::read::parse::{Declaration, Kind};
+
+/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each parameter p, from ψ1, ψ2, ψ3; of a list for its entry q.
+pub fn by_parameters(graph: &mut Graph, declaration: &Declaration, gradient: [Id; 3]) -> Vec<[Id; 3]> {
+    let mut d = Differentiator::default();
+    let mut all = Vec::new();
+    for (k, parameter) in declaration.parameters.iter().enumerate() {
+        all.push(gradient.map(|stress| {
+            let derivative = match parameter.kind {
+                Kind::List(_) => by_entry(&mut d, graph, stress, k),
+                Kind::Number | Kind::Function(_) => {
+                    let number = graph.leaf(Node::Parameter(k));
+                    d.derivative(graph, stress, number)
+                }
+            };
+            simplify(graph, derivative)
+        }));
+    }
+    all
+}
+
+/// ∂e/∂m_q of a list m.
+fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, list: usize) -> Id {
+    let entry = graph.leaf(Node::Entry(list));
+    let mut terms = Vec::new();
+    for sum in graph.reachable(&[e]) {
+        let Node::Sum(_, body) = *graph.node(sum) else { continue };
+        let inner = d.derivative(graph, body, entry);
+        if !graph.is_zero(inner) {
+            let outer = d.derivative(graph, e, sum);
+            terms.push(graph.mul(outer, inner));
+        }
+    }
+    graph.sum_of(&terms)
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::TokenStream;
+    use quote::quote;
+
+    use crate::algebra::interpret::{Point, evaluate};
+    use crate::understand;
+
+    /// Entry `place` of every list in place of entry 0, which stands for all outside sums.
+    fn with_first(point: &Point, place: usize) -> Point {
+        let mut point = point.clone();
+        point.parameters.iter_mut().filter(|list| list.len() > place).for_each(|list| list.swap(0, place));
+        point
+    }
+
+    /// The slope of finite differences by each number: their error must fall as h², or be no more than rounding.
+    #[track_caller]
+    fn check(body: TokenStream, parameters: &[&[f64]], stretches: [f64; 3]) {
+        let item = quote! {
+            fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
+        };
+        let (_, model) = understand(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
+        let point = Point {
+            stretches,
+            parameters: parameters.iter().map(|list| list.to_vec()).collect(),
+            lengths: vec![parameters[0].len()],
+            ..Point::default()
+        };
+        let by_parameters = model.by_parameters.expect("asked for");
+        for (list, derivatives) in by_parameters.into_iter().enumerate() {
+            for (place, stress) in
+                (0..parameters[list].len()).flat_map(|place| [0, 1, 2].map(|stress| (place, stress)))
+            {
+                let exact = evaluate(&model.graph, derivatives[stress], &with_first(&point, place)).value;
+                let at = |change: f64| {
+                    let mut point = point.clone();
+                    point.parameters[list][place] += change;
+                    evaluate(&model.graph, model.plain.gradient[stress], &point)
+                };
+                let error = |h: f64| ((at(h).value - at(-h).value) / (2.0 * h) - exact).abs();
+                let (coarse, fine) = (error(1e-2), error(1e-3));
+                let rounding = 100.0 * f64::EPSILON / 1e-3 * at(0.0).magnitude;
+                let is_slope = fine <= rounding || (80.0..120.0).contains(&(coarse / fine));
+                assert!(is_slope, "ψ{} by {list}, entry {place}: {coarse:e} then {fine:e}", stress + 1);
+            }
+        }
+    }
+
+    const LISTS: [&[f64]; 3] = [&[1.5, 0.7, 0.4], &[1.3, 3.0, -2.0], &[0.8]];
+    const STRETCHES: [f64; 3] = [1.7, 1.2, 0.6];
+
+    #[test]
+    fn entries_of_two_lists_in_one_sum() {
+        let ogden = quote! {
+            sum(|p| m[p] / a[p] * (x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p]) - 3.0)) - sum(|p| m[p]) * J.ln() * k
+        };
+        check(ogden.clone(), &LISTS, STRETCHES);
+        check(ogden, &LISTS, [1.0; 3]);
+    }
+
+    #[test]
+    fn sums_in_products_and_functions() {
+        let body = quote! {
+            let powers = sum(|p| m[p] * (x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p])));
+            powers * sum(|p| a[p] * a[p]) * (k * J).ln() + powers.powi(-2) + powers.sqrt()
+        };
+        check(body, &LISTS, STRETCHES);
+    }
+
+    #[test]
+    fn sums_in_the_terms_of_others() {
+        let body = quote! {
+            let total = sum(|p| m[p]);
+            let shares = sum(|p| m[p] / total * (I1 * a[p]).exp() * total.ln());
+            sum(|p| a[p] * shares.powi(2) * m[p]) + k * I1
+        };
+        check(body, &[&[0.5, 0.7], &[0.1, 0.2], &[0.8]], STRETCHES);
+    }
+
+    #[test]
+    fn parameters_in_exponents() {
+        let body = quote! {
+            let exponent = k * sum(|p| m[p]) - 1.0;
+            I1.powf(exponent) + sum(|p| (1.0 + m[p] * I1).powf(a[p] * k)) + 2.0.powf(k * k) * J.powf(k / 3.0)
+        };
+        check(body.clone(), &LISTS, STRETCHES);
+        check(body.clone(), &[&[1.0], &[0.0], &[1.0]], [1.0; 3]);
+        check(body, &[&[1.0], &[1.0], &[0.0]], STRETCHES);
+    }
+}

@@ -1,0 +1,162 @@
+//! Partial derivatives.
+//!
+//! The variable is any node that is not made of others, a stretch, a parameter or the current entry of a list, or a whole sum
+//! over lists: everything else is constant. Entries are those of the sum around them, so an entry outside a sum is no
+//! variable of what stands inside one: see [`crate::algebra::by_parameters`].
+
+use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+
+/// Derivatives, each computed once.
+#[derive(Debug, Default)]
+pub struct Differentiator {
+    memo: HashMap<(Id, Id), Id>,
+}
+
+impl Differentiator {
+    /// ∂e/∂v.
+    pub fn derivative(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
+        if let Some(&done) = self.memo.get(&(e, v)) {
+            return done;
+        }
+        let result = if e == v { graph.integer(1) } else { self.rule(graph, e, v) };
+        self.memo.insert((e, v), result);
+        result
+    }
+
+    /// ∂e/∂λi.
+    pub fn by_stretch(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
+        let stretch = graph.stretch(i);
+        self.derivative(graph, e, stretch)
+    }
+
+    fn rule(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
+        match graph.node(e).clone() {
+            Node::Linear { terms, .. } => {
+                let terms: Vec<_> =
+                    terms.into_iter().map(|(term, c)| (self.derivative(graph, term, v), c)).collect();
+                graph.linear(Rational::ZERO, &terms)
+            }
+            // (Π bᵢ^eᵢ)′ = Σ (eᵢ bᵢ^(eᵢ−1) bᵢ′ + bᵢ^eᵢ ln bᵢ eᵢ′) Π bⱼ^eⱼ. For other than whole exponents bᵢ^eᵢ is kept and
+            // divided by bᵢ, which cancels against bᵢ′ where that is a product.
+            Node::Product(factors) => {
+                let mut terms = Vec::new();
+                for (k, &(base, exponent)) in factors.iter().enumerate() {
+                    let inner = self.derivative(graph, base, v);
+                    if !graph.is_zero(inner) {
+                        let mut term = factors.clone();
+                        match exponent.as_integer() {
+                            Some(n) => term[k].1 = Exponent::integer(n - 1),
+                            None => term.push((base, Exponent::integer(-1))),
+                        }
+                        term.extend([
+                            (graph.exponent_value(exponent), Exponent::ONE),
+                            (inner, Exponent::ONE),
+                        ]);
+                        terms.push(graph.product(&term));
+                    }
+                    if let Some(real) = exponent.real {
+                        let slope = self.derivative(graph, real, v);
+                        if !graph.is_zero(slope) {
+                            let ln = ln_beside_power(graph, base);
+                            terms.push(graph.product_of(&[e, ln, slope]));
+                        }
+                    }
+                }
+                graph.sum_of(&terms)
+            }
+            Node::Ln(a) => {
+                let inner = self.derivative(graph, a, v);
+                graph.div(inner, a)
+            }
+            Node::Exp(a) => {
+                let inner = self.derivative(graph, a, v);
+                graph.mul(e, inner)
+            }
+            Node::Function(f, order, a) => {
+                let inner = self.derivative(graph, a, v);
+                let outer = graph.leaf(Node::Function(f, order + 1, a));
+                graph.mul(outer, inner)
+            }
+            // An entry in the body is another than one outside.
+            Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
+            Node::Sum(length, body) => {
+                let inner = self.derivative(graph, body, v);
+                graph.sum(length, inner)
+            }
+            Node::Extended(function, order, i) => match *graph.node(v) {
+                Node::Stretch(j) if i == j => graph.leaf(Node::Extended(function, order + 1, i)),
+                Node::Stretch(_) => graph.integer(0),
+                // Extended powers are not differentiated by their exponents; NaN would not go unnoticed.
+                _ if matches!(function, Extended::Power(Exponent { real: Some(_), .. })) => {
+                    graph.leaf(Node::Float(f64::NAN.to_bits()))
+                }
+                _ => graph.integer(0),
+            },
+            Node::Stretch(_)
+            | Node::Parameter(_)
+            | Node::Entry(_)
+            | Node::Float(_)
+            | Node::Epsilon
+            // What follows only arises after differentiation, in quotients, increments and lowered extensions.
+            | Node::Strain(_)
+            | Node::Above(_)
+            | Node::Below(_)
+            | Node::ShareAbove(..)
+            | Node::ShareBelow(..)
+            | Node::WhereNegative(..)
+            | Node::LnQuotient(..)
+            | Node::ExpQuotient(..)
+            | Node::FunctionQuotient(..)
+            | Node::PowerQuotient(..)
+            | Node::PoleQuotient(..) => graph.integer(0),
+        }
+    }
+}
+
+/// ln b as the factor of b^r. Where b vanishes, as I1 − 3 does at rest, b^r ln b is 0 for r > 0, not 0 · (−∞).
+fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
+    if !may_vanish(graph, base) {
+        return graph.ln(base);
+    }
+    let smallest = graph.leaf(Node::Float(f64::MIN_POSITIVE.to_bits()));
+    let above = graph.sub(base, smallest);
+    let positive = graph.leaf(Node::WhereNegative(above, smallest, base));
+    graph.ln(positive)
+}
+
+/// Whether a base of real powers, which is nowhere negative, may be zero inside a domain: what is no sum is not.
+fn may_vanish(graph: &Graph, base: Id) -> bool {
+    match graph.node(base) {
+        Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),
+        Node::Linear { terms, .. } => !terms.is_empty(),
+        Node::Stretch(_) | Node::Parameter(_) | Node::Entry(_) | Node::Float(_) | Node::Exp(_) => false,
+        _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::interpret::{Point, Value, evaluate};
+    use crate::algebra::testing::expressions;
+
+    /// The slope of finite differences: their error must fall as h².
+    #[test]
+    fn every_rule_is_the_slope_of_its_function() {
+        for (name, mut graph, e) in expressions() {
+            let derivative = Differentiator::default().by_stretch(&mut graph, e, 1);
+            let at = |y: f64| Point { stretches: [1.3, y, 0.6], ..Point::default() };
+            let value = |id, y| {
+                let Value { value, .. } = evaluate(&graph, id, &at(y));
+                value
+            };
+            let exact = value(derivative, 0.9);
+            let error = |h: f64| ((value(e, 0.9 + h) - value(e, 0.9 - h)) / (2.0 * h) - exact).abs();
+            let (coarse, fine) = (error(1e-2), error(1e-3));
+            let is_slope = fine < 1e-12 || (80.0..120.0).contains(&(coarse / fine));
+            assert!(is_slope, "{name}: {coarse:e} then {fine:e}");
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Multiplies out: parentheses of sums in products and whole powers, and what a Σₚ does not run over.
+//!
+//! Expressions keep the shape in which they are written, since that is how they lose no digits. The moduli at rest hold no stretch any
+//! more, and what differentiation leaves of them reads best as a sum of products:
+//!
+//! ```text
+//! 1/2 (4 c10 + 4 c01) = 2 c10 + 2 c01
+//! Σₚ (−1/3 αₚ μₚ) = −1/3 Σₚ αₚ μₚ
+//! 3ⁿ + 3^(n − 1) = 4/3 3ⁿ
+//! ```
+//!
+//! For the last, powers of numbers have exponents without whole part.
+
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::rational::Rational;
+
+/// Sums with more terms than this read no better than products.
+const MOST_TERMS: usize = 24;
+
+/// Powers of a sum beyond this have more terms in any case.
+const HIGHEST_POWER: i64 = 8;
+
+/// A product and its coefficient.
+type Term = (Id, Rational);
+
+/// The expression multiplied out, or as it is where that becomes too long or leaves the range of fractions.
+pub fn expand(graph: &mut Graph, e: Id) -> Id {
+    let earlier = graph.overflowed();
+    let expanded = terms(graph, e).map(|terms| graph.linear(Rational::ZERO, &terms));
+    match expanded {
+        Some(expanded) if graph.overflowed() == earlier => expanded,
+        _ => e,
+    }
+}
+
+/// The terms of the sum that an expression is.
+fn terms(graph: &mut Graph, e: Id) -> Option<Vec<Term>> {
+    let one = (graph.integer(1), Rational::ONE);
+    let mut all = Vec::new();
+    match graph.node(e).clone() {
+        Node::Linear { constant, terms: parts } => {
+            all.push((one.0, constant));
+            for (part, coefficient) in parts {
+                let part = terms(graph, part)?;
+                all.extend(multiplied(graph, &part, &[(one.0, coefficient)])?);
+            }
+        }
+        Node::Product(factors) => {
+            all.push(one);
+            for (base, exponent) in factors {
+                let factor = power(graph, base, exponent)?;
+                all = multiplied(graph, &all, &factor)?;
+            }
+        }
+        Node::Sum(length, body) => {
+            for (term, coefficient) in terms(graph, body)? {
+                let (number, factors) = graph.factors(term);
+                let (inside, outside): (Vec<_>, Vec<_>) =
+                    factors.into_iter().partition(|&factor| has_entries(graph, factor));
+                let [inside, outside] = [inside, outside].map(|factors| graph.product(&factors));
+                let sum = graph.sum(length, inside);
+                all.push((graph.mul(outside, sum), coefficient.checked_mul(number)?));
+            }
+        }
+        _ => all.push((graph.map_children(e, &mut expand), Rational::ONE)),
+    }
+    (all.len() <= MOST_TERMS).then_some(all)
+}
+
+/// Whole powers of sums are multiplied out, all others are kept.
+fn power(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Term>> {
+    let sum = terms(graph, base)?;
+    match exponent.as_integer() {
+        Some(n @ 1..=HIGHEST_POWER) if sum.len() > 1 => {
+            let mut product = sum.clone();
+            for _ in 1..n {
+                product = multiplied(graph, &product, &sum)?;
+            }
+            Some(product)
+        }
+        _ => {
+            let base = graph.linear(Rational::ZERO, &sum);
+            let (exponent, coefficient) = match graph.as_constant(base) {
+                Some(number) if !number.is_zero() => without_whole_part(number, exponent)?,
+                _ => (exponent, Rational::ONE),
+            };
+            Some(vec![(graph.power(base, exponent), coefficient)])
+        }
+    }
+}
+
+/// b^(e + k) = b^k b^e with a whole number k and 0 ≤ e < 1, a parameter apart: e and b^k.
+fn without_whole_part(number: Rational, exponent: Exponent) -> Option<(Exponent, Rational)> {
+    let Exponent { real, rational } = exponent;
+    let whole = i64::try_from(rational.numerator().div_euclid(rational.denominator())).ok()?;
+    let rational = rational.checked_add(Rational::integer(whole).negated())?;
+    Some((Exponent { real, rational }, number.checked_powi(whole)?))
+}
+
+fn multiplied(graph: &mut Graph, a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
+    let mut product = Vec::with_capacity(a.len() * b.len());
+    for &(x, c) in a {
+        for &(y, d) in b {
+            product.push((graph.mul(x, y), c.checked_mul(d)?));
+        }
+    }
+    (product.len() <= MOST_TERMS).then_some(product)
+}
+
+/// Whether a power changes from entry to entry of a list.
+fn has_entries(graph: &Graph, (base, exponent): (Id, Exponent)) -> bool {
+    let roots: Vec<_> = [Some(base), exponent.real].into_iter().flatten().collect();
+    graph.reachable(&roots).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::interpret::{Point, evaluate};
+    use crate::algebra::testing::expressions;
+
+    #[test]
+    fn products_of_sums_become_sums_of_products() {
+        let mut g = Graph::default();
+        let [a, b] = [0, 1].map(|k| g.leaf(Node::Parameter(k)));
+        let sum = g.add(a, b);
+        let fourfold = g.linear(Rational::ZERO, &[(a, Rational::integer(4)), (b, Rational::integer(4))]);
+        let half = g.scale(fourfold, Rational::new(1, 2).unwrap());
+        let expected = g.linear(Rational::ZERO, &[(a, Rational::integer(2)), (b, Rational::integer(2))]);
+        assert_eq!(expand(&mut g, half), expected);
+        let (square, product) = (g.powi(sum, 2), g.mul(a, b));
+        let [aa, bb] = [a, b].map(|x| g.powi(x, 2));
+        let expected =
+            g.linear(Rational::ZERO, &[aa, bb, product, product].map(|term| (term, Rational::ONE)));
+        assert_eq!(expand(&mut g, square), expected);
+    }
+
+    #[test]
+    fn sums_over_lists_keep_only_what_changes() {
+        let mut g = Graph::default();
+        let (kappa, mu) = (g.leaf(Node::Parameter(0)), g.leaf(Node::Entry(1)));
+        let shifted = g.linear(Rational::integer(3), &[(mu, Rational::integer(-2))]);
+        let body = g.mul(kappa, shifted);
+        let sum = g.sum(0, body);
+        let (all, one) = (g.sum(0, mu), g.integer(1));
+        let length = g.sum(0, one);
+        let [first, second] = [all, length].map(|sum| g.mul(kappa, sum));
+        let expected =
+            g.linear(Rational::ZERO, &[(first, Rational::integer(-2)), (second, Rational::integer(3))]);
+        assert_eq!(expand(&mut g, sum), expected);
+    }
+
+    #[test]
+    fn powers_of_numbers_gather() {
+        let mut g = Graph::default();
+        let (n, three) = (g.leaf(Node::Parameter(0)), g.integer(3));
+        let power = |g: &mut Graph, shift: Rational| {
+            let exponent = g.linear(shift, &[(n, Rational::ONE)]);
+            let exponent = g.exponent(exponent);
+            g.power(three, exponent)
+        };
+        let [plain, half, lowered, raised] = [(0, 1), (1, 2), (-1, 1), (5, 2)]
+            .map(|(numerator, denominator)| power(&mut g, Rational::new(numerator, denominator).unwrap()));
+        let sum = g.sum_of(&[plain, lowered, raised]);
+        let terms = [(plain, Rational::new(4, 3).unwrap()), (half, Rational::integer(9))];
+        let expected = g.linear(Rational::ZERO, &terms);
+        assert_eq!(expand(&mut g, sum), expected);
+    }
+
+    #[test]
+    fn values_stay_and_too_long_sums_too() {
+        for (name, mut graph, e) in expressions() {
+            let expanded = expand(&mut graph, e);
+            let point = Point { stretches: [1.3, 0.9, 0.6], ..Point::default() };
+            let [before, after] = [e, expanded].map(|id| evaluate(&graph, id, &point));
+            // A dozen roundings of each.
+            let tolerance = 24.0 * f64::EPSILON * (before.magnitude + after.magnitude);
+            assert!((before.value - after.value).abs() <= tolerance, "{name}");
+        }
+        let mut g = Graph::default();
+        let stretches = [0, 1, 2].map(|i| g.stretch(i));
+        let sum = g.sum_of(&stretches);
+        let power = g.powi(sum, HIGHEST_POWER);
+        assert_eq!(expand(&mut g, power), power);
+    }
+}

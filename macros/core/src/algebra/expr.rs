@@ -1,0 +1,278 @@
+//! The expression graph: every subexpression once, in a normal form that makes equal things identical.
+//!
+//! A sum is one node with rational coefficients, a product is one node with exponents, and equal nodes have equal
+//! [`Id`]s. So common subexpressions are shared by construction, "is this symmetric?" is a comparison of two numbers,
+//! and x·x⁻¹ never survives. Products are not multiplied out, and sums with a coefficient other than ±1 stay what they
+//! are, so an energy keeps the shape in which it was written.
+//!
+//! The graph knows no derivative: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
+
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+pub use exponent::Exponent;
+
+mod exponent;
+mod products;
+mod sums;
+mod traversal;
+
+/// A node of a [`Graph`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(u32);
+
+/// Index of a parameter in the order of the declaration.
+pub type Parameter = usize;
+
+/// Index of a stretch: 0, 1, 2 for λ1, λ2, λ3.
+pub type Stretch = usize;
+
+/// A subexpression.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A principal stretch.
+    Stretch(Stretch),
+    /// A principal strain λk − 1, known more accurately than the stretch.
+    Strain(Stretch),
+    /// A scalar parameter.
+    Parameter(Parameter),
+    /// The current entry of a list, inside a [`Node::Sum`].
+    Entry(Parameter),
+    /// A literal that has no exact fraction in 128 bits; the bits of an `f64`.
+    Float(u64),
+    /// constant + Σ coefficient · term. No term is itself such a sum with coefficient ±1.
+    Linear {
+        /// Added to the terms.
+        constant: Rational,
+        /// In the order of their ids, coefficients not zero.
+        terms: Vec<(Id, Rational)>,
+    },
+    /// Π base^exponent, in the order of the bases; rational coefficients live in `Linear`.
+    Product(Vec<(Id, Exponent)>),
+    /// Natural logarithm.
+    Ln(Id),
+    /// Exponential function.
+    Exp(Id),
+    /// Derivative of the given order, 0 … 2, of a function that is a parameter.
+    Function(Parameter, u8, Id),
+    /// Σ over the entries of lists of the given length.
+    Sum(Length, Id),
+    /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
+    /// polynomial at ε.
+    Extended(Extended, u8, Stretch),
+    /// The threshold ε of the extension.
+    Epsilon,
+    /// max(λ, ε).
+    Above(Stretch),
+    /// min(λ − ε, 0), so that `Above + Below` is λ.
+    Below(Stretch),
+    /// Fraction of the interval between two stretches that lies above ε.
+    ShareAbove(Stretch, Stretch),
+    /// Fraction of the interval between two stretches that lies below ε.
+    ShareBelow(Stretch, Stretch),
+    /// The second where the first is negative, else the third.
+    WhereNegative(Id, Id, Id),
+    /// (ln a − ln b) / (a − b).
+    LnQuotient(Id, Id),
+    /// (eᵃ − eᵇ) / (a − b).
+    ExpQuotient(Id, Id),
+    /// Divided difference of the derivative of the given order of a function that is a parameter.
+    FunctionQuotient(Parameter, u8, Id, Id),
+    /// (a^r − b^r) / (a − b) for a real exponent.
+    PowerQuotient(Id, Id, Exponent),
+    /// a / max(b, floor), where b may vanish and the quotient then has a pole.
+    PoleQuotient(Id, Id),
+}
+
+/// The length of the lists that a sum runs over: an index into the lengths of the declaration.
+pub type Length = usize;
+
+/// A function that can be extended below ε.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Extended {
+    /// ln λ.
+    Ln,
+    /// λ^r.
+    Power(Exponent),
+}
+
+/// All nodes, each once.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    ids: HashMap<Node, Id>,
+    /// What nodes become when their stretches are replaced: nodes never change, so neither does this.
+    substitutions: HashMap<(Id, [Id; 3]), Id>,
+    overflowed: bool,
+}
+
+impl Graph {
+    /// The node of an id.
+    #[must_use]
+    pub fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// Whether a rational number has left 128 bits; results are then meaningless.
+    #[must_use]
+    pub fn overflowed(&self) -> bool {
+        self.overflowed
+    }
+
+    /// The same, and from here on only of what follows.
+    pub fn take_overflow(&mut self) -> bool {
+        std::mem::take(&mut self.overflowed)
+    }
+
+    /// The id of a node that is in normal form by its nature: anything but sums and products. Quotients know no order of
+    /// their two arguments.
+    pub fn leaf(&mut self, mut node: Node) -> Id {
+        if let Node::LnQuotient(a, b)
+        | Node::ExpQuotient(a, b)
+        | Node::FunctionQuotient(.., a, b)
+        | Node::PowerQuotient(a, b, _) = &mut node
+            && b < a
+        {
+            std::mem::swap(a, b);
+        }
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node.clone());
+        self.ids.insert(node, id);
+        id
+    }
+
+    /// A stretch.
+    pub fn stretch(&mut self, i: Stretch) -> Id {
+        self.leaf(Node::Stretch(i))
+    }
+
+    /// A fraction.
+    pub fn constant(&mut self, constant: Rational) -> Id {
+        self.leaf(Node::Linear { constant, terms: Vec::new() })
+    }
+
+    /// A whole number.
+    pub fn integer(&mut self, value: i64) -> Id {
+        self.constant(Rational::integer(value))
+    }
+
+    /// The fraction a node is, if it is one.
+    #[must_use]
+    pub fn as_constant(&self, id: Id) -> Option<Rational> {
+        match self.node(id) {
+            Node::Linear { constant, terms } if terms.is_empty() => Some(*constant),
+            _ => None,
+        }
+    }
+
+    /// Whether a node is 0.
+    #[must_use]
+    pub fn is_zero(&self, id: Id) -> bool {
+        self.as_constant(id).is_some_and(Rational::is_zero)
+    }
+
+    /// ln a.
+    pub fn ln(&mut self, a: Id) -> Id {
+        if self.as_constant(a) == Some(Rational::ONE) { self.integer(0) } else { self.leaf(Node::Ln(a)) }
+    }
+
+    /// eᵃ.
+    pub fn exp(&mut self, a: Id) -> Id {
+        if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Exp(a)) }
+    }
+
+    /// Σ over lists of the given length.
+    pub fn sum(&mut self, length: Length, body: Id) -> Id {
+        if self.is_zero(body) { body } else { self.leaf(Node::Sum(length, body)) }
+    }
+
+    /// The result of exact arithmetic; where it has left 128 bits, that is remembered.
+    fn exact(&mut self, value: Option<Rational>) -> Rational {
+        value.unwrap_or_else(|| {
+            self.overflowed = true;
+            Rational::ONE
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_expressions_are_identical() {
+        let mut g = Graph::default();
+        let (x, y) = (g.stretch(0), g.stretch(1));
+        let (left, right) = (g.add(x, y), g.add(y, x));
+        assert_eq!(left, right);
+        let (left, right) = (g.mul(x, y), g.mul(y, x));
+        assert_eq!(left, right);
+        let square = g.powi(left, 2);
+        let (xx, yy) = (g.powi(x, 2), g.powi(y, 2));
+        assert_eq!(square, g.mul(xx, yy));
+    }
+
+    #[test]
+    fn sums_and_products_cancel() {
+        let mut g = Graph::default();
+        let (x, y) = (g.stretch(0), g.stretch(1));
+        let sum = g.add(x, y);
+        let left = g.sub(sum, y);
+        assert_eq!(left, x);
+        let product = g.mul(x, y);
+        assert_eq!(g.div(product, y), x);
+        let difference = g.sub(sum, sum);
+        assert!(g.is_zero(difference));
+    }
+
+    #[test]
+    fn real_exponents_merge_with_whole_ones() {
+        let mut g = Graph::default();
+        let (x, alpha) = (g.stretch(0), g.leaf(Node::Parameter(0)));
+        let exponent = g.exponent(alpha);
+        let power = g.power(x, exponent);
+        let over = g.div(power, x);
+        let minus_one = g.integer(-1);
+        let shifted = g.add(alpha, minus_one);
+        let exponent = g.exponent(shifted);
+        assert_eq!(over, g.power(x, exponent));
+    }
+
+    #[test]
+    fn real_powers_of_products_are_kept_whole() {
+        // (x²)^½ is |x|, not x.
+        let mut g = Graph::default();
+        let x = g.stretch(0);
+        let square = g.powi(x, 2);
+        let half = Exponent::rational(Rational::new(1, 2).unwrap());
+        assert_ne!(g.power(square, half), x);
+    }
+
+    #[test]
+    fn cube_roots_keep_the_sign() {
+        let mut g = Graph::default();
+        let x = g.stretch(0);
+        let minus = g.neg(x);
+        let thirds = |n| Exponent::rational(Rational::new(n, 3).unwrap());
+        for n in [-4, -2, 4] {
+            assert_eq!(g.power(minus, thirds(n)), g.power(x, thirds(n)));
+        }
+        for n in [-5, -1, 1] {
+            let power = g.power(x, thirds(n));
+            assert_eq!(g.power(minus, thirds(n)), g.neg(power));
+        }
+        // Other roots of what may be negative are as they are written.
+        let fifths = Exponent::rational(Rational::new(2, 5).unwrap());
+        assert_ne!(g.power(minus, fifths), g.power(x, fifths));
+    }
+
+    #[test]
+    fn overflow_is_reported() {
+        let mut g = Graph::default();
+        let big = g.integer(i64::MAX);
+        g.powi(big, 3);
+        assert!(g.overflowed());
+    }
+}

@@ -1,0 +1,121 @@
+//! Energies beyond their domain: ln λ and real or negative powers of a stretch continue below ε as polynomials.
+//!
+//! The rewriting happens before differentiation: ln J becomes Σ ln λi and J^r becomes Π λi^r, then each φ(λ) becomes
+//! [`Node::Extended`]. With w = max(λ, ε) and d = λ − w, which is zero above ε and exact below,
+//!
+//! ```text
+//! φ(w) + φ′(w) d + ½ φ″(w) d²     and its derivatives     φ′(w) + φ″(w) d,     φ″(w)
+//! ```
+//!
+//! are the function and its polynomial in one formula without a branch: [`lower`] puts it in place of `Extended` when
+//! all derivatives and quotients have been taken.
+//!
+//! Never is a function of J itself extended: F = 0 would become a stable minimum.
+
+use crate::algebra::divided::power_quotient;
+use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+use crate::algebra::volume::{Purpose, rewrite, separate};
+
+/// The energy with its logarithms and real or negative powers of stretches extended.
+pub fn extend(graph: &mut Graph, energy: Id) -> Id {
+    let separated = separate(graph, energy, Purpose::Extension);
+    rewrite(graph, separated, &mut HashMap::default(), &extend_node)
+}
+
+/// The expression with its extended functions written out; `memo` keeps what has been written out of the same graph.
+pub fn lower(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+    rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
+        Node::Extended(function, order, i) => Some(polynomial(graph, function, order, i)),
+        _ => None,
+    })
+}
+
+fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
+    match graph.node(id).clone() {
+        Node::Ln(a) => match *graph.node(a) {
+            Node::Stretch(i) => Some(graph.leaf(Node::Extended(Extended::Ln, 0, i))),
+            _ => None,
+        },
+        Node::Product(factors) => {
+            let mut product = Vec::new();
+            for (base, exponent) in factors {
+                product.push(match *graph.node(base) {
+                    Node::Stretch(i) if exponent.as_integer().is_none_or(|n| n < 0) => {
+                        (graph.leaf(Node::Extended(Extended::Power(exponent), 0, i)), Exponent::ONE)
+                    }
+                    _ => (rewrite(graph, base, &mut HashMap::default(), &extend_node), exponent),
+                });
+            }
+            Some(graph.product(&product))
+        }
+        _ => None,
+    }
+}
+
+fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> Id {
+    let (w, d) = (graph.leaf(Node::Above(i)), graph.leaf(Node::Below(i)));
+    let mut sum = derivative(graph, function, order, w);
+    let mut factor = Rational::ONE;
+    for k in 1..=2u8.saturating_sub(order) {
+        let slope = derivative(graph, function, order + k, w);
+        let power = graph.powi(d, i64::from(k));
+        let term = graph.mul(slope, power);
+        factor = factor.checked_mul(Rational::new(1, i128::from(k)).unwrap_or(factor)).unwrap_or(factor);
+        sum = graph.linear(Rational::ZERO, &[(sum, Rational::ONE), (term, factor)]);
+    }
+    sum
+}
+
+/// φ, φ′, φ″ … at any argument.
+pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
+    match (function, order) {
+        (Extended::Ln, 0) => graph.ln(at),
+        (Extended::Ln, _) => {
+            let power = graph.powi(at, -i64::from(order));
+            graph.scale(power, ln_coefficient(order))
+        }
+        (Extended::Power(exponent), _) => {
+            let coefficient = falling(graph, exponent, order);
+            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
+            let power = graph.power(at, lowered);
+            graph.mul(coefficient, power)
+        }
+    }
+}
+
+/// Divided difference of φ, φ′ or φ″ between a and b.
+pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: Id, b: Id) -> Id {
+    match (function, order) {
+        (Extended::Ln, 0) => graph.leaf(Node::LnQuotient(a, b)),
+        (Extended::Ln, _) => {
+            let quotient = power_quotient(graph, a, b, Exponent::integer(-i64::from(order)));
+            graph.scale(quotient, ln_coefficient(order))
+        }
+        (Extended::Power(exponent), _) => {
+            let coefficient = falling(graph, exponent, order);
+            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
+            let quotient = power_quotient(graph, a, b, lowered);
+            graph.mul(coefficient, quotient)
+        }
+    }
+}
+
+/// ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
+fn ln_coefficient(order: u8) -> Rational {
+    let factorial: i64 = (1..i64::from(order)).product();
+    Rational::integer(if order.is_multiple_of(2) { -factorial } else { factorial })
+}
+
+/// r (r − 1) … (r − k + 1).
+fn falling(graph: &mut Graph, exponent: Exponent, order: u8) -> Id {
+    let r = graph.exponent_value(exponent);
+    let factors: Vec<_> = (0..i64::from(order))
+        .map(|k| {
+            let k = graph.integer(k);
+            graph.sub(r, k)
+        })
+        .collect();
+    graph.product_of(&factors)
+}

@@ -1,0 +1,131 @@
+//! Differences from rest without cancellation, for strains far below one.
+//!
+//! With the principal strains sk = λk − 1 and e₁ the value of e at λ1 = λ2 = λ3 = 1, let Δe = e − e₁:
+//!
+//! | e     | Δe                                        |
+//! |-------|-------------------------------------------|
+//! | λk    | sk                                        |
+//! | f + g | Δf + Δg                                   |
+//! | f g   | Δf g + f₁ Δg                              |
+//! | φ(f)  | φ[f, f₁] Δf, φ\[a, b\] as in [`quotient`] |
+//!
+//! and zero for what knows no stretch. No rule subtracts, so each term of Δψi is as accurate, relative to itself, as the
+//! strains are. At a rest state free of stress ψi is Δψi: the constants that cancel there have dropped out.
+//!
+//! It is the sum over k of sk times the quotient of e in λk and 1, with the stretches before k already at 1.
+//!
+//! [`quotient`]: crate::quotient
+
+use crate::algebra::divided::power_quotient;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+
+/// Differences from rest, each computed once.
+#[derive(Debug, Default)]
+pub struct Increments {
+    memo: HashMap<Id, Id>,
+}
+
+impl Increments {
+    /// Δe of an expression as it is differentiated, before extensions are written out.
+    pub fn increment(&mut self, graph: &mut Graph, e: Id) -> Id {
+        if let Some(&done) = self.memo.get(&e) {
+            return done;
+        }
+        let result = self.rule(graph, e);
+        self.memo.insert(e, result);
+        result
+    }
+
+    fn rule(&mut self, graph: &mut Graph, e: Id) -> Id {
+        match graph.node(e).clone() {
+            Node::Stretch(k) => graph.leaf(Node::Strain(k)),
+            Node::Linear { terms, .. } => {
+                let terms: Vec<_> =
+                    terms.into_iter().map(|(term, c)| (self.increment(graph, term), c)).collect();
+                graph.linear(Rational::ZERO, &terms)
+            }
+            Node::Sum(length, body) => {
+                let inner = self.increment(graph, body);
+                graph.sum(length, inner)
+            }
+            Node::Product(factors) => self.product_rule(graph, &factors),
+            Node::Ln(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::LnQuotient(a, b))),
+            Node::Exp(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b))),
+            Node::Function(f, order, a) => {
+                self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
+            }
+            Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
+            // Nothing else arises from differentiation inside the domain; NaN would not go unnoticed.
+            _ => graph.leaf(Node::Float(f64::NAN.to_bits())),
+        }
+    }
+
+    fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
+        match *factors {
+            [] => graph.integer(0),
+            [(base, exponent)] => {
+                self.chain_rule(graph, base, |graph, a, b| power_quotient(graph, a, b, exponent))
+            }
+            [(base, exponent), ref others @ ..] => {
+                let (f, g) = (graph.power(base, exponent), graph.product(others));
+                let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
+                let f_at_rest = at_rest(graph, f);
+                let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
+                graph.add(left, right)
+            }
+        }
+    }
+
+    fn chain_rule(&mut self, graph: &mut Graph, a: Id, outer: impl FnOnce(&mut Graph, Id, Id) -> Id) -> Id {
+        let inner = self.increment(graph, a);
+        if graph.is_zero(inner) {
+            return inner;
+        }
+        let b = at_rest(graph, a);
+        let outer = outer(graph, a, b);
+        graph.mul(outer, inner)
+    }
+}
+
+/// e₁.
+pub fn at_rest(graph: &mut Graph, e: Id) -> Id {
+    let one = graph.integer(1);
+    graph.substitute(e, [one; 3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::interpret::{Point, Value, evaluate};
+    use crate::algebra::testing::expressions;
+
+    /// Against e(λ) − e(1, 1, 1) where nothing cancels.
+    #[test]
+    fn every_rule_gives_the_difference_from_rest() {
+        for (name, mut graph, e) in expressions() {
+            let increment = Increments::default().increment(&mut graph, e);
+            let point = Point { stretches: [1.7, 1.1, 0.6], ..Point::default() };
+            let rest = Point { stretches: [1.0; 3], ..Point::default() };
+            let Value { value: here, magnitude } = evaluate(&graph, e, &point);
+            let expected = here - evaluate(&graph, e, &rest).value;
+            let found = evaluate(&graph, increment, &point).value;
+            assert!((found - expected).abs() <= 1e-13 * magnitude, "{name}: {found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn tiny_strains_keep_their_digits() {
+        // ψ1 of a neo-Hookean solid, x − 1/x, at a strain of 1e-12: 2s − s² + …
+        let mut graph = Graph::default();
+        let x = graph.stretch(0);
+        let reciprocal = graph.powi(x, -1);
+        let stress = graph.sub(x, reciprocal);
+        let increment = Increments::default().increment(&mut graph, stress);
+        let s = 2f64.powi(-40);
+        let point = Point { stretches: [1.0 + s, 1.0, 1.0], ..Point::default() };
+        let found = evaluate(&graph, increment, &point).value;
+        assert!((found - (2.0 * s - s * s)).abs() <= 4.0 * f64::EPSILON * s, "{found:e}");
+    }
+}

@@ -1,0 +1,219 @@
+//! Evaluates expressions as they are defined, without schedule or emission.
+//!
+//! What a parameter that is a function computes is not known here: another function stands for it.
+//!
+//! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of [`crate::judge`], and tests, as an oracle
+//! for the emitted code.
+
+use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+
+/// Values of everything an expression may name.
+#[derive(Clone, Debug, Default)]
+pub struct Point {
+    /// λ1, λ2, λ3.
+    pub stretches: [f64; 3],
+    /// Entries of each parameter; one entry for a scalar.
+    pub parameters: Vec<Vec<f64>>,
+    /// Number of entries of each length.
+    pub lengths: Vec<usize>,
+    /// Threshold of the extension.
+    pub epsilon: f64,
+}
+
+/// A value together with what rounding could have hidden.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Value {
+    /// The value.
+    pub value: f64,
+    /// The value with every subtraction replaced by an addition of magnitudes: rounding errors are a few u of it.
+    pub magnitude: f64,
+}
+
+/// Evaluates a node at a point.
+#[must_use]
+pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
+    evaluate_with(graph, id, point, &mut HashMap::default())
+}
+
+/// The same for many nodes at one point: `memo` keeps what has been evaluated there.
+pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut HashMap<Id, Value>) -> Value {
+    Interpreter { graph, point, entry: 0, memo }.value(id)
+}
+
+struct Interpreter<'a> {
+    graph: &'a Graph,
+    point: &'a Point,
+    entry: usize,
+    memo: &'a mut HashMap<Id, Value>,
+}
+
+impl Interpreter<'_> {
+    fn value(&mut self, id: Id) -> Value {
+        if let Some(&done) = self.memo.get(&id) {
+            return done;
+        }
+        let result = self.rule(id);
+        self.memo.insert(id, result);
+        result
+    }
+
+    fn rule(&mut self, id: Id) -> Value {
+        let exact = |value: f64| Value { value, magnitude: value.abs() };
+        let epsilon = self.point.epsilon;
+        match self.graph.node(id) {
+            Node::Stretch(i) => exact(self.point.stretches[*i]),
+            Node::Strain(i) => exact(self.point.stretches[*i] - 1.0),
+            Node::Parameter(k) => exact(self.point.parameters[*k][0]),
+            Node::Entry(k) => exact(self.point.parameters[*k][self.entry]),
+            Node::Float(bits) => exact(f64::from_bits(*bits)),
+            Node::Epsilon => exact(epsilon),
+            Node::Linear { constant, terms } => {
+                let mut sum = exact(constant.to_f64());
+                for &(term, coefficient) in terms {
+                    let Value { value, magnitude } = self.value(term);
+                    sum.value += coefficient.to_f64() * value;
+                    sum.magnitude += coefficient.to_f64().abs() * magnitude;
+                }
+                sum
+            }
+            Node::Product(factors) => {
+                let mut product = exact(1.0);
+                for &(base, exponent) in factors {
+                    let Value { value, magnitude } = self.power(base, exponent);
+                    product.value *= value;
+                    product.magnitude *= magnitude;
+                }
+                product
+            }
+            Node::Ln(a) => {
+                let Value { value, magnitude } = self.value(*a);
+                Value { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
+            }
+            Node::Exp(a) => {
+                let Value { value, magnitude } = self.value(*a);
+                Value { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
+            }
+            Node::Function(k, order, a) => {
+                let Value { value, magnitude } = self.value(*a);
+                Value { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
+            }
+            Node::FunctionQuotient(k, order, a, b) => {
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                let (k, order) = (*k, *order);
+                exact(quotient(a, b, |x| stand_in(k, order, x), |x| stand_in(k, order + 1, x)))
+            }
+            Node::Sum(length, body) => {
+                let mut sum = exact(0.0);
+                for entry in 0..self.point.lengths[*length] {
+                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::default());
+                    let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
+                    sum.value += value;
+                    sum.magnitude += magnitude;
+                }
+                sum
+            }
+            Node::Extended(function, order, i) => {
+                let above = self.point.stretches[*i].max(epsilon);
+                let below = self.point.stretches[*i] - above;
+                let mut derivative = |k| self.plain_derivative(function, k, above);
+                let value = match order {
+                    0 => derivative(0) + derivative(1) * below + derivative(2) * below * below / 2.0,
+                    1 => derivative(1) + derivative(2) * below,
+                    2 => derivative(2),
+                    _ => 0.0,
+                };
+                exact(value)
+            }
+            Node::Above(i) => exact(self.point.stretches[*i].max(epsilon)),
+            Node::Below(i) => exact((self.point.stretches[*i] - epsilon).min(0.0)),
+            Node::ShareAbove(i, j) => {
+                exact(share_above(self.point.stretches[*i], self.point.stretches[*j], epsilon))
+            }
+            Node::ShareBelow(i, j) => {
+                exact(1.0 - share_above(self.point.stretches[*i], self.point.stretches[*j], epsilon))
+            }
+            Node::WhereNegative(condition, a, b) => {
+                let is_negative = self.value(*condition).value < 0.0;
+                self.value(if is_negative { *a } else { *b })
+            }
+            Node::LnQuotient(a, b) => {
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                exact(quotient(a, b, f64::ln, |m| 1.0 / m))
+            }
+            Node::ExpQuotient(a, b) => {
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                exact(quotient(a, b, f64::exp, f64::exp))
+            }
+            Node::PowerQuotient(a, b, exponent) => {
+                let r = self.exponent(*exponent);
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                exact(quotient(a, b, |x| x.powf(r), |m| r * m.powf(r - 1.0)))
+            }
+            Node::PoleQuotient(a, b) => {
+                let Value { value, magnitude } = self.value(*a);
+                let denominator = self.value(*b).value;
+                Value { value: value / denominator, magnitude: (magnitude / denominator).abs() }
+            }
+        }
+    }
+
+    fn exponent(&mut self, exponent: Exponent) -> f64 {
+        exponent.rational.to_f64() + exponent.real.map_or(0.0, |real| self.value(real).value)
+    }
+
+    fn power(&mut self, base: Id, exponent: Exponent) -> Value {
+        let Value { value, magnitude } = self.value(base);
+        // Whole positive powers are products of what may have cancelled; for others, a relative error of the base is
+        // multiplied by the exponent.
+        if let Some(n @ 0..) = exponent.as_integer() {
+            return Value { value: value.powi(n as i32), magnitude: magnitude.powi(n as i32) };
+        }
+        let r = self.exponent(exponent);
+        let power = match exponent {
+            // By its real cube root a negative number has such powers: J^(−2/3) is even in each stretch.
+            exponent if exponent.is_of_cube_root() => value.cbrt().powi(exponent.rational.numerator() as i32),
+            _ if r.fract() == 0.0 => value.powi(r as i32),
+            _ => value.powf(r),
+        };
+        // What has cancelled altogether has no relative error.
+        if value == 0.0 {
+            return Value { value: power, magnitude: magnitude.powf(r) };
+        }
+        Value { value: power, magnitude: power.abs() * (1.0 + (r * (magnitude / value.abs() - 1.0)).abs()) }
+    }
+
+    fn plain_derivative(&mut self, function: &Extended, order: u8, x: f64) -> f64 {
+        match function {
+            Extended::Ln => match order {
+                0 => x.ln(),
+                1 => 1.0 / x,
+                _ => -1.0 / (x * x),
+            },
+            Extended::Power(exponent) => {
+                let r = self.exponent(*exponent);
+                (0..order).map(|k| r - f64::from(k)).product::<f64>() * x.powf(r - f64::from(order))
+            }
+        }
+    }
+}
+
+/// Derivative of what stands for a function that is a parameter: neither even nor odd, and another one for each.
+fn stand_in(parameter: usize, order: u8, x: f64) -> f64 {
+    const FREQUENCY: f64 = 1.3;
+    let phase = 0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2;
+    FREQUENCY.powi(i32::from(order)) * (FREQUENCY * x + phase).sin()
+}
+
+/// Plain difference quotient where it does not cancel, else the derivative at the midpoint: good to (gap/scale)².
+fn quotient(a: f64, b: f64, function: impl Fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> f64 {
+    if (a - b).abs() > 1e-5 * (a.abs() + b.abs()) {
+        (function(a) - function(b)) / (a - b)
+    } else {
+        derivative(0.5 * (a + b))
+    }
+}
+
+fn share_above(a: f64, b: f64, epsilon: f64) -> f64 {
+    if a == b { f64::from(u8::from(a >= epsilon)) } else { (a.max(epsilon) - b.max(epsilon)) / (a - b) }
+}

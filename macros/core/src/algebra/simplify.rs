@@ -1,0 +1,175 @@
+//! Puts together what differentiation takes apart.
+//!
+//! With a number c, a denominator β + s, β a number and s a sum without constant:
+//!
+//! ```text
+//! w − βw/(β + s) = s w/(β + s)
+//! w − s w/(β + s) = βw/(β + s)
+//! w s + c w = w (s + c)
+//! Σₚ a + c Σₚ b = Σₚ (a + c b)
+//! (p s + p t)/p = s + t
+//! ```
+//!
+//! the last for a parameter p.
+//!
+//! The first two remove cancellation: each left side subtracts what is nearly equal where s is small or large. They arise
+//! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
+//! where I1 is tiny and the left side has no correct digit. The others save operations.
+
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::hash::HashMap;
+use crate::algebra::rational::Rational;
+
+/// The expression with the rules applied everywhere.
+pub fn simplify(graph: &mut Graph, e: Id) -> Id {
+    rewrite(graph, e, &mut HashMap::default())
+}
+
+fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+    if let Some(&done) = memo.get(&e) {
+        return done;
+    }
+    let mut result = graph.map_children(e, &mut |graph, child| rewrite(graph, child, memo));
+    while let Some(simpler) = cancel_against_denominator(graph, result)
+        .or_else(|| collect_into_factor(graph, result))
+        .or_else(|| join_sums(graph, result))
+        .or_else(|| cancel_parameter(graph, result))
+    {
+        result = simpler;
+    }
+    memo.insert(e, result);
+    result
+}
+
+fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
+    for &(fraction, coefficient) in &terms {
+        let Node::Product(factors) = graph.node(fraction).clone() else { continue };
+        for (denominator, exponent) in factors {
+            let Node::Linear { constant: beta, terms: sum } = graph.node(denominator).clone() else {
+                continue;
+            };
+            if beta.is_zero() || sum.is_empty() || exponent.as_integer().is_none_or(|n| n >= 0) {
+                continue;
+            }
+            let s = graph.linear(Rational::ZERO, &sum);
+            let beta_id = graph.constant(beta);
+            let over_beta = coefficient.checked_mul(beta.checked_powi(-1)?)?;
+            // The coefficient of w, w itself, and what takes the place of both.
+            let w = graph.mul(fraction, denominator);
+            let w_over_s = graph.div(w, s);
+            let rules = [(over_beta.negated(), w, s), (coefficient.negated(), w_over_s, beta_id)];
+            for (c, w, factor) in rules {
+                if !terms.contains(&(w, c)) {
+                    continue;
+                }
+                let factors = [(w, 1), (factor, 1), (denominator, -1)];
+                let combined = graph.product(&factors.map(|(base, n)| (base, Exponent::integer(n))));
+                return Some(replace(graph, constant, &terms, [fraction, w], (combined, c)));
+            }
+        }
+    }
+    None
+}
+
+/// w s + c w = w (s + c)
+fn collect_into_factor(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
+    for &(product, coefficient) in &terms {
+        let Node::Product(factors) = graph.node(product).clone() else { continue };
+        for (sum, exponent) in factors {
+            if exponent != Exponent::ONE || !matches!(graph.node(sum), Node::Linear { .. }) {
+                continue;
+            }
+            let w = graph.div(product, sum);
+            let Some(&(_, other)) = terms.iter().find(|&&(term, _)| term == w) else { continue };
+            let shift = other.checked_mul(coefficient.checked_powi(-1)?)?;
+            let shifted = graph.linear(shift, &[(sum, Rational::ONE)]);
+            let collected = graph.mul(w, shifted);
+            return Some(replace(graph, constant, &terms, [product, w], (collected, coefficient)));
+        }
+    }
+    None
+}
+
+/// Σₚ a + c Σₚ b = Σₚ (a + c b)
+fn join_sums(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
+    let as_sum = |&(term, c): &(Id, Rational)| match *graph.node(term) {
+        Node::Sum(length, body) => Some((length, term, body, c)),
+        _ => None,
+    };
+    let sums: Vec<_> = terms.iter().filter_map(as_sum).collect();
+    for (k, &(length, first, a, c)) in sums.iter().enumerate() {
+        if let Some(&(_, second, b, d)) = sums[k + 1..].iter().find(|other| other.0 == length) {
+            let body = graph.linear(Rational::ZERO, &[(a, c), (b, d)]);
+            let body = simplify(graph, body);
+            let joined = graph.sum(length, body);
+            return Some(replace(graph, constant, &terms, [first, second], (joined, Rational::ONE)));
+        }
+    }
+    None
+}
+
+/// (p s + p t)/p = s + t
+fn cancel_parameter(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Product(factors) = graph.node(e).clone() else { return None };
+    let is_below = |&&(base, exponent): &&(Id, Exponent)| {
+        matches!(graph.node(base), Node::Parameter(_) | Node::Entry(_))
+            && exponent.as_integer().is_some_and(|n| n < 0)
+    };
+    for &(parameter, _) in factors.iter().filter(is_below) {
+        let is_above = |&(term, _): &(Id, Rational)| {
+            let (_, factors) = graph.factors(term);
+            let exponent = factors.iter().find(|factor| factor.0 == parameter).and_then(|f| f.1.as_integer());
+            exponent.is_some_and(|n| n > 0)
+        };
+        for &(sum, exponent) in &factors {
+            let Node::Linear { constant, terms } = graph.node(sum).clone() else { continue };
+            if exponent != Exponent::ONE || !constant.is_zero() || !terms.iter().all(is_above) {
+                continue;
+            }
+            let terms: Vec<_> = terms.iter().map(|&(term, c)| (graph.div(term, parameter), c)).collect();
+            let others = graph.div(e, sum);
+            let divided = graph.linear(Rational::ZERO, &terms);
+            return Some(graph.product_of(&[others, parameter, divided]));
+        }
+    }
+    None
+}
+
+/// The sum with two of its terms replaced by one.
+fn replace(
+    graph: &mut Graph,
+    constant: Rational,
+    terms: &[(Id, Rational)],
+    old: [Id; 2],
+    new: (Id, Rational),
+) -> Id {
+    let mut kept: Vec<_> = terms.iter().copied().filter(|(term, _)| !old.contains(term)).collect();
+    kept.push(new);
+    graph.linear(constant, &kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_against_a_denominator_are_carried_out() {
+        let mut g = Graph::default();
+        let (x, two) = (g.stretch(0), g.integer(2));
+        let s = g.powi(x, 2);
+        let denominator = g.add(two, s);
+        // x − 2x/(2 + x²) = x³/(2 + x²)
+        let fraction = g.div(x, denominator);
+        let twice = g.mul(two, fraction);
+        let difference = g.sub(x, twice);
+        let cube = g.powi(x, 3);
+        let expected = g.div(cube, denominator);
+        assert_eq!(simplify(&mut g, difference), expected);
+        // x − x³/(2 + x²) = 2x/(2 + x²)
+        let difference = g.sub(x, expected);
+        assert_eq!(simplify(&mut g, difference), twice);
+    }
+}

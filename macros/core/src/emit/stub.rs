@@ -1,0 +1,216 @@
+//! What a mistaken declaration expands to: its mistakes, and a type with inert implementations.
+//!
+//! So that one mistake gives one message, and not another one for each place that uses the material.
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
+
+use crate::read::parse::{Function, identifiers, is_f64, is_reserved, may_be_function};
+
+/// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
+#[must_use]
+pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
+    let errors = mistakes.to_compile_error();
+    let inert = match Function::read(item.clone()) {
+        Ok(function) => inert_type(&function),
+        Err(_) => syn::parse2::<Item>(item).map(Item::into_token_stream).unwrap_or_default(),
+    };
+    quote!(#errors #inert)
+}
+
+/// The lengths of lists, each once.
+fn lengths(signature: &Signature) -> Vec<Ident> {
+    let mut names: Vec<Ident> = Vec::new();
+    for generic in &signature.generics.params {
+        if let GenericParam::Const(constant) = generic
+            && !names.contains(&constant.ident)
+        {
+            names.push(constant.ident.clone());
+        }
+    }
+    names
+}
+
+/// What the constructor takes, and the parameters with their methods' results.
+fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Ident, Type)>) {
+    let (mut types, mut methods): (_, Vec<(Ident, Type)>) = (Vec::new(), Vec::new());
+    for input in signature.inputs.iter().skip(1) {
+        let FnArg::Typed(argument) = input else { continue };
+        let is_sound = is_sound(&argument.ty, signature, lengths);
+        let ty =
+            if is_sound { (*argument.ty).clone() } else { syn::parse_quote!(impl ::core::marker::Sized) };
+        types.push(ty);
+        if let Pat::Ident(name) = &*argument.pat
+            && !is_reserved(&name.ident)
+            && methods.iter().all(|(other, _)| *other != name.ident)
+        {
+            let result = match &*argument.ty {
+                ty if is_sound && may_be_function(ty) => syn::parse_quote!(&#ty),
+                ty if is_sound => ty.clone(),
+                Type::Array(_) | Type::Slice(_) | Type::Reference(_) => syn::parse_quote!(&[f64]),
+                _ => syn::parse_quote!(f64),
+            };
+            methods.push((name.ident.clone(), result));
+        }
+    }
+    (types, methods)
+}
+
+/// Whether the compiler knows a type, and a correct declaration could have it.
+fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
+    match ty {
+        Type::Array(array) => {
+            let is_length = match &array.len {
+                Expr::Lit(literal) => matches!(literal.lit, Lit::Int(_)),
+                Expr::Path(path) => lengths.iter().any(|length| path.path.is_ident(length)),
+                _ => false,
+            };
+            is_length && is_f64(&array.elem)
+        }
+        ty if may_be_function(ty) => {
+            let names = identifiers(ty.to_token_stream());
+            !signature.generics.params.iter().any(|generic| match generic {
+                GenericParam::Type(generic) => names.contains(&generic.ident),
+                GenericParam::Lifetime(generic) => names.contains(&generic.lifetime.ident),
+                GenericParam::Const(_) => false,
+            })
+        }
+        ty => is_f64(ty),
+    }
+}
+
+fn inert_type(function: &Function) -> TokenStream {
+    let Function { attributes, visibility, signature, .. } = function;
+    let name = &signature.ident;
+    let generics = lengths(signature);
+    let (types, methods) = parameters(signature, &generics);
+    // Two parameters are found from the stiffness; which two, only a correct declaration tells.
+    let from_young_poisson = types.len().checked_sub(2).map(|others| {
+        let others = vec![quote!(impl ::core::marker::Sized); others];
+        quote! {
+            #visibility fn from_young_poisson(
+                _: f64,
+                _: f64,
+                #(_: #others),*
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                ::core::unreachable!("this material does not compile")
+            }
+        }
+    });
+    let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
+    let unreachable = quote!(::core::unreachable!("this material does not compile"));
+    quote! {
+        #(#attributes)*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[allow(missing_docs, non_camel_case_types)]
+        #visibility struct #name<#(const #generics: usize),*> {}
+
+        #[allow(missing_docs, dead_code, non_snake_case, unused_variables, clippy::too_many_arguments)]
+        impl<#(const #generics: usize),*> #name<#(#generics),*> {
+            #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                #unreachable
+            }
+            #from_young_poisson
+            #visibility fn with_inversion(
+                self,
+                inversion: ::piola::Inversion,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                #unreachable
+            }
+            #(#visibility fn #methods(&self) -> #results {
+                #unreachable
+            })*
+        }
+
+        #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::Material for #name<#(#generics),*> {
+            fn energy<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal {
+                #unreachable
+            }
+            fn gradient<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> [AnyReal; 3] {
+                #unreachable
+            }
+            fn blocks<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> ::piola::material::Blocks<AnyReal> {
+                #unreachable
+            }
+            fn admits<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal::Mask {
+                #unreachable
+            }
+            fn has_pole(&self) -> bool {
+                #unreachable
+            }
+            fn ends_at_zero_volume(&self) -> bool {
+                #unreachable
+            }
+        }
+
+        #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::material::Varying for #name<#(#generics),*> {
+            fn energy_of<AnyReal: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [AnyReal; 3],
+            ) -> AnyReal {
+                #unreachable
+            }
+            fn gradient_of<AnyReal: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [AnyReal; 3],
+            ) -> [AnyReal; 3] {
+                #unreachable
+            }
+            fn gradient_at_strains_of<AnyReal: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                strains: [AnyReal; 3],
+            ) -> [AnyReal; 3] {
+                #unreachable
+            }
+            fn blocks_of<AnyReal: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [AnyReal; 3],
+            ) -> ::piola::material::Blocks<AnyReal> {
+                #unreachable
+            }
+            fn admits_of<AnyReal: ::piola::Real>(
+                materials: &impl ::piola::material::Parameters<Self>,
+                stretches: [AnyReal; 3],
+            ) -> AnyReal::Mask {
+                #unreachable
+            }
+        }
+
+        #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::material::Declared for #name<#(#generics),*> {
+            const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+                name: "",
+                summary: "",
+                formula: "",
+                parameters: &[],
+                domain: "",
+                extends: false,
+                refusal: ::core::option::Option::None,
+                admissible: &[],
+                moduli: ["", ""],
+            };
+            fn from_values(
+                values: &[&[f64]],
+                inversion: ::piola::Inversion,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                #unreachable
+            }
+            fn moduli(&self) -> ::piola::material::Moduli {
+                #unreachable
+            }
+        }
+
+        #[allow(unused_variables)]
+        impl<#(const #generics: usize),*> ::piola::material::Fittable for #name<#(#generics),*> {
+            fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+                #unreachable
+            }
+            fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
+                #unreachable
+            }
+        }
+    }
+}

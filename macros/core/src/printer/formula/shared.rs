@@ -1,0 +1,135 @@
+//! Several formulas beside each other, in which a long part that occurs more than once is written once and has a name.
+
+use std::collections::HashMap;
+
+use super::{Printer, by_invariants, by_stretches, subscript};
+use crate::algebra::expr::{Graph, Id, Node};
+use crate::read::parse::Declaration;
+
+/// Formulas and the parts that they share.
+#[derive(Debug)]
+pub struct Formulas {
+    /// Names s₁, s₂, … and what they stand for, each written with those before it.
+    pub parts: Vec<(String, String)>,
+    /// The formulas, in the order of their nodes.
+    pub formulas: Vec<String>,
+}
+
+/// Nodes as formulas of the stretches.
+#[must_use]
+pub fn formulas(graph: &mut Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
+    share(by_stretches(graph, declaration), roots)
+}
+
+/// The same of nodes in which the three stretches stand for I1, I2 and J.
+#[must_use]
+pub fn formulas_by_invariants(graph: &Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
+    share(by_invariants(graph, declaration), roots)
+}
+
+/// Formulas with no more characters are read as they are.
+const LONGEST: usize = 120;
+
+/// A part with fewer characters is written wherever it occurs.
+const SHORTEST: usize = 12;
+
+fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
+    let formulas: Vec<_> = roots.iter().map(|&root| printer.line(root)).collect();
+    if formulas.iter().all(|formula| formula.chars().count() <= LONGEST) {
+        return Formulas { parts: Vec::new(), formulas };
+    }
+    let order = printer.graph.reachable(roots);
+    let is_entry = entries(printer.graph, &order);
+    let mut candidates = shared(printer.graph, roots, &order);
+    loop {
+        printer.named.clear();
+        printer.uses.borrow_mut().clear();
+        let mut parts = Vec::new();
+        for &id in &candidates {
+            let text = printer.line(id);
+            if text.chars().count() >= SHORTEST {
+                let name = name(parts.len() + 1, is_entry[&id]);
+                printer.named.insert(id, name.clone());
+                parts.push((name, text));
+            }
+        }
+        let formulas = roots.iter().map(|&root| printer.line(root)).collect();
+        // What occurs in one place only, because what it is a part of has a name, is written there.
+        let uses = printer.uses.borrow();
+        let named = |id: &Id| printer.named.contains_key(id);
+        let kept: Vec<_> =
+            candidates.iter().copied().filter(|id| named(id) && uses.get(id) > Some(&1)).collect();
+        if kept.len() == parts.len() {
+            return Formulas { parts, formulas };
+        }
+        drop(uses);
+        candidates = kept;
+    }
+}
+
+/// What more than one node is made of, the innermost first.
+fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
+    let mut parents: HashMap<Id, usize> = HashMap::new();
+    let children = order.iter().flat_map(|&id| graph.children(id));
+    for id in children.chain(roots.iter().copied()) {
+        *parents.entry(id).or_default() += 1;
+    }
+    order.iter().copied().filter(|id| parents[id] > 1).collect()
+}
+
+/// Whether a node stands for another number in each term of a sum over lists.
+fn entries(graph: &Graph, order: &[Id]) -> HashMap<Id, bool> {
+    let mut is_entry = HashMap::new();
+    for &id in order {
+        let varies = match graph.node(id) {
+            Node::Entry(_) => true,
+            Node::Sum(..) => false,
+            _ => graph.children(id).iter().any(|child| is_entry[child]),
+        };
+        is_entry.insert(id, varies);
+    }
+    is_entry
+}
+
+fn name(number: usize, is_entry: bool) -> String {
+    let digits: String =
+        number.to_string().bytes().map(|digit| subscript(usize::from(digit - b'0'))).collect();
+    format!("s{digits}{}", if is_entry { "ₚ" } else { "" })
+}
+
+#[cfg(test)]
+mod tests {
+    use quote::quote;
+
+    use super::*;
+
+    #[track_caller]
+    fn check(energy: &syn::Expr, parts: &[(&str, &str)], first: &str) {
+        let item = quote!(fn E([l1, l2, l3]: [f64; 3], c: f64, d: f64) -> f64 { #energy });
+        let (declaration, mut model) =
+            crate::understand(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
+        let roots = [model.plain.gradient[0], model.plain.hessian[0]];
+        let found = formulas(&mut model.graph, &declaration, &roots);
+        let found_parts: Vec<_> = found.parts.iter().map(|(name, text)| (&name[..], &text[..])).collect();
+        assert_eq!(found_parts, parts);
+        assert_eq!(found.formulas[0], first);
+    }
+
+    #[test]
+    fn short_formulas_are_read_as_they_are() {
+        check(&syn::parse_quote!(c * I1 + d * I1.powi(2)), &[], "2 c λ₁ + 4 d I1 λ₁");
+    }
+
+    #[test]
+    fn long_parts_that_occur_more_than_once_have_names() {
+        check(
+            &syn::parse_quote!(c * (I1b - 3.0) + d * (I1b - 3.0).powi(2) + d * (I1b - 3.0).powi(3)),
+            &[
+                ("s₁", "4/3 λ₁ J^(−2/3) − 2/3 λ₂² J^(−2/3)/λ₁ − 2/3 λ₃² J^(−2/3)/λ₁"),
+                ("s₂", "I1 J^(−2/3) − 3"),
+                ("s₃", "4/9 J^(−2/3) + 10/9 λ₂² J^(−2/3)/λ₁² + 10/9 λ₃² J^(−2/3)/λ₁²"),
+            ],
+            "c s₁ + 2 d s₂ s₁ + 3 d s₂² s₁",
+        );
+    }
+}

@@ -1,0 +1,201 @@
+//! From tokens to a [`Declaration`]: the form of the item, not yet the meaning of its body.
+//!
+//! A declaration is an ordinary Rust function from stretches and parameters to the energy density, so rustfmt and
+//! editors treat it as one:
+//!
+//! ```text
+//! #[material(domain(J > 0.0), admissible(mu > 0.0), extend)]
+//! pub fn NeoHookean([l1, l2, l3]: [f64; 3], /// Shear modulus, Pa.
+//!                   mu: f64) -> f64 { … }
+//! ```
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use syn::{Attribute, Expr, Ident, Type, Visibility};
+
+use crate::algebra::expr::Length;
+use crate::read::diagnostics::Diagnostics;
+pub(crate) use function::Function;
+pub use options::Options;
+use signature::{Lists, generics, parameters, plain, result, stretches};
+pub(crate) use signature::{is_f64, is_reserved, may_be_function};
+
+mod function;
+mod options;
+mod signature;
+
+/// An energy as declared.
+pub struct Declaration {
+    /// Documentation and other attributes of the item.
+    pub attributes: Vec<Attribute>,
+    /// Visibility of the type.
+    pub visibility: Visibility,
+    /// Name of the type.
+    pub name: Ident,
+    /// Names of the constant generics, each the length of lists.
+    pub generics: Vec<Ident>,
+    /// Names of the three stretches.
+    pub stretches: [Ident; 3],
+    /// In the order of the declaration.
+    pub parameters: Vec<Parameter>,
+    /// Lengths of lists: an integer literal or a constant generic.
+    pub lengths: Vec<Expr>,
+    /// Names whose own declaration is a mistake: what the body does with them is no further one.
+    pub mistaken: Vec<Ident>,
+    /// The energy.
+    pub body: syn::Block,
+    /// What the attribute says.
+    pub options: Options,
+}
+
+/// A parameter of the energy.
+pub struct Parameter {
+    /// Its name.
+    pub name: Ident,
+    /// Its documentation.
+    pub doc: String,
+    /// The documentation as written.
+    pub attributes: Vec<Attribute>,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a parameter is.
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A list of numbers.
+    List(Length),
+    /// A function of one variable, of a type that implements `piola::Univariate`.
+    Function(Box<Type>),
+}
+
+impl Parameter {
+    /// The length of a list.
+    #[must_use]
+    pub fn length(&self) -> Option<Length> {
+        match self.kind {
+            Kind::List(length) => Some(length),
+            Kind::Number | Kind::Function(_) => None,
+        }
+    }
+
+    /// Whether it is a function.
+    #[must_use]
+    pub fn is_function(&self) -> bool {
+        matches!(self.kind, Kind::Function(_))
+    }
+}
+
+impl Declaration {
+    /// The Rust type of a parameter.
+    #[must_use]
+    pub fn parameter_type(&self, parameter: &Parameter) -> Type {
+        match &parameter.kind {
+            Kind::Number => syn::parse_quote!(f64),
+            Kind::List(length) => {
+                let length = &self.lengths[*length];
+                syn::parse_quote!([f64; #length])
+            }
+            Kind::Function(ty) => (**ty).clone(),
+        }
+    }
+
+    /// Whether some parameter is a function, of which nothing is known before it is given.
+    #[must_use]
+    pub fn has_functions(&self) -> bool {
+        self.parameters.iter().any(Parameter::is_function)
+    }
+}
+
+/// Words with a meaning in every energy.
+pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
+
+/// Reads the attribute's arguments and its item.
+///
+/// # Errors
+/// All mistakes of form, each at its token.
+pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declaration> {
+    let mut diagnostics = Diagnostics::default();
+    let declaration = read(arguments, item, &mut diagnostics);
+    diagnostics.finish(declaration)
+}
+
+/// The same with the mistakes set apart: what is left of the declaration may have further ones in its meaning.
+pub fn read(arguments: TokenStream, item: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
+    let options = Options::read(arguments, diagnostics);
+    let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
+    plain(&signature, diagnostics);
+    let generics = generics(&signature, diagnostics);
+    let stretches = stretches(&signature, &generics, diagnostics);
+    let Lists { parameters, lengths, mistaken } =
+        parameters(&signature, &generics, stretches.as_ref(), diagnostics);
+    result(&signature, &generics, diagnostics);
+    let body = diagnostics.take(syn::parse2(body));
+    Some(Declaration {
+        attributes,
+        visibility,
+        name: signature.ident,
+        generics: generics.lengths,
+        stretches: stretches?,
+        parameters,
+        lengths,
+        mistaken,
+        body: body?,
+        options,
+    })
+}
+
+/// All names among tokens.
+pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
+    let names = tokens.into_iter().map(|token| match token {
+        TokenTree::Ident(name) => vec![name],
+        TokenTree::Group(group) => identifiers(group.stream()),
+        _ => Vec::new(),
+    });
+    names.flatten().collect()
+}
+
+/// All names with an index that is a name, as in `mu[p]`, in order.
+pub(crate) fn indexed_lists(tokens: TokenStream) -> Vec<(Ident, Ident)> {
+    let mut found = Vec::new();
+    let mut list = None;
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => list = Some(name),
+            TokenTree::Group(group) => {
+                let is_index = group.delimiter() == Delimiter::Bracket;
+                let index = syn::parse2(group.stream()).ok().filter(|_| is_index);
+                match list.take().zip(index) {
+                    Some(pair) => found.push(pair),
+                    None => found.extend(indexed_lists(group.stream())),
+                }
+            }
+            _ => list = None,
+        }
+    }
+    found
+}
+
+/// The text of documentation comments, lines joined by spaces, paragraphs by newlines.
+#[must_use]
+pub fn documentation(attributes: &[Attribute]) -> String {
+    let mut text = String::new();
+    for attribute in attributes {
+        if let syn::Meta::NameValue(doc) = &attribute.meta
+            && doc.path.is_ident("doc")
+            && let Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(line), .. }) = &doc.value
+        {
+            let line = line.value();
+            match line.trim() {
+                "" => text.push('\n'),
+                line => {
+                    if !text.is_empty() && !text.ends_with('\n') {
+                        text.push(' ');
+                    }
+                    text.push_str(line);
+                }
+            }
+        }
+    }
+    text
+}

@@ -1,0 +1,124 @@
+//! The arguments of the attribute.
+
+use proc_macro2::TokenStream;
+use syn::parse::Parser;
+use syn::punctuated::Punctuated;
+use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
+
+use crate::read::diagnostics::Diagnostics;
+use crate::read::spelling::nearest;
+
+/// The arguments of the attribute.
+#[derive(Default)]
+pub struct Options {
+    /// Comparisons in stretches, invariants and parameters that bound the domain.
+    pub domain: Vec<Expr>,
+    /// Comparisons in parameters that the constructor checks.
+    pub admissible: Vec<Expr>,
+    /// Comparisons in parameters under which the extension restores; `None` without an extension.
+    pub extend: Option<Vec<Expr>>,
+    /// Why there is no extension.
+    pub refuse: Option<LitStr>,
+    /// The rest state is meant to carry stress.
+    pub prestressed: bool,
+    /// Derivatives by the parameters are asked for.
+    pub fit: bool,
+    /// The names of the arguments as written.
+    pub words: Vec<Ident>,
+}
+
+/// Each argument as it is written.
+const FORMS: [(&str, &str); 6] = [
+    ("domain", "domain(J > 0.0)"),
+    ("admissible", "admissible(mu > 0.0)"),
+    ("extend", "extend"),
+    ("refuse", "refuse(\"why it does not extend\")"),
+    ("prestressed", "prestressed"),
+    ("fit", "fit"),
+];
+
+impl Options {
+    /// Understands what it can and reports the rest.
+    pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
+        let mut options = Self::default();
+        let arguments = Punctuated::<Meta, Token![,]>::parse_terminated.parse2(arguments).map_err(|error| {
+            let forms = FORMS.map(|(_, form)| format!("`{form}`")).join(", ");
+            syn::Error::new(error.span(), format!("{error}; the arguments are {forms}"))
+        });
+        for argument in diagnostics.take(arguments).into_iter().flatten() {
+            options.add(&argument, diagnostics);
+        }
+        options
+    }
+
+    fn add(&mut self, argument: &Meta, diagnostics: &mut Diagnostics) {
+        let Some(name) = argument.path().get_ident() else {
+            return diagnostics.error(argument.path(), "an argument is one word");
+        };
+        if self.words.contains(name) {
+            return diagnostics.error(name, format!("`{name}` is given twice: remove one"));
+        }
+        match (name.to_string().as_str(), argument) {
+            ("domain", Meta::List(list)) => self.domain = comparisons(&list.tokens, diagnostics),
+            ("admissible", Meta::List(list)) => self.admissible = comparisons(&list.tokens, diagnostics),
+            ("extend", Meta::List(list)) => self.extend = Some(comparisons(&list.tokens, diagnostics)),
+            ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
+            ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
+            ("prestressed", Meta::Path(_)) => self.prestressed = true,
+            ("fit", Meta::Path(_)) => self.fit = true,
+            (text, _) => {
+                return diagnostics.error(name, unknown(text));
+            }
+        }
+        self.words.push(name.clone());
+        if self.extend.is_some() && self.refuse.is_some() {
+            diagnostics.error(name, "an energy has either `extend` or `refuse`: remove one");
+        }
+    }
+}
+
+/// What to say of a name that is none, or is written in another form.
+fn unknown(name: &str) -> String {
+    let form = |name: &str| FORMS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form);
+    if let Some(form) = form(name) {
+        return format!("`{name}` is written `{form}`");
+    }
+    match nearest(name, FORMS.map(|(known, _)| known)).and_then(form) {
+        Some(form) => format!("unknown argument `{name}`: did you mean `{form}`?"),
+        None => {
+            let forms = FORMS.map(|(_, form)| format!("`{form}`")).join(", ");
+            format!("unknown argument `{name}`: there are {forms}")
+        }
+    }
+}
+
+fn reason(tokens: &TokenStream, diagnostics: &mut Diagnostics) -> Option<LitStr> {
+    let reason = syn::parse2(tokens.clone()).map_err(|error| {
+        let message = "say in a string why the energy has no extension: `refuse(\"…\")`";
+        syn::Error::new(error.span(), message)
+    });
+    diagnostics.take(reason)
+}
+
+fn comparisons(tokens: &TokenStream, diagnostics: &mut Diagnostics) -> Vec<Expr> {
+    const MESSAGE: &str = "a condition is a comparison such as `mu > 0.0`";
+    let list = Punctuated::<Expr, Token![,]>::parse_terminated
+        .parse2(tokens.clone())
+        .map_err(|error| syn::Error::new(error.span(), format!("{error}; {MESSAGE}")));
+    let mut conditions = Vec::new();
+    for expression in diagnostics.take(list).into_iter().flatten() {
+        let is_comparison = matches!(
+            &expression,
+            Expr::Binary(binary) if matches!(binary.op,
+                BinOp::Lt(_) | BinOp::Gt(_) | BinOp::Le(_) | BinOp::Ge(_) | BinOp::Ne(_))
+        );
+        match &expression {
+            _ if is_comparison => conditions.push(expression),
+            Expr::Binary(binary) if matches!(binary.op, BinOp::And(_)) => {
+                diagnostics.error(binary.op, "conditions that must all hold are separated by commas");
+            }
+            _ => diagnostics.error(&expression, MESSAGE),
+        }
+    }
+    conditions
+}

@@ -1,0 +1,360 @@
+//! What an energy is a function of: the generics, stretches and parameters of its signature.
+
+use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{Expr, FnArg, GenericParam, Ident, Lit, Pat, ReturnType, Safety, Signature, Type};
+
+use super::{Kind, Parameter, WORDS, documentation, identifiers};
+use crate::read::diagnostics::Diagnostics;
+use crate::read::spelling::taken;
+
+/// What every material has by name, which a parameter's own method would hide.
+const MEMBERS: [&str; 31] = [
+    // Of the type and of the traits of the language.
+    "new",
+    "from_young_poisson",
+    "with_inversion",
+    "clone",
+    // Of `Material`.
+    "energy",
+    "gradient",
+    "gradient_at_strains",
+    "blocks",
+    "admits",
+    "HAS_INVARIANTS",
+    "energy_by_invariants",
+    "gradient_by_invariants",
+    "admits_invariants",
+    "has_pole",
+    "ends_at_zero_volume",
+    "inversion",
+    "stated_moduli",
+    // Of `Declared`.
+    "DESCRIPTION",
+    "from_values",
+    "moduli",
+    "normalised_to",
+    // Of `Fittable`.
+    "values",
+    "gradient_by_parameters",
+    // Of `Varying`.
+    "energy_of",
+    "gradient_of",
+    "gradient_at_strains_of",
+    "blocks_of",
+    "admits_of",
+    "energy_by_invariants_of",
+    "gradient_by_invariants_of",
+    "admits_invariants_of",
+];
+
+/// The parameters of a signature, with the lengths of the lists among them.
+#[derive(Default)]
+pub(super) struct Lists {
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) lengths: Vec<Expr>,
+    pub(super) mistaken: Vec<Ident>,
+}
+
+/// Reports what only functions that run can have.
+pub(super) fn plain(signature: &Signature, diagnostics: &mut Diagnostics) {
+    let safety = (!matches!(signature.safety, Safety::Default)).then_some(&signature.safety);
+    let superfluous = [
+        signature.constness.to_token_stream(),
+        signature.asyncness.to_token_stream(),
+        safety.to_token_stream(),
+        signature.abi.to_token_stream(),
+        signature.variadic.to_token_stream(),
+        signature.generics.where_clause.to_token_stream(),
+    ];
+    for tokens in superfluous.into_iter().filter(|tokens| !tokens.is_empty()) {
+        diagnostics.error(tokens, "an energy is a plain function: remove this");
+    }
+}
+
+/// The generics of a declaration.
+#[derive(Default)]
+pub(super) struct Generics {
+    /// Lengths of lists.
+    pub(super) lengths: Vec<Ident>,
+    /// Types, which a declaration cannot have: wherever they stand, `f64` was meant.
+    types: Vec<Ident>,
+}
+
+impl Generics {
+    fn is_number(&self, ty: &Type) -> bool {
+        is_f64(ty) || matches!(ty, Type::Path(path) if self.types.iter().any(|name| path.path.is_ident(name)))
+    }
+}
+
+/// The lengths of lists, and what is none.
+pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> Generics {
+    let Generics { lengths: mut names, mut types } = Generics::default();
+    for generic in &signature.generics.params {
+        match generic {
+            // The real type of generated functions is called R.
+            GenericParam::Const(constant) if constant.ident == "R" => {
+                diagnostics.error(&constant.ident, "`R` has a meaning of its own: choose another name");
+                names.push(constant.ident.clone());
+            }
+            GenericParam::Const(constant) if constant.ty.to_token_stream().to_string() == "usize" => {
+                let name = &constant.ident;
+                if names.contains(name) {
+                    diagnostics.error(name, taken(name));
+                    continue;
+                }
+                if !identifiers(signature.inputs.to_token_stream()).contains(name) {
+                    let message = format!(
+                        "`{name}` is the length of no list: write a parameter `[f64; {name}]` or remove it"
+                    );
+                    diagnostics.error(name, message);
+                }
+                names.push(name.clone());
+            }
+            _ => {
+                diagnostics.error(
+                    generic,
+                    "only lengths of lists can be generic: write `const N: usize` and a parameter `[f64; N]`",
+                );
+                if let GenericParam::Type(generic) = generic {
+                    types.push(generic.ident.clone());
+                }
+            }
+        }
+    }
+    Generics { lengths: names, types }
+}
+
+/// The names of the three stretches.
+pub(super) fn stretches(
+    signature: &Signature,
+    generics: &Generics,
+    diagnostics: &mut Diagnostics,
+) -> Option<[Ident; 3]> {
+    const MESSAGE: &str = "the first argument names the three stretches: `[l1, l2, l3]: [f64; 3]`";
+    let Some(input) = signature.inputs.first() else {
+        diagnostics.error(&signature.ident, MESSAGE);
+        return None;
+    };
+    let names = match input {
+        FnArg::Typed(argument) if is_three_numbers(&argument.ty, generics) => match &*argument.pat {
+            Pat::Slice(slice) => slice.elems.iter().map(plain_name).collect::<Option<Vec<_>>>(),
+            _ => None,
+        },
+        _ => None,
+    };
+    let Some(Ok(names)) = names.map(<[Ident; 3]>::try_from) else {
+        diagnostics.error(input, MESSAGE);
+        return None;
+    };
+    for (k, name) in names.iter().enumerate() {
+        reserved(name, diagnostics);
+        if generics.lengths.contains(name) || names[..k].contains(name) {
+            diagnostics.error(name, taken(name));
+        }
+    }
+    Some(names)
+}
+
+/// All arguments but the first.
+pub(super) fn parameters(
+    signature: &Signature,
+    generics: &Generics,
+    stretches: Option<&[Ident; 3]>,
+    diagnostics: &mut Diagnostics,
+) -> Lists {
+    let mut lists = Lists::default();
+    for input in signature.inputs.iter().skip(1) {
+        lists.add(input, generics, stretches, diagnostics);
+    }
+    lists
+}
+
+/// Reports a result that is no energy density.
+pub(super) fn result(signature: &Signature, generics: &Generics, diagnostics: &mut Diagnostics) {
+    match &signature.output {
+        ReturnType::Type(_, ty) if generics.is_number(ty) => {}
+        ReturnType::Type(_, ty) => diagnostics.error(ty, "an energy density is a number: write `-> f64`"),
+        ReturnType::Default => {
+            diagnostics
+                .error(&signature.ident, "an energy density is a number: write `-> f64` before the body");
+        }
+    }
+}
+
+impl Lists {
+    fn add(
+        &mut self,
+        input: &FnArg,
+        generics: &Generics,
+        stretches: Option<&[Ident; 3]>,
+        diagnostics: &mut Diagnostics,
+    ) {
+        const MESSAGE: &str =
+            "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: piola::Spline`";
+        let FnArg::Typed(argument) = input else {
+            return diagnostics.error(input, MESSAGE);
+        };
+        let Some(name) = plain_name(&argument.pat) else {
+            self.mistaken.extend(identifiers(argument.pat.to_token_stream()));
+            return diagnostics.error(&argument.pat, MESSAGE);
+        };
+        reserved(&name, diagnostics);
+        let is_taken = stretches.is_some_and(|stretches| stretches.contains(&name))
+            || generics.lengths.contains(&name)
+            || self.parameters.iter().any(|other| other.name == name);
+        if is_taken {
+            diagnostics.error(&name, taken(&name));
+            return self.mistaken.push(name);
+        }
+        match self.kind(&argument.ty, generics) {
+            Ok(kind) => {
+                let (doc, attributes) = (documentation(&argument.attrs), argument.attrs.clone());
+                self.parameters.push(Parameter { name, doc, attributes, kind });
+            }
+            Err(mistake) => {
+                diagnostics.error(mistake.tokens, mistake.message.unwrap_or(MESSAGE));
+                self.mistaken.push(name);
+            }
+        }
+    }
+
+    fn kind(&mut self, ty: &Type, generics: &Generics) -> Result<Kind, Mistake> {
+        const LIST: &str =
+            "a list has a length that the compiler knows: write `[f64; N]` with `const N: usize`";
+        match ty {
+            ty if generics.is_number(ty) => Ok(Kind::Number),
+            Type::Array(array) if !generics.is_number(&array.elem) => {
+                Err(Mistake::new(&array.elem, "the entries of a list are `f64`"))
+            }
+            Type::Array(array) => {
+                let is_known = match &array.len {
+                    Expr::Lit(literal) => {
+                        matches!(&literal.lit, Lit::Int(n) if n.base10_parse::<usize>().is_ok_and(|n| n > 0))
+                    }
+                    Expr::Path(path) => generics.lengths.iter().any(|generic| path.path.is_ident(generic)),
+                    _ => false,
+                };
+                if is_known {
+                    Ok(Kind::List(self.length(&array.len)))
+                } else {
+                    let message =
+                        "the length of a list is a number such as `3`, or `N` with `const N: usize`";
+                    Err(Mistake::new(&array.len, message))
+                }
+            }
+            Type::Slice(_) | Type::Reference(_) => Err(Mistake::new(ty, LIST)),
+            Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Vec") => {
+                Err(Mistake::new(ty, LIST))
+            }
+            ty if may_be_function(ty) => Ok(Kind::Function(Box::new(ty.clone()))),
+            ty => Err(Mistake { tokens: ty.to_token_stream(), message: None }),
+        }
+    }
+
+    /// Equal lengths are one.
+    fn length(&mut self, length: &Expr) -> usize {
+        let text = length.to_token_stream().to_string();
+        let position = self.lengths.iter().position(|other| other.to_token_stream().to_string() == text);
+        position.unwrap_or_else(|| {
+            self.lengths.push(length.clone());
+            self.lengths.len() - 1
+        })
+    }
+}
+
+/// What is wrong with a type; without a message, that it is none of those there are.
+struct Mistake {
+    tokens: TokenStream,
+    message: Option<&'static str>,
+}
+
+impl Mistake {
+    fn new(tokens: &impl ToTokens, message: &'static str) -> Self {
+        Self { tokens: tokens.to_token_stream(), message: Some(message) }
+    }
+}
+
+/// Any named type but those of the language that are no functions, and slips of the pen such as `f46`.
+pub(crate) fn may_be_function(ty: &Type) -> bool {
+    const NEVER: [&str; 16] = [
+        "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize", "bool",
+        "char", "str", "String",
+    ];
+    let Type::Path(path) = ty else { return false };
+    path.path.get_ident().is_none_or(|name| {
+        let name = name.to_string();
+        let is_float = name
+            .strip_prefix(['f', 'F'])
+            .is_some_and(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
+        !is_float && !NEVER.contains(&name.as_str())
+    })
+}
+
+/// Whether it is the type of a number.
+pub(crate) fn is_f64(ty: &Type) -> bool {
+    matches!(ty, Type::Path(path) if path.path.is_ident("f64"))
+}
+
+fn is_three_numbers(ty: &Type, generics: &Generics) -> bool {
+    matches!(ty, Type::Array(array)
+        if generics.is_number(&array.elem) && array.len.to_token_stream().to_string() == "3")
+}
+
+fn plain_name(pattern: &Pat) -> Option<Ident> {
+    match pattern {
+        Pat::Ident(name) if name.by_ref.is_none() && name.mutability.is_none() && name.subpat.is_none() => {
+            Some(name.ident.clone())
+        }
+        _ => None,
+    }
+}
+
+fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
+    if is_reserved(name) {
+        diagnostics.error(name, format!("`{name}` has a meaning of its own: choose another name"));
+    }
+}
+
+/// Whether a name is a word of energies or a member of materials.
+pub(crate) fn is_reserved(name: &Ident) -> bool {
+    let text = name.to_string();
+    WORDS.contains(&text.as_str()) || MEMBERS.contains(&text.as_str()) || text == "sum"
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use syn::{Item, TraitItem};
+
+    use super::is_reserved;
+
+    /// The runtime is known to this crate as text alone.
+    #[test]
+    fn what_the_traits_of_materials_name_is_reserved() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../runtime/src");
+        for (file, name) in [
+            ("material.rs", "Material"),
+            ("material.rs", "Declared"),
+            ("material/fittable.rs", "Fittable"),
+            ("material/varying.rs", "Varying"),
+        ] {
+            let source = fs::read_to_string(folder.join(file)).expect("a file of the runtime");
+            let items = syn::parse_file(&source).expect("Rust").items;
+            let found = items.into_iter().find_map(|item| match item {
+                Item::Trait(item) if item.ident == name => Some(item),
+                _ => None,
+            });
+            for member in found.expect(name).items {
+                let member = match member {
+                    TraitItem::Fn(function) => function.sig.ident,
+                    TraitItem::Const(constant) => constant.ident,
+                    _ => continue,
+                };
+                assert!(is_reserved(&member), "{name}::{member}");
+            }
+        }
+    }
+}

@@ -1,0 +1,374 @@
+//! From the syntax of an energy to its expression graph: names get their meaning.
+
+use std::collections::{HashMap, HashSet};
+
+use quote::ToTokens;
+use syn::{BinOp, Expr, Ident, Lit, Pat, Stmt, UnOp};
+
+use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::rational::Rational;
+use crate::read::diagnostics::Diagnostics;
+use crate::read::parse::{Declaration, identifiers, is_f64};
+use crate::read::spelling::taken;
+use sums::Index;
+
+mod calls;
+mod names;
+mod paper_notation;
+mod sums;
+mod tensors;
+
+/// Gives names their meaning in one declaration.
+pub struct Resolver<'a> {
+    declaration: &'a Declaration,
+    graph: &'a mut Graph,
+    diagnostics: &'a mut Diagnostics,
+    /// What names may stand for.
+    scope: Scope,
+    /// let-bindings in scope.
+    bindings: HashMap<String, Id>,
+    /// Names of all let-bindings so far.
+    bound: HashSet<String>,
+    /// The index of the sum around.
+    index: Option<Index>,
+    /// Names that were read, or that a mistake has been reported of.
+    used: HashSet<String>,
+    /// Names whose own declaration is a mistake.
+    mistaken: HashSet<String>,
+    nodes: Nodes,
+}
+
+/// NaN, which is no literal.
+const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
+
+/// What to say of a closure or a function of the body's own.
+const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts by \
+     `let`, also in a sum: `sum(|p| { let s = …; … })`";
+
+/// What an expression is a function of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Scope {
+    /// λ1, λ2, λ3 and the parameters.
+    Stretches,
+    /// The same, with I1b and I2b wherever I1 and I2 are written.
+    Isochoric,
+    /// I1, I2, J and the parameters.
+    Invariants,
+    /// The parameters alone, in a condition that is emitted as it is written, numbers apart.
+    Parameters,
+}
+
+/// The node of each expression of a declaration, which is found by where it lies: declarations do not move.
+#[derive(Debug, Default)]
+pub struct Nodes(HashMap<*const Expr, Id>);
+
+impl Nodes {
+    /// What an expression of the declaration stands for.
+    #[must_use]
+    pub fn of(&self, expression: &Expr) -> Option<Id> {
+        self.0.get(&std::ptr::from_ref(expression)).copied()
+    }
+}
+
+impl<'a> Resolver<'a> {
+    /// For the body and the conditions of one declaration.
+    pub fn new(declaration: &'a Declaration, graph: &'a mut Graph, diagnostics: &'a mut Diagnostics) -> Self {
+        for i in 0..3 {
+            graph.stretch(i);
+        }
+        Self {
+            declaration,
+            graph,
+            diagnostics,
+            scope: Scope::Stretches,
+            bindings: HashMap::new(),
+            bound: HashSet::new(),
+            index: None,
+            used: HashSet::new(),
+            mistaken: declaration.mistaken.iter().map(Ident::to_string).collect(),
+            nodes: Nodes::default(),
+        }
+    }
+
+    /// The same with I1, I2, J in the places of the three stretches, whose names are mistakes.
+    pub fn of_invariants(
+        declaration: &'a Declaration,
+        graph: &'a mut Graph,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self { scope: Scope::Invariants, ..Self::new(declaration, graph, diagnostics) }
+    }
+
+    /// The same with I1b, I2b in the places of I1, I2.
+    pub fn of_isochoric(
+        declaration: &'a Declaration,
+        graph: &'a mut Graph,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Self {
+        Self { scope: Scope::Isochoric, ..Self::new(declaration, graph, diagnostics) }
+    }
+
+    /// The nodes of everything understood.
+    #[must_use]
+    pub fn into_nodes(self) -> Nodes {
+        self.nodes
+    }
+
+    /// The energy of the body; unused names are mistakes.
+    pub fn energy(&mut self) -> Id {
+        let energy = self.block(&self.declaration.body);
+        for parameter in &self.declaration.parameters {
+            if !self.used.contains(&parameter.name.to_string()) {
+                self.diagnostics.error(
+                    &parameter.name,
+                    format!("`{}` does not occur in the energy: use it or remove it", parameter.name),
+                );
+            }
+        }
+        energy
+    }
+
+    /// The difference that a comparison of the domain wants positive, `left − right` or `right − left`.
+    pub fn bound(&mut self, comparison: &Expr) -> Option<Id> {
+        let difference = self.difference(comparison);
+        if difference.is_none() {
+            self.error(
+                comparison,
+                "only a volume can be left out of a domain, `J != 0.0`: write others with `<` or `>`",
+            );
+        }
+        difference
+    }
+
+    /// The same of a comparison of parameters. One of entries `mu[p]` is summed: enough to steer samples, which use equal
+    /// signs for all entries.
+    pub fn condition(&mut self, comparison: &Expr, index: Option<Ident>) -> Option<Id> {
+        let outer = std::mem::replace(&mut self.scope, Scope::Parameters);
+        self.index = index.map(Index::new);
+        let difference = self.difference(comparison);
+        self.scope = outer;
+        match self.index.take() {
+            Some(Index { length: Some(length), .. }) => {
+                difference.map(|difference| self.graph.sum(length, difference))
+            }
+            _ => difference,
+        }
+    }
+
+    fn difference(&mut self, comparison: &Expr) -> Option<Id> {
+        let Expr::Binary(binary) = comparison else { return None };
+        let (left, right) = (self.expression(&binary.left), self.expression(&binary.right));
+        match binary.op {
+            BinOp::Gt(_) | BinOp::Ge(_) => Some(self.graph.sub(left, right)),
+            BinOp::Lt(_) | BinOp::Le(_) => Some(self.graph.sub(right, left)),
+            _ => None,
+        }
+    }
+
+    fn block(&mut self, block: &syn::Block) -> Id {
+        let outer = self.bindings.clone();
+        let mut locals: Vec<Ident> = Vec::new();
+        let mut result = None;
+        for (k, statement) in block.stmts.iter().enumerate() {
+            let is_last = k + 1 == block.stmts.len();
+            match statement {
+                Stmt::Local(local) => locals.extend(self.binding(local)),
+                Stmt::Expr(expression, None) if is_last => result = Some(self.expression(expression)),
+                Stmt::Expr(expression, Some(semicolon)) if is_last => {
+                    result = Some(self.expression(expression));
+                    if !matches!(expression, Expr::Return(_)) {
+                        self.error(semicolon, "the last line of an energy is its value: remove this `;`");
+                    }
+                }
+                Stmt::Item(syn::Item::Fn(helper)) => {
+                    self.mistaken.insert(helper.sig.ident.to_string());
+                    self.error(helper, NO_HELPERS);
+                }
+                other => self.error(other, "an energy is `let` bindings and one expression at the end"),
+            }
+        }
+        let result = result.unwrap_or_else(|| match block.stmts.last() {
+            Some(last) => self.mistake(last, "after this line an energy ends with its value, without `;`"),
+            None => self.mistake(block, "an energy is missing here, such as `mu / 2.0 * (I1 - 3.0)`"),
+        });
+        for name in locals {
+            if !self.used.contains(&name.to_string()) {
+                self.error(&name, &format!("`{name}` is not used: remove it"));
+            }
+        }
+        self.bindings = outer;
+        result
+    }
+
+    fn binding(&mut self, local: &syn::Local) -> Option<Ident> {
+        let pattern = match &local.pat {
+            Pat::Type(typed) if is_f64(&typed.ty) => &*typed.pat,
+            pattern => pattern,
+        };
+        let name = match pattern {
+            Pat::Ident(name) if name.mutability.is_none() && name.by_ref.is_none() => Some(&name.ident),
+            _ => None,
+        };
+        let (Some(name), Some(init)) = (name, &local.init) else {
+            let names = identifiers(local.pat.to_token_stream()).into_iter().map(|name| name.to_string());
+            self.mistaken.extend(names);
+            self.error(local, "write `let name = expression;`");
+            return None;
+        };
+        let value = self.expression(&init.expr);
+        if self.is_taken(name) {
+            self.error(name, &taken(name));
+            return None;
+        }
+        self.bindings.insert(name.to_string(), value);
+        self.bound.insert(name.to_string());
+        if self.is_unknown(value) {
+            self.mistaken.insert(name.to_string());
+            return None;
+        }
+        Some(name.clone())
+    }
+
+    fn expression(&mut self, expression: &Expr) -> Id {
+        let mut id = self.understand(expression);
+        // The innermost expression that does so reports it, and its value is another one.
+        if self.graph.take_overflow() {
+            id = self.mistake(expression, "the exact fraction here leaves 128 bits: use smaller numbers");
+        }
+        self.nodes.0.insert(std::ptr::from_ref(expression), id);
+        id
+    }
+
+    fn understand(&mut self, expression: &Expr) -> Id {
+        match expression {
+            Expr::Lit(literal) => self.literal(&literal.lit),
+            Expr::Path(path) => match path.path.get_ident() {
+                Some(name) => self.name(name),
+                None => self.constant(&path.path),
+            },
+            Expr::Paren(inner) => self.expression(&inner.expr),
+            Expr::Group(inner) => self.expression(&inner.expr),
+            Expr::Block(inner) => self.block(&inner.block),
+            Expr::Unary(unary) => match unary.op {
+                UnOp::Neg(_) => {
+                    let value = self.expression(&unary.expr);
+                    self.graph.neg(value)
+                }
+                _ => self.mistake(unary.op, "only `-` stands before a number"),
+            },
+            Expr::Binary(binary) => self.binary(binary),
+            Expr::MethodCall(call) => self.method(call),
+            Expr::Index(index) => self.entry(index),
+            Expr::Call(call) => self.call(call),
+            Expr::If(syn::ExprIf { if_token: word, .. }) => self.branch(word, expression),
+            Expr::Match(syn::ExprMatch { match_token: word, .. }) => self.branch(word, expression),
+            Expr::Cast(cast) => {
+                self.excuse_names(cast);
+                self.mistake(&cast.ty, "all numbers of an energy are `f64`: remove the cast")
+            }
+            Expr::Return(syn::ExprReturn { return_token, expr: Some(value), .. }) => {
+                self.error(return_token, "the last line of an energy is its value: write it without `return` and `;`");
+                self.expression(value)
+            }
+            Expr::Array(array) if array.elems.len() == 1 => {
+                self.mistake(expression, "parentheses are round in an energy: write `( … )`")
+            }
+            Expr::Array(_) | Expr::Repeat(_) => self.mistake(
+                expression,
+                "lists are parameters, as `mu: [f64; N]`: numbers of the energy's own are written out, term by term",
+            ),
+            Expr::Closure(closure) => self.mistake(closure, NO_HELPERS),
+            other => self.mistake(
+                other,
+                "an energy is made of numbers, parameters, stretches, `+ - * /`, `sum(|p| …)` and calls such as `x.ln()`",
+            ),
+        }
+    }
+
+    fn branch(&mut self, word: impl ToTokens, expression: &Expr) -> Id {
+        self.excuse_names(expression);
+        self.mistake(
+            word,
+            "an energy has no branches, at which its derivatives would jump: a domain is declared by `domain(…)`",
+        )
+    }
+
+    fn binary(&mut self, binary: &syn::ExprBinary) -> Id {
+        let (left, right) = (self.expression(&binary.left), self.expression(&binary.right));
+        match binary.op {
+            BinOp::Add(_) => self.graph.add(left, right),
+            BinOp::Sub(_) => self.graph.sub(left, right),
+            BinOp::Mul(_) => self.graph.mul(left, right),
+            BinOp::Div(_) if self.graph.is_zero(right) => self.mistake(&binary.right, "division by zero"),
+            BinOp::Div(_) => self.graph.div(left, right),
+            BinOp::BitXor(_) => self.mistake(binary.op, "a power is written `x.powi(2)` or `x.powf(alpha)`"),
+            BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Eq(_) | BinOp::Ne(_) => self
+                .mistake(
+                    binary.op,
+                    "an energy has no comparisons: conditions stand in `domain(…)` or `admissible(…)`",
+                ),
+            _ => self.mistake(binary.op, "only `+ - * /` connect numbers in an energy"),
+        }
+    }
+
+    fn literal(&mut self, literal: &Lit) -> Id {
+        let (digits, suffix) = match literal {
+            Lit::Float(number) => (number.base10_digits().to_owned(), number.suffix()),
+            Lit::Int(number) => (number.base10_digits().to_owned(), number.suffix()),
+            _ => return self.mistake(literal, "a literal in an energy is a number"),
+        };
+        match suffix {
+            "" | "f64" => {}
+            _ if is_numeric_type(suffix) => {
+                return self.mistake(literal, "numbers of an energy are `f64`: remove the suffix");
+            }
+            // Papers write products so.
+            name => {
+                self.used.insert(name.to_owned());
+                let message =
+                    format!("`{digits}{name}` is no number: write `{digits} * {name}` for a product");
+                return self.mistake(literal, &message);
+            }
+        }
+        if let Some(exact) = Rational::from_decimal(&digits) {
+            return self.graph.constant(exact);
+        }
+        match digits.parse::<f64>() {
+            Ok(value) if value.is_finite() => self.graph.leaf(Node::Float(value.to_bits())),
+            _ => self.mistake(literal, "this number is not finite in `f64`: write a smaller one"),
+        }
+    }
+
+    fn mistake(&mut self, tokens: impl ToTokens, message: &str) -> Id {
+        self.error(tokens, message);
+        self.unknown()
+    }
+
+    /// What stands for a mistake: a number that no literal is, so that nothing cancels it and no rule on numbers applies.
+    fn unknown(&mut self) -> Id {
+        self.graph.leaf(UNKNOWN)
+    }
+
+    /// Whether a value is or depends on what a mistake stands for.
+    fn is_unknown(&self, value: Id) -> bool {
+        self.graph.reachable(&[value]).into_iter().any(|id| *self.graph.node(id) == UNKNOWN)
+    }
+
+    fn error(&mut self, tokens: impl ToTokens, message: &str) {
+        self.excuse_names(&tokens);
+        self.diagnostics.error(tokens, message);
+    }
+
+    /// What is not understood for a mistake beside it is no further one.
+    fn excuse_names(&mut self, tokens: impl ToTokens) {
+        let names = identifiers(tokens.into_token_stream());
+        self.used.extend(names.iter().map(Ident::to_string));
+    }
+}
+
+/// Whether a suffix is one that numbers of Rust have.
+fn is_numeric_type(suffix: &str) -> bool {
+    const BITS: [&str; 6] = ["8", "16", "32", "64", "128", "size"];
+    suffix.strip_prefix(['i', 'u']).is_some_and(|bits| BITS.contains(&bits))
+        || matches!(suffix, "f16" | "f32" | "f64" | "f128")
+}

@@ -1,0 +1,220 @@
+//! Functions: those of numbers, and those that are parameters.
+
+use quote::ToTokens;
+use syn::{Expr, ExprCall, ExprMethodCall, Ident};
+
+use super::tensors::{self, Tensor};
+use super::{Resolver, Scope, paper_notation};
+use crate::algebra::expr::{Exponent, Id, Node};
+use crate::algebra::rational::Rational;
+use crate::read::literals::is_number;
+use crate::read::parse::identifiers;
+use crate::read::spelling::{list, nearest};
+
+/// Functions that can be called on a number, as they are called.
+const METHODS: [(&str, &str); 7] = [
+    ("powi", ".powi(2)"),
+    ("powf", ".powf(alpha)"),
+    ("ln", ".ln()"),
+    ("exp", ".exp()"),
+    ("sqrt", ".sqrt()"),
+    ("cbrt", ".cbrt()"),
+    ("recip", ".recip()"),
+];
+
+/// Functions of `f64` whose derivatives jump.
+const KINKED: [&str; 12] = [
+    "abs",
+    "max",
+    "min",
+    "clamp",
+    "signum",
+    "floor",
+    "ceil",
+    "round",
+    "trunc",
+    "fract",
+    "copysign",
+    "rem_euclid",
+];
+
+impl Resolver<'_> {
+    pub(super) fn method(&mut self, call: &ExprMethodCall) -> Id {
+        let name = call.method.to_string();
+        if form(&name).is_none()
+            && let Some(tensor) = self.tensor(&call.receiver)
+        {
+            return self.tensor_function(call, tensor);
+        }
+        let receiver = self.expression(&call.receiver);
+        let expected = match name.as_str() {
+            "powi" | "powf" => 1,
+            name if form(name).is_some() => 0,
+            _ => {
+                self.excuse_names(&call.args);
+                return self.unknown_function(&call.method, None);
+            }
+        };
+        if call.args.len() != expected {
+            self.excuse_names(&call.args);
+            let what = if expected == 0 { "no argument" } else { "one argument, the exponent" };
+            return self.mistake(&call.method, &format!("`{name}` takes {what}"));
+        }
+        let graph = &mut *self.graph;
+        match name.as_str() {
+            "ln" if graph.as_constant(receiver).is_some_and(|x| x.is_zero() || x.is_negative()) => {
+                self.mistake(call, "this logarithm is of a number that is not positive")
+            }
+            "ln" => graph.ln(receiver),
+            "exp" => graph.exp(receiver),
+            "sqrt" => graph.power(receiver, Rational::new(1, 2).map_or(Exponent::ONE, Exponent::rational)),
+            "cbrt" => graph.power(receiver, Rational::new(1, 3).map_or(Exponent::ONE, Exponent::rational)),
+            "recip" if graph.is_zero(receiver) => self.mistake(&call.receiver, "division by zero"),
+            "recip" => graph.powi(receiver, -1),
+            "powi" => self.whole_power(receiver, &call.args[0]),
+            _ => self.real_power(receiver, &call.args[0]),
+        }
+    }
+
+    /// What has no value by itself gives one message, on the function or on its name.
+    fn tensor_function(&mut self, call: &ExprMethodCall, of: Tensor) -> Id {
+        self.excuse_names(call);
+        if tensors::function(&call.method.to_string(), None).is_some() {
+            return self.unknown_function(&call.method, Some(of));
+        }
+        self.expression(&call.receiver)
+    }
+
+    /// The tensor of a paper that an expression is, unless the declaration gives a meaning to a name in it.
+    fn tensor(&self, expression: &Expr) -> Option<Tensor> {
+        let names = identifiers(expression.to_token_stream());
+        let has_meaning = |name: &Ident| self.is_taken(name) || self.mistaken.contains(&name.to_string());
+        tensors::tensor(expression).filter(|_| !names.iter().any(has_meaning))
+    }
+
+    fn unknown_function(&mut self, method: &Ident, of: Option<Tensor>) -> Id {
+        let name = method.to_string();
+        if KINKED.contains(&name.as_str()) {
+            let message = format!(
+                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power"
+            );
+            return self.mistake(method, &message);
+        }
+        let near = || nearest(&name, METHODS.map(|(known, _)| known)).and_then(form);
+        let hint = match tensors::function(&name, of).or_else(|| paper_notation::function(&name)) {
+            Some(hint) => hint.to_owned(),
+            None => match near() {
+                Some(form) => format!("did you mean `{form}`?"),
+                None => format!("there are {}", list(&METHODS.map(|(_, form)| form))),
+            },
+        };
+        self.mistake(method, &format!("unknown function `{name}`: {hint}"))
+    }
+
+    fn whole_power(&mut self, base: Id, argument: &Expr) -> Id {
+        let exponent = self.expression(argument);
+        if self.is_unknown(exponent) {
+            return exponent;
+        }
+        let Some(exponent) = self.graph.as_constant(exponent).filter(|exponent| exponent.denominator() == 1)
+        else {
+            let exponent = argument.to_token_stream().to_string().replace(" [", "[");
+            let message = format!("`powi` takes a whole number: for this one write `.powf({exponent})`");
+            return self.mistake(argument, &message);
+        };
+        if self.scope == Scope::Parameters && !is_number(argument) {
+            return self.mistake(argument, "in a condition `powi` takes one number, such as `2`");
+        }
+        match exponent.as_integer() {
+            Some(n) if n < 0 && self.graph.is_zero(base) => self.mistake(argument, "division by zero"),
+            Some(n) if n.abs() <= 64 => self.graph.powi(base, n),
+            _ => self.mistake(argument, "a whole power is at most 64: for larger ones use `.powf(…)`"),
+        }
+    }
+
+    fn real_power(&mut self, base: Id, argument: &Expr) -> Id {
+        let exponent = self.expression(argument);
+        if self.is_unknown(base) {
+            return base;
+        }
+        if self.depends_on_stretches(exponent) {
+            return self.mistake(argument, "an exponent is made of numbers and parameters, not of stretches");
+        }
+        let is_negative = self.graph.as_constant(exponent).is_some_and(Rational::is_negative);
+        if is_negative && self.graph.is_zero(base) {
+            return self.mistake(argument, "division by zero");
+        }
+        let exponent = self.graph.exponent(exponent);
+        self.graph.power(base, exponent)
+    }
+
+    fn depends_on_stretches(&self, id: Id) -> bool {
+        self.graph.reachable(&[id]).into_iter().any(|id| matches!(self.graph.node(id), Node::Stretch(_)))
+    }
+
+    pub(super) fn call(&mut self, call: &ExprCall) -> Id {
+        let name = match &*call.func {
+            Expr::Path(path) => path.path.segments.last().map(|last| last.ident.clone()),
+            _ => None,
+        };
+        let Some(name) = name else {
+            self.excuse_names(call);
+            let message = match &*call.func {
+                Expr::Lit(number) => {
+                    let number = number.to_token_stream();
+                    format!("`{number}` is not a function: write `{number} * (…)` for a product")
+                }
+                _ => "this is not a function: write `*` behind it for a product".into(),
+            };
+            return self.mistake(&call.func, &message);
+        };
+        let text = name.to_string();
+        if self.mistaken.contains(&text) {
+            self.excuse_names(call);
+            self.excuse();
+            return self.unknown();
+        }
+        match self.declaration.parameters.iter().position(|parameter| parameter.name == name) {
+            Some(k) if self.declaration.parameters[k].is_function() => return self.function(k, call),
+            Some(_) => {
+                return self.mistake(
+                    call,
+                    &format!("`{name}` is not a function: write `{name} * (…)` for a product"),
+                );
+            }
+            None => {}
+        }
+        match text.as_str() {
+            "sum" => self.sum(call),
+            known if form(known).is_some() => {
+                self.excuse_names(call);
+                let form = form(known).unwrap_or_default();
+                self.mistake(&call.func, &format!("`{known}` is called on a number: write `x{form}`"))
+            }
+            _ => {
+                self.excuse_names(call);
+                let tensor = call.args.first().and_then(|argument| self.tensor(argument));
+                self.unknown_function(&name, tensor)
+            }
+        }
+    }
+
+    /// A function that is a parameter.
+    fn function(&mut self, k: usize, call: &ExprCall) -> Id {
+        let name = self.declaration.parameters[k].name.to_string();
+        if self.scope == Scope::Parameters {
+            return self.mistake(call, "a function is checked by its own constructor: remove this condition");
+        }
+        self.used.insert(name.clone());
+        let [argument] = call.args.iter().collect::<Vec<_>>()[..] else {
+            return self.mistake(call, &format!("a function has one argument: write `{name}(l1)`"));
+        };
+        let argument = self.expression(argument);
+        self.graph.leaf(Node::Function(k, 0, argument))
+    }
+}
+
+/// How a function is called.
+fn form(name: &str) -> Option<&'static str> {
+    METHODS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form)
+}

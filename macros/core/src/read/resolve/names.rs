@@ -1,0 +1,171 @@
+//! What a name stands for.
+
+use syn::{Ident, Path};
+
+use super::{Resolver, Scope, paper_notation};
+use crate::algebra::expr::{Exponent, Id, Node};
+use crate::algebra::rational::Rational;
+use crate::read::parse::{Kind, WORDS};
+use crate::read::spelling::{list, nearest};
+
+impl Resolver<'_> {
+    pub(super) fn name(&mut self, name: &Ident) -> Id {
+        let text = name.to_string();
+        self.used.insert(text.clone());
+        if self.mistaken.contains(&text) {
+            return self.unknown();
+        }
+        if let Some(&bound) = self.bindings.get(&text) {
+            return bound;
+        }
+        if let Some(i) = self.declaration.stretches.iter().position(|stretch| stretch == name) {
+            return match self.scope {
+                Scope::Stretches | Scope::Isochoric => self.graph.stretch(i),
+                Scope::Invariants => self.mistake(name, &format!("`{text}` is no function of I1, I2 and J")),
+                Scope::Parameters => self.deformation(name),
+            };
+        }
+        if let Some(k) = self.declaration.parameters.iter().position(|parameter| parameter.name == *name) {
+            return match &self.declaration.parameters[k].kind {
+                Kind::Number => self.graph.leaf(Node::Parameter(k)),
+                Kind::List(_) if self.scope == Scope::Parameters => self
+                    .mistake(name, &format!("`{text}` is a list: write `{text}[p]` for each of its entries")),
+                Kind::List(_) => {
+                    self.mistake(name, &format!("`{text}` is a list: write `sum(|p| … {text}[p] …)`"))
+                }
+                Kind::Function(_) if self.scope == Scope::Parameters => {
+                    self.mistake(name, "a function is checked by its own constructor: remove this condition")
+                }
+                Kind::Function(_) => self.mistake(
+                    name,
+                    &format!(
+                        "`{text}` is declared as a function: write `{text}(l1)`, or declare `{text}: f64`"
+                    ),
+                ),
+            };
+        }
+        if WORDS.contains(&text.as_str()) && self.scope == Scope::Parameters {
+            return self.deformation(name);
+        }
+        if let Some(word) = self.word(&text) {
+            return word;
+        }
+        if self.index.as_ref().is_some_and(|index| index.name == *name) {
+            // One message for the name, however often it stands there.
+            self.mistaken.insert(text.clone());
+            return self.mistake(name, &self.index_as_number(&text));
+        }
+        if self.declaration.generics.contains(name) {
+            return self
+                .mistake(name, &format!("`{text}` is the length of lists: a number needs a parameter"));
+        }
+        if self.bound.contains(&text) {
+            return self.mistake(
+                name,
+                &format!(
+                    "`{text}` is known only in the `{{ … }}` of its `let`: write out here what it stands for"
+                ),
+            );
+        }
+        let known = self.known_names();
+        let hint = match (paper_notation::name(&text), nearest(&text, known.iter().map(String::as_str))) {
+            (Some(hint), _) if self.scope != Scope::Parameters => hint.to_owned(),
+            (_, Some(near)) => {
+                // Who meant this has used it.
+                self.used.insert(near.to_owned());
+                format!("did you mean `{near}`?")
+            }
+            (_, None) => format!("known are {}", list(&known)),
+        };
+        self.mistake(name, &format!("unknown name `{text}`: {hint}"))
+    }
+
+    /// A list of the declaration.
+    pub(super) fn first_list(&self) -> Option<&Ident> {
+        let mut parameters = self.declaration.parameters.iter();
+        parameters.find(|parameter| parameter.length().is_some()).map(|parameter| &parameter.name)
+    }
+
+    /// What to say of the index of a sum that stands where a number should.
+    fn index_as_number(&self, index: &str) -> String {
+        let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
+        format!(
+            "the index `{index}` only selects entries, as in `{list}[{index}]`, and is no number: write the terms out, each with \
+             a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \
+             parameters too, which a fit changes"
+        )
+    }
+
+    /// A mistake of a condition on parameters.
+    fn deformation(&mut self, name: &Ident) -> Id {
+        let message = format!("`{name}` is no parameter: what bounds the deformation stands in `domain(…)`");
+        self.mistake(name, &message)
+    }
+
+    /// Names that an expression here may use.
+    fn known_names(&self) -> Vec<String> {
+        let parameters = self.declaration.parameters.iter().map(|parameter| parameter.name.to_string());
+        if self.scope == Scope::Parameters {
+            return parameters.collect();
+        }
+        let stretches = self.declaration.stretches.iter().map(Ident::to_string);
+        let mut names: Vec<_> = stretches.chain(parameters).chain(WORDS.map(String::from)).collect();
+        let mut bound: Vec<_> = self.bindings.keys().cloned().collect();
+        bound.sort();
+        names.extend(bound);
+        names
+    }
+
+    /// J = λ1 λ2 λ3, I1 = Σ λ², I2 = λ1²λ2² + λ2²λ3² + λ3²λ1², I1b = J^(−2/3) I1, I2b = J^(−4/3) I2.
+    fn word(&mut self, word: &str) -> Option<Id> {
+        let graph = &mut *self.graph;
+        let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+        let [i1, i2, j] = match self.scope {
+            Scope::Invariants => stretches,
+            Scope::Stretches | Scope::Isochoric | Scope::Parameters => {
+                let squares = stretches.map(|stretch| graph.powi(stretch, 2));
+                let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
+                [graph.sum_of(&squares), graph.sum_of(&pairs), graph.product_of(&stretches)]
+            }
+        };
+        let mut isochoric = |invariant: Id, numerator: i128| {
+            let exponent = Rational::new(numerator, 3).map(Exponent::rational)?;
+            let power = graph.power(j, exponent);
+            Some(graph.mul(power, invariant))
+        };
+        let word = match (word, self.scope) {
+            ("I1", Scope::Isochoric) => "I1b",
+            ("I2", Scope::Isochoric) => "I2b",
+            (word, _) => word,
+        };
+        match word {
+            "J" => Some(j),
+            "I1" => Some(i1),
+            "I2" => Some(i2),
+            "I1b" => isochoric(i1, -2),
+            "I2b" => isochoric(i2, -4),
+            _ => None,
+        }
+    }
+
+    /// A path of several words.
+    pub(super) fn constant(&mut self, path: &Path) -> Id {
+        let last = path.segments.last().map(|last| last.ident.to_string()).unwrap_or_default();
+        if ["NAN", "INFINITY", "NEG_INFINITY"].contains(&last.as_str()) {
+            return self.mistake(path, "the numbers of an energy are finite: write one");
+        }
+        self.mistake(
+            path,
+            "what has a name here is a parameter, a stretch or a `let` binding: write constants as numbers",
+        )
+    }
+
+    pub(super) fn is_taken(&self, name: &Ident) -> bool {
+        let text = name.to_string();
+        WORDS.contains(&text.as_str())
+            || text == "sum"
+            || self.bindings.contains_key(&text)
+            || self.declaration.stretches.contains(name)
+            || self.declaration.parameters.iter().any(|parameter| parameter.name == *name)
+    }
+}

@@ -1,0 +1,158 @@
+//! Sums over lists, and the entries of these.
+
+use quote::ToTokens;
+use syn::{Expr, ExprCall, ExprClosure, ExprIndex, Ident, Pat};
+
+use super::{Resolver, Scope};
+use crate::algebra::expr::{Id, Length, Node};
+use crate::read::parse::indexed_lists;
+
+/// The index of a sum.
+pub(super) struct Index {
+    pub(super) name: Ident,
+    /// Of the lists that it has indexed so far.
+    pub(super) length: Option<Length>,
+    /// It has indexed what was meant to be a list, or is a list with a mistake.
+    pub(super) is_excused: bool,
+    /// Other names that were taken for it.
+    others: Vec<Ident>,
+}
+
+impl Index {
+    /// One that has indexed nothing.
+    pub(super) fn new(name: Ident) -> Self {
+        Self { name, length: None, is_excused: false, others: Vec::new() }
+    }
+}
+
+impl Resolver<'_> {
+    pub(super) fn sum(&mut self, call: &ExprCall) -> Id {
+        if self.scope == Scope::Parameters {
+            return self
+                .mistake(call, "a condition has no sums: written as `mu[p] > 0.0`, it holds for each entry");
+        }
+        let closure = match call.args.first() {
+            Some(Expr::Closure(closure)) if call.args.len() == 1 && closure.inputs.len() == 1 => {
+                Some(closure)
+            }
+            _ => None,
+        };
+        let index = closure.and_then(|closure| match &closure.inputs[0] {
+            Pat::Ident(name) => Some((closure, &name.ident)),
+            _ => None,
+        });
+        let Some((closure, name)) = index else {
+            return self.mistake(call, "a sum is written `sum(|p| mu[p] * …)`");
+        };
+        if let Some(outer) = &self.index {
+            let message = self.inside(&outer.name, closure, name);
+            self.excuse();
+            return self.mistake(call, &message);
+        }
+        self.index = Some(Index::new(name.clone()));
+        let body = self.expression(&closure.body);
+        match self.index.take() {
+            Some(Index { length: Some(length), .. }) => self.graph.sum(length, body),
+            Some(Index { is_excused: true, .. }) => body,
+            _ => self.mistake(name, &self.no_list(name)),
+        }
+    }
+
+    /// What to say of a sum inside another one.
+    fn inside(&self, outer: &Ident, closure: &ExprClosure, index: &Ident) -> String {
+        let mut lists = indexed_lists(closure.body.to_token_stream());
+        lists.retain(|(list, _)| {
+            let mut parameters = self.declaration.parameters.iter();
+            parameters.any(|parameter| parameter.name == *list && parameter.length().is_some())
+        });
+        if lists.iter().any(|(_, by)| by == index) {
+            return "sums cannot stand inside sums: write two sums and multiply them".to_owned();
+        }
+        // Exponents follow factors.
+        let list = lists.iter().rfind(|(_, by)| by == outer);
+        let power = list.map_or("powi(2)".to_owned(), |(list, by)| format!("powf({list}[{by}])"));
+        let [l1, l2, l3] = &self.declaration.stretches;
+        format!(
+            "sums run over lists of parameters alone: write the three stretches out, \
+             `{l1}.{power} + {l2}.{power} + {l3}.{power}`"
+        )
+    }
+
+    fn no_list(&self, index: &Ident) -> String {
+        match self.first_list() {
+            Some(list) => format!("this sum runs over no list: write `{list}[{index}]` in it"),
+            None => format!(
+                "this sum runs over no list: write it without `sum`, or declare a list, `mu: [f64; N]`, and write `mu[{index}]` in it"
+            ),
+        }
+    }
+
+    pub(super) fn entry(&mut self, expression: &ExprIndex) -> Id {
+        let Some(list) = plain_name(&expression.expr) else {
+            self.excuse();
+            return self.mistake(expression, "an entry is written `mu[p]`, inside `sum(|p| …)`");
+        };
+        let name = list.to_string();
+        let position = self.declaration.parameters.iter().position(|parameter| parameter.name == *list);
+        let length = position.and_then(|k| self.declaration.parameters[k].length());
+        let (Some(k), Some(length)) = (position, length) else {
+            self.excuse();
+            let is_other = position.is_some() || self.is_taken(list);
+            if is_other && !self.mistaken.contains(&name) {
+                self.used.insert(name.clone());
+                let message =
+                    format!("`{name}` is not a list: write `{name}`, or declare `{name}: [f64; N]`");
+                return self.mistake(list, &message);
+            }
+            return self.name(list);
+        };
+        self.used.insert(name.clone());
+        let Some(index) = plain_name(&expression.index) else {
+            self.excuse();
+            return self
+                .mistake(expression, &format!("an entry is written `{name}[p]`, inside `sum(|p| …)`"));
+        };
+        match &mut self.index {
+            Some(around) if around.name == *index => match around.length {
+                Some(other) if other != length && around.is_excused => self.graph.leaf(Node::Entry(k)),
+                Some(other) if other != length => {
+                    around.is_excused = true;
+                    let message = format!(
+                        "`{name}` has another length than the lists before it in this sum: declare them with the same"
+                    );
+                    self.mistake(list, &message)
+                }
+                _ => {
+                    around.length = Some(length);
+                    self.graph.leaf(Node::Entry(k))
+                }
+            },
+            Some(around) => {
+                around.is_excused = true;
+                if around.others.contains(index) {
+                    return self.unknown();
+                }
+                around.others.push(index.clone());
+                let message = format!("the index here is `{}`", around.name);
+                self.mistake(index, &message)
+            }
+            None => {
+                self.mistake(expression, &format!("entries are only read inside a sum: `sum(|p| {name}[p])`"))
+            }
+        }
+    }
+
+    /// What should have been an entry has a mistake of its own, so that its sum is not to blame.
+    pub(super) fn excuse(&mut self) {
+        if let Some(index) = &mut self.index {
+            index.is_excused = true;
+        }
+    }
+}
+
+fn plain_name(expression: &Expr) -> Option<&Ident> {
+    match expression {
+        Expr::Path(path) => path.path.get_ident(),
+        _ => None,
+    }
+}

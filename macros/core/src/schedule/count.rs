@@ -1,0 +1,182 @@
+//! How many operations a program takes.
+//!
+//! A fused multiplication and addition counts as both, so that numbers compare with those of a formula. Powers of one base
+//! share a logarithm, which counts once beside them; so does what the divided differences of two numbers share. Literals,
+//! parameters and stretches cost nothing. A total over a list takes one addition for each entry.
+
+use quote::ToTokens;
+use syn::Expr;
+
+use crate::algebra::expr::Length;
+use crate::model::{Model, Variant};
+use crate::read::parse::Declaration;
+use crate::schedule::sorted::{Sorted, entry};
+use crate::schedule::{Op, Program, Statement};
+
+/// The operations that each result of a material takes by itself, by its name: inside the domain, and last the blocks of an
+/// energy continued beyond that. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
+#[must_use]
+pub fn counts(model: &mut Model) -> Vec<(&'static str, Count)> {
+    let Variant { energy, gradient, hessian, flip, twist, .. } = &model.plain;
+    let mut results = vec![
+        ("energy", vec![*energy]),
+        ("gradient", gradient.to_vec()),
+        ("energy, gradient and Hessian", [&[*energy], &gradient[..], hessian].concat()),
+        ("flip", flip.to_vec()),
+        ("twist", twist.to_vec()),
+        ("blocks", model.plain.blocks()),
+    ];
+    results.extend(model.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
+    let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&model.program(&roots)));
+    results.into_iter().map(count).collect()
+}
+
+/// The counts of a declaration as a table in Markdown.
+#[must_use]
+pub fn table(declaration: &Declaration, counts: &[(&str, Count)]) -> String {
+    let rows =
+        counts.iter().map(|(result, count)| format!("| {result} | {} |\n", count.summary(declaration)));
+    format!("| result | operations |\n|---|---|\n{}", rows.collect::<String>())
+}
+
+/// Operations of about the same cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// Also subtraction, change of sign, maximum, selection.
+    Addition,
+    /// Of two numbers.
+    Multiplication,
+    /// Also a reciprocal.
+    Division,
+    /// Square or cube root.
+    Root,
+    /// Also one that powers are made from.
+    Logarithm,
+    /// To the base e.
+    Exponential,
+    /// With a real exponent.
+    Power,
+    /// A divided difference, or what those of two numbers share.
+    Quotient,
+    /// Call of a function that is a parameter.
+    Function,
+}
+
+/// Those that cost more than an addition, as they are written beside a number of operations.
+const COSTLY: [(Kind, &str); 7] = [
+    (Kind::Division, "÷"),
+    (Kind::Root, "√"),
+    (Kind::Logarithm, "ln"),
+    (Kind::Exponential, "exp"),
+    (Kind::Power, "pow"),
+    (Kind::Quotient, "Δ"),
+    (Kind::Function, "f"),
+];
+
+/// What numbers of operations mean, for whoever reads them.
+pub const LEGEND: &str = "A fused multiplication and addition counts as two operations, a loop over lists of length N as N \
+     times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a \
+     multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters";
+
+/// The operations of a program: those done once, and those done for each entry of lists of one length.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Count(Sorted<(Kind, Option<Length>), usize>);
+
+impl Count {
+    /// Of everything that a program does.
+    #[must_use]
+    pub fn of(program: &Program) -> Self {
+        let mut count = Self::default();
+        for statement in &program.statements {
+            match statement {
+                Statement::Let(_, op) => count.add(op, None),
+                Statement::Loop { length, body, totals } => {
+                    body.iter().for_each(|(_, op)| count.add(op, Some(*length)));
+                    if !totals.is_empty() {
+                        *entry(&mut count.0, (Kind::Addition, Some(*length))) += totals.len();
+                    }
+                }
+            }
+        }
+        count
+    }
+
+    fn add(&mut self, op: &Op, length: Option<Length>) {
+        for &kind in kinds(op) {
+            *entry(&mut self.0, (kind, length)) += 1;
+        }
+    }
+
+    /// Those of the kinds asked for, for lists of the lengths given.
+    #[must_use]
+    pub fn number(&self, lengths: &[usize], is_asked: impl Fn(Kind) -> bool) -> usize {
+        let times = |length: Option<Length>| length.map_or(1, |length| lengths[length]);
+        self.0.iter().filter(|((kind, _), _)| is_asked(*kind)).map(|((_, l), n)| n * times(*l)).sum()
+    }
+
+    /// All of them and those that are costly, such as `12 + 31 N (1 ÷, 1 ln, 3 N pow)`.
+    fn summary(&self, declaration: &Declaration) -> String {
+        let all = self.text(declaration, |_| true);
+        let costly = COSTLY.into_iter().filter_map(|(kind, sign)| {
+            let is_used = self.0.iter().any(|((used, _), _)| *used == kind);
+            is_used.then(|| format!("{} {sign}", self.text(declaration, |asked| asked == kind)))
+        });
+        let costly: Vec<_> = costly.collect();
+        if costly.is_empty() { all } else { format!("{all} ({})", costly.join(", ")) }
+    }
+
+    /// Those of the kinds asked for, such as `12 + 31 N`.
+    fn text(&self, declaration: &Declaration, is_asked: impl Fn(Kind) -> bool) -> String {
+        let mut once = 0;
+        let mut each: Sorted<Length, usize> = Sorted::new();
+        for &((kind, length), number) in &self.0 {
+            match length {
+                _ if !is_asked(kind) => {}
+                Some(length) => *entry(&mut each, length) += number,
+                None => once += number,
+            }
+        }
+        let constant = (once > 0 || each.is_empty()).then(|| once.to_string());
+        let terms = each.into_iter().map(|(length, number)| term(number, &declaration.lengths[length]));
+        constant.into_iter().chain(terms).collect::<Vec<_>>().join(" + ")
+    }
+}
+
+fn term(number: usize, length: &Expr) -> String {
+    match (number, length) {
+        (_, Expr::Lit(literal)) => format!("{number} · {}", literal.to_token_stream()),
+        (1, length) => length.to_token_stream().to_string(),
+        (_, length) => format!("{number} {}", length.to_token_stream()),
+    }
+}
+
+/// What an operation counts as.
+fn kinds(op: &Op) -> &'static [Kind] {
+    match op {
+        Op::Literal(_) | Op::Stretch(_) | Op::Strain(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => {
+            &[]
+        }
+        Op::Neg(_)
+        | Op::Add(..)
+        | Op::Sub(..)
+        | Op::Max(..)
+        | Op::Below(..)
+        | Op::WhereNegative(..)
+        | Op::PoleFloor => &[Kind::Addition],
+        Op::Mul(..) => &[Kind::Multiplication],
+        Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => &[Kind::Addition, Kind::Multiplication],
+        Op::Div(..) => &[Kind::Division],
+        Op::Sqrt(_) | Op::Cbrt(_) => &[Kind::Root],
+        Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[Kind::Logarithm],
+        Op::Exp(_) => &[Kind::Exponential],
+        Op::Power(..) => &[Kind::Power],
+        Op::Pair { .. }
+        | Op::LnQuotient(_)
+        | Op::PowerQuotient { .. }
+        | Op::ExpQuotient { .. }
+        | Op::FunctionQuotient(..)
+        | Op::ShareAbove(..)
+        | Op::ShareBelow(..) => &[Kind::Quotient],
+        Op::Function(..) => &[Kind::Function],
+    }
+}
