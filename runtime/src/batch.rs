@@ -50,203 +50,290 @@ use std::fmt;
 
 use crate::lanes::{Backend, PastCaches};
 use crate::point::Filter;
+use crate::status::{Status, Survey};
 
 #[cfg(feature = "system")]
 pub(crate) mod element;
-mod energy;
 mod form;
 mod jobs;
+mod material;
 #[cfg(feature = "system")]
 pub(crate) mod operator;
+#[cfg(feature = "system")]
+pub(crate) mod rest;
 mod sink;
 mod stage;
 mod tile;
 mod workspace;
 
-pub use energy::{Energy, TileOf, Verdict};
+pub use material::{Arguments, Properties, TileMaterial};
 pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
-pub(crate) use form::PACKED_12;
 #[cfg(test)]
-pub(crate) use form::STIFFEST;
+pub(crate) use form::MAX_STIFFNESS_RATIO;
+pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::{Sink, Source};
 use stage::{
-    Decompose, Forces, Invariants, Judge, Marks, Product, Respond, StiffnessForm, Stress, StressByInvariants,
+    Decompose, Forces, Invariants, Judge, Product, Respond, StiffnessForm, Stress, StressByInvariants,
     TangentForm,
 };
 use tile::first_bits;
-use workspace::Workspace;
+use workspace::{Line, Workspace};
 
 /// A material and how to compute with it.
-#[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Batch<'a, E> {
-    /// The material, as every [`Material`](crate::Material) is one.
-    pub energy: &'a dyn Energy<E>,
-    /// What becomes of negative eigenvalues of dP/dF.
+    /// The material of the points: a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
+    pub material: &'a dyn TileMaterial<E>,
+    /// What happens to negative eigenvalues of dP/dF.
     pub filter: Filter,
     /// The instructions to compute with.
     pub backend: Backend,
-    /// How the numbers of the points lie in every slice of a call.
+    /// How the components of the points are arranged in every slice of a call.
     pub layout: Layout,
     /// Whether tangents are written past the caches: about twice as fast where they are larger than the last one, and
     /// slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes, else it does nothing.
     pub streams: bool,
     /// Whether the points are shared among the threads of rayon's pool.
     pub threads: bool,
+    statuses: &'a mut [Status],
 }
 
 impl<'a, E: Stages> Batch<'a, E> {
     /// Unfiltered, with the best instructions of this processor, point by point, on one thread.
     #[must_use]
-    pub fn new(energy: &'a dyn Energy<E>) -> Self {
+    pub fn new(material: &'a dyn TileMaterial<E>) -> Self {
         Self {
-            energy,
+            material,
             filter: Filter::None,
             backend: Backend::best(),
             layout: Layout::Points,
             streams: false,
             threads: false,
+            statuses: &mut [],
         }
+    }
+
+    /// Sets the filter of dP/dF.
+    #[must_use]
+    pub fn with_filter(self, filter: Filter) -> Self {
+        Self { filter, ..self }
+    }
+
+    /// Sets the instructions to compute with.
+    #[must_use]
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { backend, ..self }
+    }
+
+    /// Sets the layout of every slice.
+    #[must_use]
+    pub fn with_layout(self, layout: Layout) -> Self {
+        Self { layout, ..self }
+    }
+
+    /// Sets whether tangents are written past the caches; see [`Batch::streams`].
+    #[must_use]
+    pub fn with_streams(self, streams: bool) -> Self {
+        Self { streams, ..self }
+    }
+
+    /// Sets whether the points are shared among the threads of rayon's pool.
+    #[must_use]
+    pub fn with_threads(self, threads: bool) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Writes the status of every point, one entry each, at every call.
+    ///
+    /// ```
+    /// use piola::batch::Batch;
+    /// use piola::{Status, material};
+    ///
+    /// /// Rubber.
+    /// #[material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln()
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let rubber = Rubber::new(1e6)?;
+    /// let (rest, inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]);
+    /// let mut statuses = [Status::default(); 2];
+    /// let survey = Batch::new(&rubber).with_statuses(&mut statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
+    /// assert_eq!((survey.refused, statuses.map(|status| status.refused)), (1, [false, true]));
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn with_statuses(self, statuses: &'a mut [Status]) -> Self {
+        Self { statuses, ..self }
     }
 
     /// ψ, Pa, of each F. Computes no derivative.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
-        let count = self.count(&[("F", F.len(), 9), ("energies", energies.len(), 1)])?;
-        let work = Work { inputs: [(F, 9)], outputs: [(energies, 1)] };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn energies(&mut self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
+        self.run([("F", F, 9)], [("energies", energies, 1)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
             let Workspace { F: lines, points, invariants, energies_by_invariants, energies: values, .. } =
                 workspace;
-            let F = Source::new(self.backend, self.layout, F, lines);
+            let F = Source::new(batch.backend, batch.layout, F, lines);
             let mut by_invariants = 0;
-            if self.energy.has_invariants() {
-                let in_range = E::invariants(self.backend, Invariants { F, count, invariants });
-                let tile = self.tile(invariants, start, count);
-                by_invariants = in_range & self.energy.energies_by_invariants(tile, energies_by_invariants);
+            if batch.properties.has_invariants {
+                let in_range = E::invariants(batch.backend, Invariants { F, count, invariants });
+                let arguments = batch.arguments(invariants, start, count);
+                let status = batch.material.tile_energies_by_invariants(arguments, energies_by_invariants);
+                by_invariants = in_range & !(status.refused | status.nonfinite);
                 energies.copy_from_slice(&energies_by_invariants.0[0][..count]);
             }
             if by_invariants == first_bits(count) {
-                return Marks::default();
+                return Status::default();
             }
-            self.decompose(F, count, points);
-            let verdict = self.energy.energies(self.tile(&points.stretches, start, count), values);
+            batch.decompose(F, count, points);
+            let status =
+                batch.material.tile_energies(batch.arguments(&points.stretches, start, count), values);
             for point in (0..count).filter(|point| by_invariants >> point & 1 == 0) {
                 energies[point] = values.0[0][point];
             }
-            let Verdict { refused, nonfinite } = verdict;
-            Marks { refused, nonfinite, ..Marks::default() }.without(by_invariants)
-        }))
+            status & !by_invariants
+        })
     }
 
-    /// P, Pa: nine numbers of each F. Computes no second derivative.
+    /// P, Pa: nine components of each F. Computes no second derivative.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
-        let count = self.count(&[("F", F.len(), 9), ("P", P.len(), 9)])?;
-        let work = Work { inputs: [(F, 9)], outputs: [(P, 9)] };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn stresses(&mut self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
+        self.run([("F", F, 9)], [("P", P, 9)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
             let Workspace { F: lines, points, invariants, gradients, line, stress, .. } = workspace;
-            let F = Source::new(self.backend, self.layout, F, lines);
+            let F = Source::new(batch.backend, batch.layout, F, lines);
             let mut by_invariants = 0;
-            if self.energy.has_invariants() {
-                let in_range = E::invariants(self.backend, Invariants { F, count, invariants });
-                let tile = self.tile(invariants, start, count);
-                by_invariants = in_range & self.energy.gradients_by_invariants(tile, gradients);
-                let P = self.sink(&mut *P);
+            if batch.properties.has_invariants {
+                let in_range = E::invariants(batch.backend, Invariants { F, count, invariants });
+                let arguments = batch.arguments(invariants, start, count);
+                let status = batch.material.tile_gradients_by_invariants(arguments, gradients);
+                let P = batch.sink(&mut *P);
                 let kernel = StressByInvariants { F, invariants, gradients, count, line, P };
-                by_invariants &= E::stress_by_invariants(self.backend, kernel);
+                by_invariants = in_range & !status.refused & E::stress_by_invariants(batch.backend, kernel);
             }
             if by_invariants == first_bits(count) {
-                return Marks::default();
+                return Status::default();
             }
             // The points that the invariants have served keep what they got.
             stress.copy_from(P);
-            self.decompose(F, count, points);
-            let refused = self.energy.gradients(self.tile(&points.stretches, start, count), gradients);
-            let kernel = Stress { points, gradients: &gradients.0, count, line, P: self.sink(&mut *P) };
-            let marks = Marks { refused, ..E::stress(self.backend, kernel) };
+            batch.decompose(F, count, points);
+            let refused =
+                batch.material.tile_gradients(batch.arguments(&points.stretches, start, count), gradients);
+            let kernel = Stress { points, gradients: &gradients.0, count, line, P: batch.sink(&mut *P) };
+            let status = refused | E::stress(batch.backend, kernel);
             for point in (0..count).filter(|point| by_invariants >> point & 1 == 1) {
                 for k in 0..9 {
-                    let place = self.layout.index::<E>(point, 9, k);
+                    let place = batch.layout.index::<E>(point, 9, k);
                     P[place] = stress.0.as_flattened()[place];
                 }
             }
-            marks.without(by_invariants)
-        }))
+            status & !by_invariants
+        })
     }
 
-    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 numbers of each F, row 3i+j for entry (i, j) of P and column 3k+l
+    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 components of each F, row 3i+j for entry (i, j) of P and column 3k+l
     /// for entry (k, l) of F.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn tangents(&mut self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Full, F, P, ("dP_dF", dP_dF, 81))
     }
 
-    /// As [`Batch::tangents`], of dP/dF the 45 entries on and above the diagonal, row by row.
+    /// P, Pa, and the 45 entries of dP/dF, Pa, on and above the diagonal, row by row, filtered.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn packed_tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn packed_tangents(&mut self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
     }
 
-    /// P, Pa, and dP/dF, filtered, as the [`FACTORS`] numbers that [`Batch::products`] starts from.
+    /// P, Pa, and dP/dF, filtered, as the [`FACTORS`] components that [`Batch::products`] starts from.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn factored_tangents(&self, F: &[E], P: &mut [E], factors: &mut [E]) -> Result<Survey, LengthError> {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn factored_tangents(
+        &mut self,
+        F: &[E],
+        P: &mut [E],
+        factors: &mut [E],
+    ) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
+    }
+
+    /// ψ, P and all entries of dP/dF, Pa, the latter filtered: [`Batch::energies`] and [`Batch::tangents`] with one
+    /// decomposition of each F.
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn energies_and_tangents(
+        &mut self,
+        F: &[E],
+        energies: &mut [E],
+        P: &mut [E],
+        dP_dF: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.run(
+            [("F", F, 9)],
+            [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)],
+            |batch, tile| {
+                let Tile { workspace, start, count, inputs: [F], outputs: [energies, P, tangents] } = tile;
+                let Workspace { F: lines, points, energies: values, blocks, line, .. } = workspace;
+                batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
+                let status =
+                    batch.material.tile_energies(batch.arguments(&points.stretches, start, count), values);
+                energies.copy_from_slice(&values.0[0][..count]);
+                status | batch.stress_and_tangent(TangentForm::Full, points, blocks, line, start, P, tangents)
+            },
+        )
     }
 
     /// dP = (dP/dF) dF of each point, from what [`Batch::factored_tangents`] has written.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
-    pub fn products(&self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
-        let lengths = [("factors", factors.len(), FACTORS), ("dF", dF.len(), 9), ("dP", dP.len(), 9)];
-        let count = self.count(&lengths)?;
-        let work = Work { inputs: [(factors, FACTORS), (dF, 9)], outputs: [(dP, 9)] };
-        jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn products(&mut self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
+        let inputs = [("factors", factors, FACTORS), ("dF", dF, 9)];
+        self.run(inputs, [("dP", dP, 9)], |batch, tile| {
             let Workspace { dF: increments, factors: stored, line, .. } = tile.workspace;
             let ([factors, dF], [dP]) = (tile.inputs, tile.outputs);
             let kernel = Product {
-                stored: Source::new(self.backend, self.layout, factors, stored),
-                dF: Source::new(self.backend, self.layout, dF, increments),
+                stored: Source::new(batch.backend, batch.layout, factors, stored),
+                dF: Source::new(batch.backend, batch.layout, dF, increments),
                 count: tile.count,
                 line,
-                dP: self.sink(dP),
+                dP: batch.sink(dP),
             };
-            E::product(self.backend, kernel);
-            Marks::default()
-        });
+            E::product(batch.backend, kernel);
+            Status::default()
+        })?;
         Ok(())
     }
 
     /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
     ///
-    /// `rest` holds [`REST`] numbers of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in
-    /// [`RestShape`](crate::mesh::RestShape); F = Ds Dm⁻¹. Of the gradients there are 12 numbers, coordinate a of node n
-    /// at 3n+a; **forces are minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a.
-    ///
-    /// [`BlockMatrix`](crate::system::BlockMatrix) sums them into a sparse matrix.
+    /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`; F = Ds Dm⁻¹. Of the
+    /// gradients there are 12 components, coordinate a of node n at 3n+a; **forces are minus these**. Of the stiffnesses all 144
+    /// entries, unknown 3n+a in row and column 3n+a. With feature `system`, `BlockMatrix` sums them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of the
     /// tangent, it is cut there, because a factorisation could not resolve more.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn stiffnesses(
-        &self,
+        &mut self,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
@@ -255,12 +342,13 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond_elements(StiffnessForm::Full, F, rest, gradients, (stiffnesses, 144))
     }
 
-    /// As [`Batch::stiffnesses`], of each stiffness the 78 entries on and above the diagonal, row by row.
+    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], of each stiffness the 78 entries on and above the diagonal, row by
+    /// row.
     ///
     /// # Errors
-    /// Where the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn packed_stiffnesses(
-        &self,
+        &mut self,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
@@ -270,105 +358,153 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 
     fn respond(
-        &self,
+        &mut self,
         form: TangentForm,
         F: &[E],
         P: &mut [E],
-        (name, tangents, numbers): (&'static str, &mut [E], usize),
+        tangents: (&'static str, &mut [E], usize),
     ) -> Result<Survey, LengthError> {
-        let lengths = [("F", F.len(), 9), ("P", P.len(), 9), (name, tangents.len(), numbers)];
-        let count = self.count(&lengths)?;
-        let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let order = PastCaches::new();
-            let Workspace { F: lines, points, blocks, line, .. } = tile.workspace;
-            let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
-            self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
-            let judged = self.blocks(points, tile.start, tile.count, blocks);
-            let (points, count) = (&*points, tile.count);
-            let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
-            let stressed = E::stress(self.backend, kernel);
-            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(tangents, &order));
-            let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
-            E::tangent(self.backend, form, kernel).or(stressed).or(judged)
-        }))
+        self.run([("F", F, 9)], [("P", P, 9), tangents], |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F], outputs: [P, tangents] } = tile;
+            let Workspace { F: lines, points, blocks, line, .. } = workspace;
+            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
+            batch.stress_and_tangent(form, points, blocks, line, start, P, tangents)
+        })
     }
 
     fn respond_elements(
-        &self,
+        &mut self,
         form: StiffnessForm,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
-        (stiffnesses, numbers): (&mut [E], usize),
+        (stiffnesses, components): (&mut [E], usize),
     ) -> Result<Survey, LengthError> {
-        let count = self.count(&[
-            ("F", F.len(), 9),
-            ("rest", rest.len(), REST),
-            ("gradients", gradients.len(), 12),
-            ("stiffnesses", stiffnesses.len(), numbers),
-        ])?;
-        let work =
-            Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
+        let inputs = [("F", F, 9), ("rest", rest, REST)];
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
+        self.run(inputs, outputs, |batch, tile| {
             let order = PastCaches::new();
             let Workspace { F: lines, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
-            self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
-            let judged = self.blocks(points, tile.start, tile.count, blocks);
+            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), tile.count, points);
+            let judged = batch.blocks(points, tile.start, tile.count, blocks);
             let (points, count) = (&*points, tile.count);
-            let rest = Source::new(self.backend, self.layout, rest, shapes);
-            let to = self.sink(gradients);
+            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
+            let to = batch.sink(gradients);
             let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
-            let forced = E::forces(self.backend, kernel);
-            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(stiffnesses, &order));
+            let forced = E::forces(batch.backend, kernel);
+            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &order));
             let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
-            E::stiffness(self.backend, form, kernel).or(forced).or(judged)
-        }))
+            E::stiffness(batch.backend, form, kernel) | forced | judged
+        })
     }
 
+    /// Computes every tile of slices, each given with its name and the components it holds for a point.
+    fn run<const I: usize, const O: usize>(
+        &mut self,
+        inputs: [(&'static str, &[E], usize); I],
+        outputs: [(&'static str, &mut [E], usize); O],
+        body: impl Fn(Call<'_, E>, Tile<'_, E, I, O>) -> Status<u64> + Sync,
+    ) -> Result<Survey, LengthError> {
+        let properties = self.material.properties();
+        let (_, first, components) = inputs[0];
+        let group = match self.layout {
+            Layout::Points => 1,
+            Layout::Lines => E::LINE,
+        };
+        let count = first.len() / components / group * group;
+        let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
+        let lengths =
+            lengths.chain(outputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components)));
+        let materials = properties.points.map(|points| ("materials", points, 1));
+        let statuses = (!self.statuses.is_empty()).then_some(("statuses", self.statuses.len(), 1));
+        let misfit = lengths
+            .chain(materials)
+            .chain(statuses)
+            .find(|(_, length, components)| *length != count * components);
+        if let Some((slice, found, components)) = misfit {
+            return Err(LengthError { slice, found, components, points: count, group });
+        }
+        let call = Call {
+            material: self.material,
+            properties,
+            filter: self.filter,
+            backend: self.backend,
+            layout: self.layout,
+            streams: self.streams,
+        };
+        let work = Work {
+            inputs: inputs.map(|(_, slice, components)| (slice, components)),
+            outputs: outputs.map(|(_, slice, components)| (slice, components)),
+            statuses: &mut *self.statuses,
+        };
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| body(call, tile)))
+    }
+}
+
+/// What the tiles of a call share.
+#[derive(Clone, Copy)]
+struct Call<'a, E> {
+    material: &'a dyn TileMaterial<E>,
+    properties: Properties,
+    filter: Filter,
+    backend: Backend,
+    layout: Layout,
+    streams: bool,
+}
+
+impl<E: Stages> Call<'_, E> {
     fn decompose(&self, F: Source<'_, E, 9>, count: usize, points: &mut Points<E>) {
-        let is_signed = self.energy.ends_at_zero_volume();
+        let is_signed = self.properties.ends_at_zero_volume;
         E::decompose(self.backend, Decompose { F, count, is_signed, points });
     }
 
     /// The filtered blocks of a tile.
-    fn blocks(&self, points: &Points<E>, start: usize, count: usize, blocks: &mut Rows<E, 15>) -> Marks {
-        let refused = self.energy.blocks(self.tile(&points.stretches, start, count), blocks);
-        let has_pole = self.energy.has_pole();
-        let kernel = Judge { points, blocks, count, filter: self.filter, has_pole };
-        Marks { refused, ..E::judge(self.backend, kernel) }
+    fn blocks(
+        &self,
+        points: &Points<E>,
+        start: usize,
+        count: usize,
+        blocks: &mut Rows<E, 15>,
+    ) -> Status<u64> {
+        let refused = self.material.tile_blocks(self.arguments(&points.stretches, start, count), blocks);
+        let has_pole = self.properties.has_pole;
+        refused | E::judge(self.backend, Judge { points, blocks, count, filter: self.filter, has_pole })
     }
 
-    fn tile<'t>(&self, arguments: &'t Rows<E, 3>, start: usize, count: usize) -> TileOf<'t, E> {
-        TileOf { backend: self.backend, start, count, arguments }
+    /// Stresses and tangents of a tile that has been decomposed.
+    #[expect(clippy::too_many_arguments, reason = "a tile's rooms, each borrowed by itself")]
+    fn stress_and_tangent(
+        &self,
+        form: TangentForm,
+        points: &Points<E>,
+        blocks: &mut Rows<E, 15>,
+        line: &mut Line<E>,
+        start: usize,
+        P: &mut [E],
+        tangents: &mut [E],
+    ) -> Status<u64> {
+        let order = PastCaches::new();
+        let count = P.len() / 9;
+        let judged = self.blocks(points, start, count, blocks);
+        let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
+        let stressed = E::stress(self.backend, kernel);
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &order));
+        let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
+        E::tangent(self.backend, form, kernel) | stressed | judged
+    }
+
+    fn arguments<'t>(&self, rows: &'t Rows<E, 3>, start: usize, count: usize) -> Arguments<'t, E> {
+        Arguments { backend: self.backend, start, count, rows }
     }
 
     fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
         Sink { to, layout: self.layout, past_caches: None }
     }
 
-    /// For what may be larger than the caches.
+    /// A sink for outputs that may be larger than the caches.
     fn large_sink<'t>(&self, to: &'t mut [E], order: &'t PastCaches) -> Sink<'t, E> {
         Sink { to, layout: self.layout, past_caches: self.streams.then_some(order) }
-    }
-
-    /// The number of points of slices that must all have as many.
-    fn count(&self, slices: &[(&'static str, usize, usize)]) -> Result<usize, LengthError> {
-        let (_, length, numbers) = slices[0];
-        let group = match self.layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        };
-        let count = length / numbers / group * group;
-        let parameters = self.energy.points().map(|points| ("materials", points, 1));
-        let misfit = slices.iter().chain(&parameters).find(|(_, length, numbers)| *length != count * numbers);
-        match misfit {
-            None => Ok(count),
-            Some(&(slice, found, numbers)) => {
-                Err(LengthError { slice, found, numbers, points: count, group })
-            }
-        }
     }
 }
 
@@ -378,56 +514,6 @@ pub const FACTORS: usize = 30;
 /// Numbers of an element's rest shape: Dm⁻¹ row by row, the volume.
 pub const REST: usize = 10;
 
-/// What a call says of its points beside their numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Survey {
-    /// How many lie outside the domain of the energy.
-    pub refused: usize,
-    /// How many are at a pole of the tangent, which got a bounded value.
-    pub bounded: usize,
-    /// How many have an infinite or NaN deformation or result, or one within a factor 16 of it.
-    pub nonfinite: usize,
-    /// Of how many the filter changed the tangent.
-    pub filtered: usize,
-    /// The first that is refused or not finite.
-    pub first: Option<usize>,
-}
-
-impl Survey {
-    /// Of no points.
-    pub(crate) const NONE: Self = Self { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None };
-
-    /// Whether the numbers of every point mean something.
-    #[must_use]
-    pub fn is_clean(&self) -> bool {
-        self.refused == 0 && self.nonfinite == 0
-    }
-
-    /// Of the points of a tile, the first of which is number `start`.
-    pub(crate) fn of(marks: &Marks, start: usize) -> Self {
-        let count = |bits: u64| bits.count_ones() as usize;
-        let bad = marks.refused | marks.nonfinite;
-        Self {
-            refused: count(marks.refused),
-            bounded: count(marks.bounded),
-            nonfinite: count(marks.nonfinite),
-            filtered: count(marks.filtered),
-            first: (bad != 0).then(|| start + bad.trailing_zeros() as usize),
-        }
-    }
-
-    /// Of these points and those that follow them.
-    pub(crate) fn and(self, next: Self) -> Self {
-        Self {
-            refused: self.refused + next.refused,
-            bounded: self.bounded + next.bounded,
-            nonfinite: self.nonfinite + next.nonfinite,
-            filtered: self.filtered + next.filtered,
-            first: self.first.or(next.first),
-        }
-    }
-}
-
 /// Slices whose lengths do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LengthError {
@@ -435,8 +521,8 @@ pub struct LengthError {
     pub slice: &'static str,
     /// Its length.
     pub found: usize,
-    /// Numbers that it holds for each point.
-    pub numbers: usize,
+    /// Components that it holds for each point.
+    pub components: usize,
     /// How many points there are.
     pub points: usize,
     /// The layout wants a multiple of this many points.
@@ -445,11 +531,11 @@ pub struct LengthError {
 
 impl fmt::Display for LengthError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { slice, found, numbers, points, group } = self;
+        let Self { slice, found, components, points, group } = self;
         write!(
             f,
-            "`{slice}` has {found} numbers; {points} points of {numbers} numbers each would make {}",
-            points * numbers
+            "`{slice}` has {found} entries; {points} points of {components} entries each would make {}",
+            points * components
         )?;
         if *group > 1 {
             write!(f, ", and the layout in lines wants a multiple of {group} points")?;

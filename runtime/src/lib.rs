@@ -59,6 +59,8 @@
 
 extern crate self as piola;
 
+#[doc(hidden)]
+pub mod __private;
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod contract;
@@ -69,8 +71,9 @@ pub mod material;
 #[cfg(feature = "system")]
 pub mod mesh;
 pub mod point;
-pub mod quotient;
+mod quotient;
 pub mod random;
+mod status;
 #[cfg(feature = "system")]
 pub mod step;
 #[cfg(feature = "system")]
@@ -80,4 +83,5 @@ pub mod univariate;
 pub use lanes::Real;
 pub use material::{Inversion, Material};
 pub use piola_macros::material;
+pub use status::{Status, Survey};
 pub use univariate::{Spline, Univariate};

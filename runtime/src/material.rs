@@ -17,15 +17,19 @@
 
 use crate::lanes::{Mask, Real};
 
+mod combine;
 mod fittable;
 mod inadmissible;
 mod normalised;
-mod varying;
+mod parameter;
+mod response;
 
+pub use combine::{Scaled, Sum};
 pub use fittable::Fittable;
 pub use inadmissible::{Given, Inadmissible};
-pub use normalised::Normalised;
-pub use varying::{Each, Mixed, Parameters, Uniform, Varying};
+pub use normalised::{Normalised, VolumetricPenalty};
+pub use parameter::{Graded, ParameterValue, PerLane, PerPoint, PerPointError};
+pub use response::{DynMaterial, Response};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -51,7 +55,7 @@ pub struct Blocks<R> {
 /// Methods that compute should be `#[inline(always)]`, and what they call: see [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
     /// ψ, J/m³ of rest volume.
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R;
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::material::DynMaterial
 
     /// ψ1, ψ2, ψ3, Pa.
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
@@ -68,6 +72,14 @@ pub trait Material: Send + Sync {
 
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
+
+    /// ψ, J/m³ of rest volume, together with the blocks, Pa: what both have in common is computed once.
+    ///
+    /// `#[piola::material]` overrides it; as given here it is [`Material::energy`] and [`Material::blocks`].
+    #[inline(always)]
+    fn energy_and_blocks<R: Real>(&self, stretches: [R; 3]) -> (R, Blocks<R>) {
+        (self.energy(stretches), self.blocks(stretches))
+    }
 
     /// Where the energy in use is defined.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
@@ -143,17 +155,6 @@ pub enum Inversion {
         /// The stretch below which the polynomials are in use, 0 < ε < 1.
         epsilon: f64,
     },
-}
-
-/// What the evaluation at a point says beside its numbers: one truth value for each point of a batch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Status<M> {
-    /// The deformation lies outside the domain of the energy; the numbers are meaningless.
-    pub refused: M,
-    /// λ2 + λ3 is at a pole of the twist; the tangent has a bounded value in place of an infinite one.
-    pub bounded: M,
-    /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a factor 16 of it.
-    pub nonfinite: M,
 }
 
 /// Small-strain moduli of an isotropic solid, Pa.
@@ -264,15 +265,17 @@ pub trait Declared: Material + Sized {
     fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, Inadmissible>;
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
-    fn moduli(&self) -> Moduli;
+    fn moduli(&self) -> Moduli {
+        self.stated_moduli().unwrap_or_else(|| Moduli::at_rest(self))
+    }
 
     /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2 (J − 1)²; see
     /// [`Normalised`].
     ///
     /// # Errors
-    /// As [`Normalised::new`]: E or ν out of bounds, or ν below that of the energy itself.
+    /// As [`Normalised::with_young_poisson`]: E or ν out of bounds, or ν below that of the energy itself.
     fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, Inadmissible> {
-        Normalised::new(self, young, poisson)
+        Normalised::with_young_poisson(self, young, poisson)
     }
 }
 

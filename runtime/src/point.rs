@@ -16,8 +16,9 @@
 #![expect(non_snake_case, reason = "F, P, U, V as in the literature")]
 
 use crate::lanes::{Mask, Real};
-use crate::material::{Blocks, Material, Status};
+use crate::material::{Blocks, Response};
 use crate::quotient::pole_floor;
+use crate::status::Status;
 
 pub mod gradient;
 pub(crate) mod invariants;
@@ -68,9 +69,7 @@ pub struct Point<R: Real> {
     pub stress: Matrix3<R>,
     /// dP/dF, filtered as asked, Pa.
     pub tangent: Tangent<R>,
-    /// Whether the filter met a negative eigenvalue.
-    pub filtered: R::Mask,
-    /// Whether the numbers mean anything.
+    /// Whether the results mean something, and whether the filter changed the tangent.
     pub status: Status<R::Mask>,
 }
 
@@ -86,23 +85,29 @@ impl<R: Real> Point<R> {
 /// The energy density ψ(F), Pa, and its status. Computes no derivative.
 #[inline(always)]
 #[must_use]
-pub fn evaluate_energy<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (R, Status<R::Mask>) {
+pub fn evaluate_energy<R: Real>(
+    material: &(impl Response<R> + ?Sized),
+    F: &Matrix3<R>,
+) -> (R, Status<R::Mask>) {
     let svd = decompose(material, F);
     let energy = material.energy(svd.stretches);
     let refused = !material.admits(svd.stretches);
     let nonfinite = !energy_is_finite(svd.stretches, energy);
-    (energy, Status { refused, bounded: R::Mask::splat(false), nonfinite })
+    (energy, Status { refused, nonfinite, ..Status::clean() })
 }
 
 /// The first Piola stress P(F), Pa, and its status. Computes no second derivative.
 #[inline(always)]
 #[must_use]
-pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
+pub fn evaluate_stress<R: Real>(
+    material: &(impl Response<R> + ?Sized),
+    F: &Matrix3<R>,
+) -> (Matrix3<R>, Status<R::Mask>) {
     let svd = decompose(material, F);
     let P = stress(&svd, material.gradient(svd.stretches));
     let refused = !material.admits(svd.stretches);
     let nonfinite = !stress_is_finite(svd.stretches, &P);
-    (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
+    (P, Status { refused, nonfinite, ..Status::clean() })
 }
 
 /// Stress and tangent at F, the tangent filtered.
@@ -112,47 +117,49 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
 /// ‖dF‖ ≤ 1.
 #[inline(always)]
 #[must_use]
-pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
+pub fn evaluate<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>, filter: Filter) -> Point<R> {
     let svd = decompose(material, F);
     let mut point = respond(&svd, &material.blocks(svd.stretches), material.has_pole(), filter);
     point.status.refused = !material.admits(svd.stretches);
     point
 }
 
-/// Stress and filtered tangent from what the energy says of the stretches; refused by nobody.
+/// Energy density, stress and filtered tangent at F: [`evaluate_energy`] and [`evaluate`] with one decomposition of F.
+///
+/// What the energy and its derivatives have in common is computed once.
+#[inline(always)]
+#[must_use]
+pub fn evaluate_with_energy<R: Real>(
+    material: &(impl Response<R> + ?Sized),
+    F: &Matrix3<R>,
+    filter: Filter,
+) -> (R, Point<R>) {
+    let svd = decompose(material, F);
+    let (energy, blocks) = material.energy_and_blocks(svd.stretches);
+    let mut point = respond(&svd, &blocks, material.has_pole(), filter);
+    point.status.refused = !material.admits(svd.stretches);
+    point.status.nonfinite = point.status.nonfinite | !energy_is_finite(svd.stretches, energy);
+    (energy, point)
+}
+
+/// Stress and filtered tangent from the derivatives of the energy in the stretches; the status leaves `refused` unset.
 #[inline(always)]
 fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool, filter: Filter) -> Point<R> {
     let P = stress(svd, blocks.gradient);
     let is_finite = stress_is_finite(svd.stretches, &P);
-    let judged = judge(svd.stretches, blocks, has_pole, filter);
-    Point {
-        stretches: svd.stretches,
-        stress: P,
-        tangent: Tangent { U: svd.U, V: svd.V, blocks: judged.blocks },
-        filtered: judged.filtered,
-        status: Status {
-            refused: R::Mask::splat(false),
-            bounded: judged.bounded,
-            nonfinite: !is_finite | judged.nonfinite,
-        },
-    }
+    let (blocks, mut status) = judge(svd.stretches, blocks, has_pole, filter);
+    status.nonfinite = status.nonfinite | !is_finite;
+    Point { stretches: svd.stretches, stress: P, tangent: Tangent { U: svd.U, V: svd.V, blocks }, status }
 }
 
-/// Filtered blocks, and what there is to say of them.
-pub(crate) struct Judged<R: Real> {
-    pub(crate) blocks: Blocks<R>,
-    pub(crate) filtered: R::Mask,
-    pub(crate) bounded: R::Mask,
-    pub(crate) nonfinite: R::Mask,
-}
-
+/// Filtered blocks and their status, which leaves `refused` unset.
 #[inline(always)]
 pub(crate) fn judge<R: Real>(
     stretches: [R; 3],
     blocks: &Blocks<R>,
     has_pole: bool,
     filter: Filter,
-) -> Judged<R> {
+) -> (Blocks<R>, Status<R::Mask>) {
     let nonfinite = !tangent_stays_finite(blocks);
     let bounded = if has_pole {
         (stretches[1] + stretches[2]).less(pole_floor(stretches))
@@ -160,7 +167,7 @@ pub(crate) fn judge<R: Real>(
         R::Mask::splat(false)
     };
     let (blocks, filtered) = project(blocks, filter);
-    Judged { blocks, filtered, bounded, nonfinite }
+    (blocks, Status { bounded, nonfinite, filtered, ..Status::clean() })
 }
 
 /// Whether stretches and energy mean something.
@@ -183,7 +190,7 @@ pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R:
 
 /// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
 #[inline(always)]
-pub(crate) fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
+pub(crate) fn decompose<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>) -> Svd<R> {
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 

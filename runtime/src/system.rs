@@ -5,7 +5,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::mesh::tet::lumped_masses;
 use crate::mesh::{MeshError, TetMesh};
@@ -24,7 +24,7 @@ pub(crate) mod stiffnesses;
 pub(crate) mod testing;
 
 pub use block_matrix::BlockMatrix;
-pub use element::{Element, Survey};
+pub use element::Element;
 pub use operator::StiffnessOperator;
 pub use pins::{PinError, Pins};
 
@@ -33,7 +33,7 @@ pub struct Part {
     /// Name of the group of tetrahedra; `None` for those that no other part names.
     pub group: Option<String>,
     /// Anything that implements [`Material`](crate::Material).
-    pub material: Box<dyn Energy<f64>>,
+    pub material: Box<dyn TileMaterial<f64>>,
     /// Mass density at rest, kg/m³.
     pub density: f64,
 }
@@ -49,7 +49,7 @@ pub struct Body {
 
 /// Contiguous elements of one material.
 struct Run {
-    material: Box<dyn Energy<f64>>,
+    material: Box<dyn TileMaterial<f64>>,
     end: usize,
 }
 
@@ -67,7 +67,7 @@ impl Body {
     /// Where the mesh is not a body or the density is not positive.
     pub fn new(
         mesh: &TetMesh,
-        material: impl Energy<f64> + 'static,
+        material: impl TileMaterial<f64> + 'static,
         density: f64,
     ) -> Result<Self, BodyError> {
         Self::from_parts(mesh, vec![Part { group: None, material: Box::new(material), density }])
@@ -89,7 +89,7 @@ impl Body {
             if !(density > 0.0 && density.is_finite()) {
                 return Err(BodyError::Density { density });
             }
-            if material.points().is_some() {
+            if material.properties().points.is_some() {
                 return Err(BodyError::MaterialsForPoints);
             }
             for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
@@ -121,18 +121,18 @@ impl Body {
     }
 
     /// The material of an element.
-    fn material(&self, element: usize) -> &dyn Energy<f64> {
+    fn material(&self, element: usize) -> &dyn TileMaterial<f64> {
         self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
     }
 
     /// The materials, each with the range of its elements.
-    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
+    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
         self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
     }
 
     /// The elements in groups of one material that fill a tile, but for the last of a material.
-    fn groups(&self) -> impl Iterator<Item = (&dyn Energy<f64>, Range<usize>)> {
+    fn groups(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         self.materials().flat_map(|(material, run)| {
             run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
         })

@@ -1,12 +1,12 @@
 //! From a [`Model`] to Rust: the type, its constructor, its documentation and its implementations.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
-use syn::Expr;
+use quote::{ToTokens, format_ident, quote};
+use syn::{Expr, Ident};
 
 use crate::model::Model;
 use crate::printer::formula::formula;
-use crate::read::parse::{Declaration, documentation};
+use crate::read::parse::{Declaration, Kind, documentation};
 use constructor::constructor;
 use declared::declared;
 use fittable::fittable;
@@ -30,9 +30,18 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let structure = structure(declaration, &documentation);
     let constructor = constructor(declaration, &model);
     let material = material(declaration, &mut model);
-    let declared = declared(declaration, &mut model, &texts);
+    let declared = declared(declaration, &texts);
     let fittable = fittable(declaration, &mut model);
-    quote!(#structure #constructor #material #declared #fittable)
+    quote! {
+        #structure
+        #constructor
+        const _: () = {
+            use ::piola::__private as __piola;
+            #material
+            #declared
+            #fittable
+        };
+    }
 }
 
 /// What documentation and description say.
@@ -85,6 +94,13 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
+/// The type parameter of a material for how its parameters are kept.
+fn value_parameter(declaration: &Declaration) -> Ident {
+    let is_free = |name: &Ident| !declaration.generics.contains(name) && declaration.name != *name;
+    let names = ["P", "V", "Value"].map(|name| format_ident!("{name}"));
+    names.into_iter().find(is_free).unwrap_or_else(|| format_ident!("ParameterValue"))
+}
+
 /// What allows names as papers have them, such as `K`, to the compiler's lint on their case.
 fn naming(declaration: &Declaration) -> Option<TokenStream> {
     let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
@@ -97,9 +113,22 @@ fn naming(declaration: &Declaration) -> Option<TokenStream> {
 fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
     let (documentation, naming) = (doc(documentation), naming(declaration));
-    let (bounds, _) = generics(declaration);
+    let lengths = &declaration.generics;
+    let value = value_parameter(declaration);
+    let (kept_as, value) = if declaration.has_functions() {
+        (quote!(f64), None)
+    } else {
+        (quote!(#value), Some(quote!(#value = f64)))
+    };
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
-    let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
+    let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
+        Kind::Number => kept_as.clone(),
+        Kind::List(length) => {
+            let length = &declaration.lengths[*length];
+            quote!([#kept_as; #length])
+        }
+        Kind::Function(ty) => quote!(#ty),
+    });
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
     let copy = (!declaration.has_functions()).then(|| quote!(#[derive(Copy)]));
     quote! {
@@ -108,7 +137,7 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
         #[derive(Clone, Debug, PartialEq)]
         #copy
         #naming
-        #visibility struct #name #bounds {
+        #visibility struct #name<#(const #lengths: usize,)* #value> {
             #(#names: #types,)*
             #inversion
         }

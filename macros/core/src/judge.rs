@@ -458,7 +458,8 @@ pub fn stiffness(
     if vanishes && !written.declaration.has_functions() {
         diagnostics.error(
             written.culprit(|_| false),
-            "the shear modulus of this energy is zero at rest: add a term that resists shear, such as `mu / 2.0 * (I1b - 3.0)`",
+            "the shear modulus of this energy is zero at rest: add a term that resists shear, such as `mu / 2.0 * (I1b - 3.0)`, or \
+             say `part` in the attribute if it is a part of a sum",
         );
     }
 }

@@ -7,21 +7,15 @@ use crate::lanes::{Element, Lanes, Mask, Real};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
-
-/// What there is to say of tangents beside their numbers.
-#[derive(Clone, Copy)]
-pub(super) struct Remarks<R: Real> {
-    pub(super) bounded: R::Mask,
-    pub(super) nonfinite: R::Mask,
-}
+use crate::status::Status;
 
 /// N numbers from a point's judged tangent and REST numbers of its rest shape.
 pub(super) trait Form<const REST: usize, const N: usize> {
     /// Changes blocks where the form asks for more than the filter does.
     #[inline(always)]
-    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Remarks<R> {
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Status<R::Mask> {
         let _ = (blocks, rest, has_pole);
-        Remarks { bounded: R::Mask::splat(false), nonfinite: R::Mask::splat(false) }
+        Status::clean()
     }
 
     /// Puts number k at k LINE.
@@ -186,20 +180,20 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
 
 /// The largest twist in an element's stiffness, relative to the rest of its tangent: far above what is ordinary, far below
 /// 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
-pub(crate) const STIFFEST: f64 = 1e6;
+pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Cuts off what a factorisation cannot resolve, and says so.
 ///
 /// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) > 2μ, the energy
 /// has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the factors of a matrix that
-/// holds it beside ordinary entries lose all digits of those. A stiffness [`STIFFEST`] times the others is rigid enough.
+/// holds it beside ordinary entries lose all digits of those. A stiffness [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.
 #[inline(always)]
-fn blunt<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
-    let limit = R::splat(STIFFEST) * largest([largest(blocks.hessian), largest(blocks.flip)]);
+fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
+    let limit = R::splat(MAX_STIFFNESS_RATIO) * largest([largest(blocks.hessian), largest(blocks.flip)]);
     // Not `min`, which would turn NaN into a plausible number.
-    let is_blunt = three!(pair => limit.less(blocks.twist[pair]));
-    blocks.twist = three!(pair => R::select(is_blunt[pair], limit, blocks.twist[pair]));
-    is_blunt[0] | is_blunt[1] | is_blunt[2]
+    let is_capped = three!(pair => limit.less(blocks.twist[pair]));
+    blocks.twist = three!(pair => R::select(is_capped[pair], limit, blocks.twist[pair]));
+    is_capped[0] | is_capped[1] | is_capped[2]
 }
 
 /// Whether no number can overflow on the way from the tangent to the stiffness: its entries are sums of at most 27 products
@@ -221,9 +215,9 @@ pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -
 
 /// What every form of a stiffness asks of the blocks.
 #[inline(always)]
-fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
-    let bounded = if has_pole { blunt(blocks) } else { R::Mask::splat(false) };
-    Remarks { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)) }
+fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
+    let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };
+    Status { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)), ..Status::clean() }
 }
 
 /// The gradient of an element's energy in its nodal positions: entry a of node n at 3n+a.
@@ -304,7 +298,7 @@ macro_rules! stiffness_form {
 
         impl Form<10, $numbers> for $Form {
             #[inline(always)]
-            fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
+            fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
                 prepare_stiffness(blocks, rest, has_pole)
             }
 
@@ -347,7 +341,7 @@ pub(super) struct FactoredStiffness;
 
 impl Form<10, 30> for FactoredStiffness {
     #[inline(always)]
-    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Remarks<R> {
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
         prepare_stiffness(blocks, rest, has_pole)
     }
 

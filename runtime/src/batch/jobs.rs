@@ -1,10 +1,10 @@
 //! The tiles of a call, one after the other or shared among threads.
 
-use super::Survey;
-use super::stage::{Marks, Stages};
+use super::stage::Stages;
 use super::tile::TILE;
 use super::workspace::Workspace;
 use crate::lanes::Element;
+use crate::status::{Status, Survey};
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 const GRAIN: usize = 8;
@@ -13,6 +13,8 @@ const GRAIN: usize = 8;
 pub(super) struct Work<'a, E, const I: usize, const O: usize> {
     pub(super) inputs: [(&'a [E], usize); I],
     pub(super) outputs: [(&'a mut [E], usize); O],
+    /// One for each point, or none at all.
+    pub(super) statuses: &'a mut [Status],
 }
 
 impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
@@ -35,7 +37,12 @@ impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
             }
             (first, numbers)
         });
-        (Self { inputs, outputs }, Self { inputs: later_inputs, outputs: later_outputs })
+        let length = self.statuses.len().min(tiles * TILE);
+        let (statuses, later_statuses) = self.statuses.split_at_mut(length);
+        (
+            Self { inputs, outputs, statuses },
+            Self { inputs: later_inputs, outputs: later_outputs, statuses: later_statuses },
+        )
     }
 }
 
@@ -55,7 +62,7 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     threads: bool,
-    body: &(impl Fn(Tile<'_, E, I, O>) -> Marks + Sync),
+    body: &(impl Fn(Tile<'_, E, I, O>) -> Status<u64> + Sync),
 ) -> Survey {
     let tiles = points.len().div_ceil(TILE);
     if threads && tiles > GRAIN {
@@ -66,7 +73,7 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
             || for_each_tile(first, points.start..middle, threads, body),
             || for_each_tile(later, middle..points.end, threads, body),
         );
-        return first.and(later);
+        return first + later;
     }
     E::with_workspace(|workspace| one_after_the_other(work, points, workspace, body))
 }
@@ -75,21 +82,24 @@ fn one_after_the_other<E: Element, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     workspace: &mut Workspace<E>,
-    body: &impl Fn(Tile<'_, E, I, O>) -> Marks,
+    body: &impl Fn(Tile<'_, E, I, O>) -> Status<u64>,
 ) -> Survey {
-    let mut survey = Survey::NONE;
+    let mut survey = Survey::default();
     let mut rest = work;
     for start in points.clone().step_by(TILE) {
         let (tile, later) = rest.split(1);
         rest = later;
-        let marks = body(Tile {
+        let status = body(Tile {
             workspace,
             start,
             count: TILE.min(points.end - start),
             inputs: tile.inputs.map(|(slice, _)| slice),
             outputs: tile.outputs.map(|(slice, _)| slice),
         });
-        survey = survey.and(Survey::of(&marks, start));
+        for (point, to) in tile.statuses.iter_mut().enumerate() {
+            *to = status.of_point(point);
+        }
+        survey = survey + Survey::of(status, start);
     }
     survey
 }

@@ -12,17 +12,18 @@
 
 #![expect(non_snake_case, reason = "F, U, V, W, D as in the literature")]
 
-use super::element::{RestShapes, by_elements, set_edges};
-use super::energy::{Energy, TileOf};
 use super::form::{Factored, put, put_at_nodes};
+use super::material::{Arguments, TileMaterial};
+use super::rest::{RestShapes, by_elements, set_edges};
 use super::sink::{Lines, Sink, Source};
-use super::stage::{Decompose, Deform, Judge, Marks, Respond, Stages, StiffnessForm, to_matrix};
+use super::stage::{Decompose, Deform, Judge, Respond, Stages, StiffnessForm, to_matrix};
 use super::tile::for_each_group;
 use super::workspace::{Line, Workspace};
 use crate::lanes::{Backend, Element, Kernel, Lanes};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Filter, Matrix3, Tangent};
+use crate::status::Status;
 
 /// The stiffnesses of up to [`TILE`](super::tile::TILE) elements of one material where they were linearised last: zero before
 /// that.
@@ -48,15 +49,15 @@ impl StiffnessFactors {
     pub(crate) fn linearise(
         &mut self,
         rest: &RestShapes,
-        energy: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         filter: Filter,
         corners: impl Iterator<Item = [[f64; 3]; 4]>,
-    ) -> Marks {
+    ) -> Status<u64> {
         f64::with_workspace(|workspace| {
             for (lane, corners) in corners.enumerate() {
                 set_edges(&mut workspace.F, lane, corners);
             }
-            self.respond(rest, energy, filter, workspace)
+            self.respond(rest, material, filter, workspace)
         })
     }
 
@@ -64,21 +65,21 @@ impl StiffnessFactors {
     fn respond(
         &mut self,
         rest: &RestShapes,
-        energy: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         filter: Filter,
         workspace: &mut Workspace<f64>,
-    ) -> Marks {
+    ) -> Status<u64> {
         let Self { backend, count, ref mut factors } = *self;
         let Workspace { F: edges, points, blocks, line, .. } = workspace;
-        let (rest, is_signed, has_pole) = (rest.source(), energy.ends_at_zero_volume(), energy.has_pole());
+        let (rest, is_signed, has_pole) =
+            (rest.source(), material.properties().ends_at_zero_volume, material.properties().has_pole);
         f64::deform(backend, Deform { edges, rest, count });
         f64::decompose(backend, Decompose { F: edges.source(), count, is_signed, points });
-        let arguments = &points.stretches;
-        let refused = energy.blocks(TileOf { backend, start: 0, count, arguments }, blocks);
+        let arguments = Arguments { backend, start: 0, count, rows: &points.stretches };
+        let refused = material.tile_blocks(arguments, blocks);
         let judged = f64::judge(backend, Judge { points, blocks, count, filter, has_pole });
         let kernel = Respond { points, blocks, rest, count, has_pole, line, to: factors.sink() };
-        let marks = f64::stiffness(backend, StiffnessForm::Factored, kernel).or(judged);
-        Marks { refused, ..marks }
+        f64::stiffness(backend, StiffnessForm::Factored, kernel) | judged | refused
     }
 
     /// Stiffness times displacement, 12 numbers of each element; `corners` are the displacements of its nodes.

@@ -7,11 +7,11 @@
 
 use std::cell::Cell;
 
-use super::energy::{self, from_numbers};
 use super::form::{
     BlockStiffness, Factored, FactoredStiffness, Form, FullStiffness, FullTangent, PackedStiffness,
     PackedTangent, gradient_is_finite, put_all, put_gradient,
 };
+use super::material::{from_rows, to_rows};
 use super::sink::{Lines, Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::{Line, Workspace};
@@ -22,6 +22,7 @@ use crate::point::{
     Filter, Matrix3, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
     svd_signed_by_determinant,
 };
+use crate::status::Status;
 
 /// Frames and stretches of a tile's deformation gradients.
 #[derive(Clone, Copy, Debug)]
@@ -63,52 +64,12 @@ pub(super) fn to_numbers<R: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Matrix3<R>)
     [a, b, c, d, e, f, g, h, i]
 }
 
-/// What a stage says of the points of a tile, as bits.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Marks {
-    pub(crate) refused: u64,
-    pub(crate) bounded: u64,
-    pub(crate) nonfinite: u64,
-    pub(crate) filtered: u64,
-}
-
-impl Marks {
-    /// What one of two stages says.
-    pub(super) fn or(self, other: Self) -> Self {
-        Self {
-            refused: self.refused | other.refused,
-            bounded: self.bounded | other.bounded,
-            nonfinite: self.nonfinite | other.nonfinite,
-            filtered: self.filtered | other.filtered,
-        }
-    }
-
-    /// Without what is said of these points.
-    pub(super) fn without(self, points: u64) -> Self {
-        self.of(!points)
-    }
-
-    /// Without what the lanes beyond the last point say.
-    fn of_first(self, count: usize) -> Self {
-        self.of(first_bits(count))
-    }
-
-    fn of(self, points: u64) -> Self {
-        Self {
-            refused: self.refused & points,
-            bounded: self.bounded & points,
-            nonfinite: self.nonfinite & points,
-            filtered: self.filtered & points,
-        }
-    }
-}
-
-/// The points that are decomposed together. Each gets the same bits in any company.
+/// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
 #[cfg(not(unoptimised))]
-type Together<R> = <R as Lanes>::Interleaved;
+type InTurns<R> = <R as Lanes>::Interleaved;
 /// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved, where a thread has 2.
 #[cfg(unoptimised)]
-type Together<R> = R;
+type InTurns<R> = R;
 
 /// The deformation gradients of a tile into frames and stretches.
 pub(super) struct Decompose<'a, E> {
@@ -126,12 +87,12 @@ impl<E: Element> Kernel<E> for Decompose<'_, E> {
     fn run<R: Lanes<Element = E>>(self) {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
-            for_each_group!(Together<R>, count, |at| {
-                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<Together<R>>(at))));
+            for_each_group!(InTurns<R>, count, |at| {
+                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<InTurns<R>>(at))));
             });
         } else {
-            for_each_group!(Together<R>, count, |at| {
-                points.set(at, &svd(&to_matrix(F.get_all::<Together<R>>(at))));
+            for_each_group!(InTurns<R>, count, |at| {
+                points.set(at, &svd(&to_matrix(F.get_all::<InTurns<R>>(at))));
             });
         }
     }
@@ -224,22 +185,22 @@ pub(super) struct Forces<'a, E> {
 }
 
 impl<E: Element> Kernel<E> for Forces<'_, E> {
-    type Output = Marks;
+    type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Marks {
+    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
         let Self { points, gradients, rest, count, line, mut to } = self;
-        let mut marks = Marks::default();
+        let mut status = Status::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             let rest = rest.get_all(at);
             let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, &rest);
-            marks.nonfinite |= R::bits(!is_finite) << at;
+            status.nonfinite |= R::bits(!is_finite) << at;
             put_gradient(&stress, &rest, to.place::<R, 12>(line, at));
             to.finish::<R, 12>(line, at, count);
         });
-        marks.of_first(count)
+        status & first_bits(count)
     }
 }
 
@@ -254,20 +215,20 @@ pub(super) struct Stress<'a, E> {
 }
 
 impl<E: Element> Kernel<E> for Stress<'_, E> {
-    type Output = Marks;
+    type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Marks {
+    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
         let Self { points, gradients, count, line, mut P } = self;
-        let mut marks = Marks::default();
+        let mut status = Status::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
-            marks.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
+            status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
             put_all(to_numbers(stress), P.place::<R, 9>(line, at));
             P.finish::<R, 9>(line, at, count);
         });
-        marks.of_first(count)
+        status & first_bits(count)
     }
 }
 
@@ -281,23 +242,23 @@ pub(super) struct Judge<'a, E> {
 }
 
 impl<E: Element> Kernel<E> for Judge<'_, E> {
-    type Output = Marks;
+    type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Marks {
+    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
         let Self { points, blocks, count, filter, has_pole } = self;
-        let mut marks = Marks::default();
+        let mut status = Status::default();
         for_each_group!(R, count, |at| {
             let stretches = points.stretches.get_all::<R>(at);
-            let judged = judge(stretches, &from_numbers(blocks.get_all(at)), has_pole, filter);
+            let (filtered, judged) = judge(stretches, &from_rows(blocks.get_all(at)), has_pole, filter);
             if filter != Filter::None {
-                blocks.set_all(at, energy::to_numbers(&judged.blocks));
+                blocks.set_all(at, to_rows(&filtered));
             }
-            marks.bounded |= R::bits(judged.bounded) << at;
-            marks.nonfinite |= R::bits(judged.nonfinite) << at;
-            marks.filtered |= R::bits(judged.filtered) << at;
+            status.bounded |= R::bits(judged.bounded) << at;
+            status.nonfinite |= R::bits(judged.nonfinite) << at;
+            status.filtered |= R::bits(judged.filtered) << at;
         });
-        marks.of_first(count)
+        status & first_bits(count)
     }
 }
 
@@ -320,23 +281,23 @@ where
     E: Element,
     F: Form<REST, N>,
 {
-    type Output = Marks;
+    type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Marks {
+    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
         let Respond { points, blocks, rest, count, has_pole, line, mut to } = self.0;
-        let mut marks = Marks::default();
+        let mut status = Status::default();
         for_each_group!(R, count, |at| {
             let Svd { U, V, .. } = points.get::<R>(at);
-            let mut blocks = from_numbers(blocks.get_all(at));
+            let mut blocks = from_rows(blocks.get_all(at));
             let rest = rest.get_all(at);
-            let remarks = F::prepare(&mut blocks, &rest, has_pole);
-            marks.bounded |= R::bits(remarks.bounded) << at;
-            marks.nonfinite |= R::bits(remarks.nonfinite) << at;
+            let prepared = F::prepare(&mut blocks, &rest, has_pole);
+            status.bounded |= R::bits(prepared.bounded) << at;
+            status.nonfinite |= R::bits(prepared.nonfinite) << at;
             F::put_all(&Tangent { U, V, blocks }, &rest, to.place::<R, N>(line, at));
             to.finish::<R, N>(line, at, count);
         });
-        marks.of_first(count)
+        status & first_bits(count)
     }
 }
 
@@ -393,15 +354,15 @@ pub trait Stages: Element {
     #[doc(hidden)]
     fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64;
     #[doc(hidden)]
-    fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks;
+    fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
-    fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Marks;
+    fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
-    fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Marks;
+    fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
-    fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Marks;
+    fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
     #[doc(hidden)]
-    fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Marks;
+    fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
     #[doc(hidden)]
     fn product(backend: Backend, kernel: Product<'_, Self>);
     /// Lends this thread's workspace; allocates one where it is lent already, or none was before.
@@ -429,19 +390,19 @@ macro_rules! stages {
                 backend.run(kernel)
             }
 
-            fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Marks {
+            fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64> {
                 backend.run(kernel)
             }
 
-            fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Marks {
+            fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Status<u64> {
                 backend.run(kernel)
             }
 
-            fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Marks {
+            fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Status<u64> {
                 backend.run(kernel)
             }
 
-            fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Marks {
+            fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64> {
                 match form {
                     TangentForm::Full => backend.run(Shaped(kernel, FullTangent)),
                     TangentForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
@@ -449,7 +410,7 @@ macro_rules! stages {
                 }
             }
 
-            fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Marks {
+            fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64> {
                 match form {
                     StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),

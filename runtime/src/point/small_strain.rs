@@ -47,7 +47,8 @@ use super::matrix::{column, dot, multiply_transposed};
 use super::svd::sweeps;
 use super::{Filter, Matrix3, Point, evaluate, evaluate_stress, stress_is_finite};
 use crate::lanes::{Mask, Real};
-use crate::material::{Material, PAIRS, Status};
+use crate::material::{PAIRS, Response};
+use crate::status::Status;
 
 /// The first Piola stress P, Pa, at F = I + H, and its status; H is the displacement gradient, dimensionless.
 ///
@@ -82,7 +83,7 @@ use crate::material::{Material, PAIRS, Status};
 #[inline(always)]
 #[must_use]
 pub fn evaluate_stress_from_displacement<R: Real>(
-    material: &impl Material,
+    material: &(impl Response<R> + ?Sized),
     H: &Matrix3<R>,
 ) -> (Matrix3<R>, Status<R::Mask>) {
     let squared = H.iter().flatten().fold(R::splat(0.0), |sum, x| x.mul_add(*x, sum));
@@ -97,14 +98,8 @@ pub fn evaluate_stress_from_displacement<R: Real>(
         return near;
     }
     let far = evaluate_stress(material, &plus_identity(H));
-    let either = |near: R::Mask, far: R::Mask| (is_small & near) | (!is_small & far);
     let P = std::array::from_fn(|i| std::array::from_fn(|j| R::select(is_small, near.0[i][j], far.0[i][j])));
-    let status = Status {
-        refused: either(near.1.refused, far.1.refused),
-        bounded: either(near.1.bounded, far.1.bounded),
-        nonfinite: either(near.1.nonfinite, far.1.nonfinite),
-    };
-    (P, status)
+    (P, (near.1 & is_small) | (far.1 & !is_small))
 }
 
 /// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent filtered.
@@ -113,18 +108,13 @@ pub fn evaluate_stress_from_displacement<R: Real>(
 #[inline(always)]
 #[must_use]
 pub fn evaluate_from_displacement<R: Real>(
-    material: &impl Material,
+    material: &(impl Response<R> + ?Sized),
     H: &Matrix3<R>,
     filter: Filter,
 ) -> Point<R> {
     let point = evaluate(material, &plus_identity(H), filter);
     let (stress, status) = evaluate_stress_from_displacement(material, H);
-    let status = Status {
-        refused: point.status.refused | status.refused,
-        bounded: point.status.bounded,
-        nonfinite: point.status.nonfinite | status.nonfinite,
-    };
-    Point { stress, status, ..point }
+    Point { stress, status: point.status | status, ..point }
 }
 
 /// F = I + H.
@@ -135,7 +125,10 @@ fn plus_identity<R: Real>(H: &Matrix3<R>) -> Matrix3<R> {
 
 /// P = S + H S for ‖H‖ < ½; anything where H is larger.
 #[inline(always)]
-fn stress_near_rest<R: Real>(material: &impl Material, H: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
+fn stress_near_rest<R: Real>(
+    material: &(impl Response<R> + ?Sized),
+    H: &Matrix3<R>,
+) -> (Matrix3<R>, Status<R::Mask>) {
     let one = R::splat(1.0);
     let (strains, V) = principal_strains(H);
     let stretches = strains.map(|s| one + s);
@@ -148,7 +141,7 @@ fn stress_near_rest<R: Real>(material: &impl Material, H: &Matrix3<R>) -> (Matri
 
     let refused = !material.admits(stretches);
     let nonfinite = !stress_is_finite(strains, &P);
-    (P, Status { refused, bounded: R::Mask::splat(false), nonfinite })
+    (P, Status { refused, nonfinite, ..Status::clean() })
 }
 
 /// s1 ≥ s2 ≥ s3, exactly in floating point, and the directions V at rest as columns, for ‖H‖ < ½.

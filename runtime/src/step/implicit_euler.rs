@@ -3,9 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::system::assemble::Elastic;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
 
@@ -53,7 +53,7 @@ pub struct Simulation {
     next: Vec<[f64; 3]>,
     pins_move: Vec<[f64; 3]>,
     /// What the elastic energies at `positions` say, if they are what was evaluated last.
-    evaluated: Option<Survey>,
+    evaluated: Option<Evaluated>,
 }
 
 impl fmt::Debug for Simulation {
@@ -287,7 +287,7 @@ impl Simulation {
     pub fn energies(&mut self) -> Energies {
         let survey =
             *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.positions));
-        self.energies_of(if survey.is_admissible() { self.elastic.energy() } else { f64::NAN })
+        self.energies_of(if survey.survey.is_clean() { self.elastic.energy() } else { f64::NAN })
     }
 
     fn energies_of(&self, elastic: f64) -> Energies {
@@ -339,9 +339,9 @@ const DRIFT: f64 = 1e-4;
 /// What to add for each unit of mass, 1/s², so that it is small beside the stiffness of elements: a ten-thousandth of their
 /// stiffness over the mass of the body.
 fn static_regularisation(body: &Body) -> f64 {
-    let stiffness = |(material, elements): (&dyn Energy<f64>, Range<usize>)| -> f64 {
+    let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());
-        material.rest_stiffness().abs() * lengths.sum::<f64>()
+        material.properties().rest_stiffness.abs() * lengths.sum::<f64>()
     };
     1e-4 * body.materials().map(stiffness).sum::<f64>() / body.masses().iter().sum::<f64>()
 }

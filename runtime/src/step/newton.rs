@@ -6,7 +6,7 @@ use std::fmt;
 
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
 
@@ -142,10 +142,10 @@ pub(crate) fn minimize(
     workspace: &mut Workspace,
     x: &mut [[f64; 3]],
     pins_move: Option<&[[f64; 3]]>,
-    survey: Survey,
+    survey: Evaluated,
     settings: &NewtonSettings,
     line_search: &LineSearchSettings,
-) -> Result<(NewtonReport, Survey), NewtonError> {
+) -> Result<(NewtonReport, Evaluated), NewtonError> {
     demand_admissible(&survey, objective.body, objective.elastic)?;
     let report = NewtonReport::before(settings);
     Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
@@ -158,7 +158,7 @@ struct Iteration<'a, 'b> {
     settings: &'a NewtonSettings,
     line_search: &'a LineSearchSettings,
     /// Of the energies evaluated last.
-    survey: Survey,
+    survey: Evaluated,
     report: NewtonReport,
     /// Of actual to predicted decrease in the step before, where a prediction was made.
     ratio: Option<f64>,
@@ -179,7 +179,7 @@ impl Iteration<'_, '_> {
         mut self,
         x: &mut [[f64; 3]],
         mut pins_move: Option<&[[f64; 3]]>,
-    ) -> Result<(NewtonReport, Survey), NewtonError> {
+    ) -> Result<(NewtonReport, Evaluated), NewtonError> {
         if pins_move.is_none() && self.settings.start == Guess::Velocity {
             self.follow_velocities(x);
         }
@@ -291,8 +291,8 @@ impl Iteration<'_, '_> {
     ) -> Result<(), NewtonError> {
         let tangents = self.workspace.solver.linearise(self.objective, filter);
         demand_admissible(&tangents, self.objective.body, self.objective.elastic)?;
-        self.report.filtered = self.report.filtered.max(tangents.filtered);
-        self.report.bounded = self.report.bounded.max(tangents.bounded);
+        self.report.filtered = self.report.filtered.max(tangents.survey.filtered);
+        self.report.bounded = self.report.bounded.max(tangents.survey.bounded);
         let Workspace { solver, gradient, .. } = &mut *self.workspace;
         self.objective.gradient(x, gradient);
         if let Some(d) = pins_move {
@@ -321,7 +321,8 @@ impl Iteration<'_, '_> {
             }
         }
         self.survey = self.objective.evaluate(x);
-        inadmissible(&self.survey).map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
+        inadmissible(&self.survey, self.objective.body)
+            .map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
         self.note_gradient(x)?;
         Ok(product(&self.workspace.gradient, &self.workspace.direction) < 0.0)
     }
@@ -398,8 +399,12 @@ impl NewtonReport {
 }
 
 /// That all elements are admissible where the energies were evaluated last.
-pub(super) fn demand_admissible(survey: &Survey, body: &Body, elastic: &Elastic) -> Result<(), NewtonError> {
-    let Some(element) = inadmissible(survey) else { return Ok(()) };
+pub(super) fn demand_admissible(
+    survey: &Evaluated,
+    body: &Body,
+    elastic: &Elastic,
+) -> Result<(), NewtonError> {
+    let Some(element) = inadmissible(survey, body) else { return Ok(()) };
     let mut all = body.elements().iter().zip(elastic.stretches());
     let stretches =
         all.find(|(other, _)| other.tag == element).map_or([f64::NAN; 3], |(_, stretches)| stretches);
@@ -407,8 +412,8 @@ pub(super) fn demand_admissible(survey: &Survey, body: &Body, elastic: &Elastic)
 }
 
 /// The element that has no meaningful energy, if there is one.
-fn inadmissible(survey: &Survey) -> Option<usize> {
-    (!survey.is_admissible()).then_some(survey.first_offender.unwrap_or_default())
+fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
+    evaluated.survey.first.map(|element| body.elements()[element].tag)
 }
 
 /// Why there is no better state.

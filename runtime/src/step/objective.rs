@@ -17,7 +17,7 @@ use crate::lanes::Real;
 use crate::mesh::embed::Anchor;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::pattern::Pattern;
 
 use super::damping::Viscosity;
@@ -191,7 +191,7 @@ pub(crate) struct Objective<'a> {
 
 impl Objective<'_> {
     /// Evaluates the energies at `x`; what else is asked of the objective is then meant there.
-    pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Survey {
+    pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
         self.elastic.evaluate(self.body, x)
     }
 
@@ -257,7 +257,7 @@ impl Line for Along<'_, '_> {
                 self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
             }
         }
-        if !self.objective.evaluate(self.trial).is_admissible() {
+        if !self.objective.evaluate(self.trial).survey.is_clean() {
             return None;
         }
         let (linear, quadratic) = (step * self.slope, 0.5 * step * step * self.curvature);

@@ -9,7 +9,7 @@ mod matrix_free;
 mod refined;
 
 use crate::point::Filter;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
 use crate::system::linear::refined::RefinedCholesky;
@@ -124,7 +124,7 @@ pub(crate) trait Solver: Send + Sync {
     fn joins(&self, a: usize, b: usize) -> bool;
 
     /// Evaluates gradients and filtered second derivatives where the energies were evaluated last.
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey;
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated;
 
     /// Adds the product of the second derivatives with a displacement of few nodes.
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]);

@@ -26,10 +26,11 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::Body;
-use super::element::{Element, Group, Survey};
-use crate::batch::Energy;
+use super::element::{Element, Evaluated, Group};
+use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::Filter;
+use crate::status::{Status, Survey};
 
 /// Energies and gradients of all elements at the positions evaluated last.
 pub(crate) struct Elastic {
@@ -38,11 +39,11 @@ pub(crate) struct Elastic {
     base: Vec<[f64; TILE]>,
 }
 
-/// A group of elements, and what the evaluation before says of it.
+/// A group of elements, and the survey of its last evaluation.
 struct State {
     group: Group,
     elements: Range<usize>,
-    survey: Survey,
+    evaluated: Evaluated,
 }
 
 /// A form in which the tangents of a body are kept.
@@ -57,10 +58,10 @@ pub(crate) trait Tangents {
     fn evaluate(
         tile: &mut Self::Tile,
         group: &mut Group,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         filter: Filter,
-    ) -> Survey;
+    ) -> Status<u64>;
 }
 
 impl Elastic {
@@ -68,7 +69,7 @@ impl Elastic {
         let state = |elements: Range<usize>| State {
             group: Group::new(&body.elements[elements.clone()]),
             elements,
-            survey: Survey::NONE,
+            evaluated: Evaluated::NONE,
         };
         let groups: Vec<State> = body.groups().map(|(_, elements)| state(elements)).collect();
         let base = vec![[0.0; TILE]; groups.len()];
@@ -76,10 +77,15 @@ impl Elastic {
     }
 
     /// Evaluates the energies at these positions.
-    pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Survey {
+    pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Evaluated {
         self.groups.par_iter_mut().for_each(|state| {
-            state.survey = Survey::NONE;
-            state.evaluate(body, |group, material, elements| group.evaluate(material, elements, positions));
+            let mut min_det = f64::INFINITY;
+            state.evaluate(body, |group, material, elements| {
+                let (status, det) = group.evaluate(material, elements, positions);
+                min_det = det;
+                status
+            });
+            state.evaluated.min_det = min_det;
         });
         self.survey()
     }
@@ -90,7 +96,12 @@ impl Elastic {
     }
 
     /// Evaluates gradients and filtered tangents where the energies were evaluated last.
-    pub(crate) fn linearise<T: Tangents>(&mut self, body: &Body, filter: Filter, tangents: &mut T) -> Survey {
+    pub(crate) fn linearise<T: Tangents>(
+        &mut self,
+        body: &Body,
+        filter: Filter,
+        tangents: &mut T,
+    ) -> Evaluated {
         self.groups.par_iter_mut().zip(tangents.tiles()).for_each(|(state, tile)| {
             state.evaluate(body, |group, material, elements| {
                 T::evaluate(tile, group, material, elements, filter)
@@ -99,9 +110,9 @@ impl Elastic {
         self.survey()
     }
 
-    /// What the evaluation before says.
-    pub(crate) fn survey(&self) -> Survey {
-        self.groups.iter().fold(Survey::NONE, |sum, state| sum.and(state.survey))
+    /// Survey of the last evaluation.
+    pub(crate) fn survey(&self) -> Evaluated {
+        self.groups.iter().fold(Evaluated::NONE, |sum, state| sum + state.evaluated)
     }
 
     /// The energies of a group's elements, and those of the base.
@@ -136,7 +147,7 @@ impl Elastic {
     pub(crate) fn difference_noise(&self, body: &Body) -> f64 {
         let mut noise = 0.0;
         for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {
-            let stiffness = material.rest_stiffness().abs();
+            let stiffness = material.properties().rest_stiffness.abs();
             for (lane, element) in body.elements[elements].iter().enumerate() {
                 let square: f64 = state.group.stretches(lane).iter().map(|stretch| stretch * stretch).sum();
                 let scale = element.shape.volume * stiffness * square.max(1.0);
@@ -171,15 +182,15 @@ impl Elastic {
 }
 
 impl State {
-    /// Keeps what an evaluation says, and the det F of the one before: derivatives do not say it again.
+    /// Evaluates the group and keeps its survey; the smallest det F stays that of the last energies.
     fn evaluate(
         &mut self,
         body: &Body,
-        evaluate: impl FnOnce(&mut Group, &dyn Energy<f64>, &[Element]) -> Survey,
+        evaluate: impl FnOnce(&mut Group, &dyn TileMaterial<f64>, &[Element]) -> Status<u64>,
     ) {
         let elements = &body.elements[self.elements.clone()];
-        let survey = evaluate(&mut self.group, body.material(self.elements.start), elements);
-        self.survey = Survey { min_det: self.survey.min_det.min(survey.min_det), ..survey };
+        let status = evaluate(&mut self.group, body.material(self.elements.start), elements);
+        self.evaluated.survey = Survey::of(status, self.elements.start);
     }
 }
 

@@ -115,7 +115,7 @@ impl BlockMatrix {
         let points = self.pattern.elements().next_multiple_of(group);
         if numbers.len() != N * points {
             let found = numbers.len();
-            return Err(LengthError { slice: "stiffnesses", found, numbers: N, points, group });
+            return Err(LengthError { slice: "stiffnesses", found, components: N, points, group });
         }
         fill(&self.pattern, &Slice::<_, N> { numbers, layout, place }, diagonal, &mut self.values);
         Ok(())

@@ -18,12 +18,15 @@
 
 #![expect(non_snake_case, reason = "the letters of the paper: Ds, B")]
 
-use crate::batch::Energy;
-use crate::batch::element::{ElementTile, Marks, TILE};
+use std::ops::Add;
+
+use crate::batch::TileMaterial;
+use crate::batch::element::{ElementTile, TILE};
 use crate::batch::operator::StiffnessFactors;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::{Filter, stretches_in_range};
+use crate::status::{Status, Survey};
 
 /// A tetrahedron of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,64 +63,28 @@ pub(crate) const fn pair(i: usize, j: usize) -> usize {
     i * (i + 1) / 2 + j
 }
 
-/// What an evaluation says of many elements beside its numbers.
+/// Statuses of evaluated elements, and how far they are compressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Survey {
-    /// How many lie outside the domain of their energy.
-    pub refused: usize,
-    /// How many are at a pole of their tangent, which got a bounded value.
-    pub bounded: usize,
-    /// How many have an infinite or NaN deformation, energy, gradient or stiffness, whichever of these was evaluated.
-    pub nonfinite: usize,
-    /// How many tangents the filter changed.
-    pub filtered: usize,
-    /// Tag of the first refused or nonfinite one.
-    pub first_offender: Option<usize>,
-    /// Smallest det F; +∞ of none.
-    pub min_det: f64,
+pub(crate) struct Evaluated {
+    /// Counts over elements in the order of [`Body::elements`](super::Body::elements).
+    pub(crate) survey: Survey,
+    /// Smallest det F; +∞ without elements.
+    pub(crate) min_det: f64,
 }
 
-impl Survey {
-    /// Of no elements.
-    pub const NONE: Self = Self {
-        refused: 0,
-        bounded: 0,
-        nonfinite: 0,
-        filtered: 0,
-        first_offender: None,
+impl Evaluated {
+    /// No elements.
+    pub(crate) const NONE: Self = Self {
+        survey: Survey { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None },
         min_det: f64::INFINITY,
     };
+}
 
-    /// Of these elements and those that follow them.
-    #[must_use]
-    pub fn and(self, next: Self) -> Self {
-        Self {
-            refused: self.refused + next.refused,
-            bounded: self.bounded + next.bounded,
-            nonfinite: self.nonfinite + next.nonfinite,
-            filtered: self.filtered + next.filtered,
-            first_offender: self.first_offender.or(next.first_offender),
-            min_det: self.min_det.min(next.min_det),
-        }
-    }
+impl Add for Evaluated {
+    type Output = Self;
 
-    /// Of the derivatives of a tile's elements.
-    fn of_marks(marks: &Marks, elements: &[Element]) -> Self {
-        let nonfinite = marks.nonfinite & !marks.refused;
-        let count = |bits: u64| bits.count_ones() as usize;
-        Self {
-            bounded: count(marks.bounded),
-            nonfinite: count(nonfinite),
-            filtered: count(marks.filtered),
-            first_offender: set(nonfinite, elements).next().map(|(_, element)| element.tag),
-            ..Self::NONE
-        }
-    }
-
-    /// Whether every element has a meaningful energy.
-    #[must_use]
-    pub fn is_admissible(&self) -> bool {
-        self.refused == 0 && self.nonfinite == 0
+    fn add(self, other: Self) -> Self {
+        Self { survey: self.survey + other.survey, min_det: self.min_det.min(other.min_det) }
     }
 }
 
@@ -142,71 +109,68 @@ impl Group {
         self.tile.stretches(lane)
     }
 
-    /// Evaluates the energies, J. Those of refused elements are meaningless.
+    /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as well.
     pub(crate) fn evaluate(
         &mut self,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         positions: &[[f64; 3]],
-    ) -> Survey {
+    ) -> (Status<u64>, f64) {
         let corners = elements.iter().map(|element| element.nodes.map(|node| positions[node]));
-        let verdict = self.tile.evaluate(material, corners, &mut self.energies);
-        let mut survey = Survey::NONE;
+        let mut status = self.tile.evaluate(material, corners, &mut self.energies);
+        let mut min_det = f64::INFINITY;
         for lane in 0..elements.len() {
-            let [l1, l2, l3] = self.tile.stretches(lane);
-            survey.min_det = survey.min_det.min(l1 * l2 * l3);
+            let stretches = self.tile.stretches(lane);
+            min_det = min_det.min(stretches.iter().product());
+            // The energy of a refused element need not be finite.
+            let is_refused = status.refused >> lane & 1 == 1;
+            if is_refused && stretches_in_range(stretches) {
+                status.nonfinite &= !(1 << lane);
+            }
         }
-        for (lane, element) in set(verdict.refused | verdict.nonfinite, elements) {
-            let admitted = verdict.refused >> lane & 1 == 0;
-            let in_range = stretches_in_range(self.tile.stretches(lane));
-            let finite = in_range && (!admitted || self.energies[lane].is_finite());
-            survey = survey.and(Survey {
-                refused: usize::from(finite && !admitted),
-                nonfinite: usize::from(!finite),
-                first_offender: (!admitted || !finite).then_some(element.tag),
-                ..Survey::NONE
-            });
-        }
-        survey
+        (Status { refused: status.refused & !status.nonfinite, ..status }, min_det)
     }
 
-    /// Gradients of the energies evaluated last in the nodal positions, N: minus the forces. The evaluation has said what
-    /// is `refused` and `min_det`.
-    pub(crate) fn evaluate_gradients(&mut self, material: &dyn Energy<f64>, elements: &[Element]) -> Survey {
+    /// Gradients of the energies evaluated last in the nodal positions, N: minus the forces.
+    pub(crate) fn evaluate_gradients(
+        &mut self,
+        material: &dyn TileMaterial<f64>,
+        elements: &[Element],
+    ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        Survey::of_marks(&self.tile.gradients(material, gradients), elements)
+        of_derivatives(self.tile.gradients(material, gradients))
     }
 
     /// Gradients, and second derivatives after the filter.
     pub(crate) fn evaluate_stiffnesses(
         &mut self,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         filter: Filter,
         stiffnesses: &mut [Stiffness],
-    ) -> Survey {
+    ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
-        Survey::of_marks(&self.tile.stiffnesses(material, filter, gradients, stiffnesses), elements)
+        of_derivatives(self.tile.stiffnesses(material, filter, gradients, stiffnesses))
     }
 
-    /// Gradients, and second derivatives after the filter as what they are made of.
+    /// Gradients, and second derivatives after the filter as their factors.
     pub(crate) fn evaluate_factors(
         &mut self,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         filter: Filter,
         factors: &mut StiffnessFactors,
-    ) -> Survey {
+    ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        Survey::of_marks(&self.tile.factored_stiffnesses(material, filter, gradients, factors), elements)
+        of_derivatives(self.tile.factored_stiffnesses(material, filter, gradients, factors))
     }
 }
 
-/// The elements of a tile whose bit is set, with their lanes.
-fn set(bits: u64, elements: &[Element]) -> impl Iterator<Item = (usize, &Element)> {
-    elements.iter().enumerate().filter(move |(lane, _)| bits >> lane & 1 == 1)
+/// The status of derivatives alone: the evaluation of the energies has reported refused elements before.
+fn of_derivatives(status: Status<u64>) -> Status<u64> {
+    Status { refused: 0, nonfinite: status.nonfinite & !status.refused, ..status }
 }
 
 #[cfg(test)]

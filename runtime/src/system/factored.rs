@@ -10,12 +10,14 @@ use rayon::prelude::*;
 
 use super::Body;
 use super::assemble::Tangents;
-use super::element::{Element, Group, Survey};
-use crate::batch::Energy;
-use crate::batch::element::{Marks, RestShapes, TILE};
+use super::element::{Element, Group};
+use crate::batch::TileMaterial;
+use crate::batch::element::TILE;
 use crate::batch::operator::StiffnessFactors;
+use crate::batch::rest::RestShapes;
 use crate::lanes::Backend;
 use crate::point::Filter;
+use crate::status::Status;
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 pub(super) const TILES: usize = 4;
@@ -182,10 +184,10 @@ impl Tile {
     pub(super) fn linearise(
         &mut self,
         rest: &RestShapes,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         filter: Filter,
         positions: &[[f64; 3]],
-    ) -> Marks {
+    ) -> Status<u64> {
         let Self { factors, nodes, corners, .. } = self;
         factors.linearise(rest, material, filter, at_corners(nodes, corners, positions))
     }
@@ -208,10 +210,10 @@ impl Tangents for FactoredStiffness {
     fn evaluate(
         tile: &mut Tile,
         group: &mut Group,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         filter: Filter,
-    ) -> Survey {
+    ) -> Status<u64> {
         group.evaluate_factors(material, elements, filter, &mut tile.factors)
     }
 }

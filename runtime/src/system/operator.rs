@@ -20,9 +20,10 @@ use rayon::prelude::*;
 use super::Body;
 use super::assemble::Tangents;
 use super::factored::{FactoredStiffness, TILES};
-use crate::batch::element::RestShapes;
-use crate::batch::{LengthError, Survey};
+use crate::batch::LengthError;
+use crate::batch::rest::RestShapes;
 use crate::point::Filter;
+use crate::status::Survey;
 
 /// The filtered stiffness K of a body, N/m, where it was linearised last: zero before that.
 ///
@@ -77,7 +78,7 @@ impl StiffnessOperator {
         let tile = |elements: Range<usize>| Tile {
             rest: RestShapes::new(body.elements()[elements.clone()].iter().map(|element| element.shape)),
             elements,
-            survey: Survey::NONE,
+            survey: Survey::default(),
         };
         let tiles = body.groups().map(|(_, elements)| tile(elements)).collect();
         Self { factored: FactoredStiffness::new(body), tiles, elements: body.elements().len() }
@@ -99,15 +100,15 @@ impl StiffnessOperator {
         self.check("positions", positions.len(), 3)?;
         let (found, points) = (body.elements().len(), self.elements);
         if found != points {
-            return Err(LengthError { slice: "elements", found, numbers: 1, points, group: 1 });
+            return Err(LengthError { slice: "elements", found, components: 1, points, group: 1 });
         }
         let tiles = self.tiles.par_iter_mut().zip(self.factored.tiles()).with_min_len(TILES);
         tiles.for_each(|(tile, stiffness)| {
             let material = body.material(tile.elements.start);
             let marks = stiffness.linearise(&tile.rest, material, filter, positions);
-            tile.survey = Survey::of(&marks, tile.elements.start);
+            tile.survey = Survey::of(marks, tile.elements.start);
         });
-        Ok(self.tiles.iter().fold(Survey::NONE, |sum, tile| sum.and(tile.survey)))
+        Ok(self.tiles.iter().map(|tile| tile.survey).sum())
     }
 
     /// K x, N, for a displacement x of each node, m.
@@ -138,7 +139,7 @@ impl StiffnessOperator {
         if found == points {
             return Ok(());
         }
-        Err(LengthError { slice, found: numbers * found, numbers, points, group: 1 })
+        Err(LengthError { slice, found: numbers * found, components: numbers, points, group: 1 })
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::Body;
 use super::assemble::Tangents;
-use super::element::{Element, Group, Stiffness, Survey, pair};
+use super::element::{Element, Group, Stiffness, pair};
 use super::fill::{NodePairs, fill};
 use super::pattern::Pattern;
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::Filter;
+use crate::status::Status;
 
 /// The filtered stiffness of each element, 720 bytes, where they were evaluated last: zero before that.
 pub(crate) struct ElementStiffnesses {
@@ -133,10 +134,10 @@ impl Tangents for ElementStiffnesses {
     fn evaluate(
         tile: &mut Self::Tile,
         group: &mut Group,
-        material: &dyn Energy<f64>,
+        material: &dyn TileMaterial<f64>,
         elements: &[Element],
         filter: Filter,
-    ) -> Survey {
+    ) -> Status<u64> {
         group.evaluate_stiffnesses(material, elements, filter, tile)
     }
 }

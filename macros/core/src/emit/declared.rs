@@ -3,13 +3,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::writer::Writer;
 use super::{Texts, condition_text, generics, naming};
-use crate::model::Model;
 use crate::read::parse::{Declaration, Kind};
 
 /// `impl Declared`.
-pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Texts) -> TokenStream {
+pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
@@ -75,9 +73,6 @@ pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Tex
         }
     };
 
-    let program = model.program(&model.moduli.clone());
-    let (statements, outputs) = Writer::new(declaration).program(&program);
-    let (mu, lambda) = (&outputs[0], &outputs[1]);
     quote! {
         #naming
         impl #bounds ::piola::material::Declared for #name #arguments {
@@ -102,14 +97,6 @@ pub(super) fn declared(declaration: &Declaration, model: &mut Model, texts: &Tex
                 };
                 #(#conversions)*
                 #finish
-            }
-
-            #[allow(unused_imports, clippy::all)]
-            fn moduli(&self) -> ::piola::material::Moduli {
-                use ::piola::Real;
-                type R = f64;
-                #statements
-                ::piola::material::Moduli { mu: #mu, lambda: #lambda }
             }
         }
     }

@@ -1,91 +1,74 @@
 //! The implementation of `Material`: energy, gradient and blocks as straight-line programs.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
 use syn::Ident;
 
 use super::invariants;
 use super::writer::Writer;
-use super::{generics, naming};
+use super::{generics, naming, value_parameter};
 use crate::algebra::expr::Id;
 use crate::model::{Model, Variant, Volume};
-use crate::read::parse::Declaration;
+use crate::read::parse::{Declaration, Kind};
 
-/// `impl Material`, and `impl Varying` where all parameters are numbers.
+/// `impl Material`, and `impl Graded` where all parameters are numbers.
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
+    let computed = computed(declaration, model);
     let constants = constants(declaration, model);
-    // What is not inlined into the function of a back end is not compiled for its instructions.
     if declaration.has_functions() {
-        let own = Bodies::new(declaration, model, Writer::new(declaration));
-        let computed = own.methods(&quote!(&self), "");
-        let by_invariants = invariants::methods(model, &own.writer, &quote!(&self), "");
-        let constants = [constants, invariants::constant(model)];
         return quote! {
             #[allow(unused_variables, clippy::all)]
             #naming
             impl #bounds ::piola::Material for #name #arguments {
                 #computed
-                #by_invariants
-                #(#constants)*
+                #constants
             }
         };
     }
-    let writer = Writer::for_several(declaration);
-    let materials = writer.materials.clone();
-    let several = Bodies::new(declaration, model, writer);
-    let receiver = quote!(#materials: &impl ::piola::material::Parameters<Self>);
-    let computed = several.methods(&receiver, "_of");
-    let by_invariants = invariants::methods(model, &several.writer, &receiver, "_of");
-    let delegated = invariants::delegated(model);
-    let uniform = quote!(&::piola::material::Uniform(self));
-    let varying = quote!(<Self as ::piola::material::Varying>);
+    let value = value_parameter(declaration);
+    let lengths = &declaration.generics;
+    let gathered = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Kind::List(_) => quote! {
+                #name: ::core::array::from_fn(|k| __piola::PerLane::gather(|lane| material(lane).#name[k]))
+            },
+            _ => quote!(#name: __piola::PerLane::gather(|lane| material(lane).#name)),
+        }
+    });
+    let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: material(0).inversion,));
+    // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
+        #[allow(unused_variables, clippy::all)]
         #naming
-        impl #bounds ::piola::Material for #name #arguments {
-            #[inline(always)]
-            fn energy<R: ::piola::Real>(&self, stretches: [R; 3]) -> R {
-                #varying::energy_of(#uniform, stretches)
-            }
-
-            #[inline(always)]
-            fn gradient<R: ::piola::Real>(&self, stretches: [R; 3]) -> [R; 3] {
-                #varying::gradient_of(#uniform, stretches)
-            }
-
-            #[inline(always)]
-            fn gradient_at_strains<R: ::piola::Real>(&self, strains: [R; 3]) -> [R; 3] {
-                #varying::gradient_at_strains_of(#uniform, strains)
-            }
-
-            #[inline(always)]
-            fn blocks<R: ::piola::Real>(&self, stretches: [R; 3]) -> ::piola::material::Blocks<R> {
-                #varying::blocks_of(#uniform, stretches)
-            }
-
-            #[inline(always)]
-            fn admits<R: ::piola::Real>(&self, stretches: [R; 3]) -> R::Mask {
-                #varying::admits_of(#uniform, stretches)
-            }
-
-            #delegated
+        impl<#(const #lengths: usize,)* #value: __piola::ParameterValue> ::piola::Material for #name<#(#lengths,)* #value> {
+            #computed
             #constants
         }
 
-        #[allow(unused_variables, clippy::all)]
-        #naming
-        impl #bounds ::piola::material::Varying for #name #arguments {
-            #computed
-            #by_invariants
+        impl #bounds ::piola::material::Graded for #name #arguments {
+            type OnLanes = #name<#(#lengths,)* __piola::PerLane>;
+
+            #[inline(always)]
+            fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+            where
+                Self: 'a,
+            {
+                #name { #(#gathered,)* #inversion }
+            }
         }
     }
 }
 
 /// What a material says of itself without a point: whether it has a pole, where its domain ends and what it does there, and its
 /// moduli.
-fn constants(declaration: &Declaration, model: &Model) -> TokenStream {
+fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
+    let program = model.program(&model.moduli.clone());
+    let (statements, outputs) = Writer::new(declaration).program(&program);
+    let (mu, lambda) = (&outputs[0], &outputs[1]);
     let is_positive = model.volume == Volume::Positive;
     let plain_pole = model.plain.has_pole;
     let (has_pole, ends) = match &model.extended {
@@ -127,107 +110,91 @@ fn constants(declaration: &Declaration, model: &Model) -> TokenStream {
 
         #inversion
 
+        #[allow(unused_imports)]
         fn stated_moduli(&self) -> ::core::option::Option<::piola::material::Moduli> {
-            ::core::option::Option::Some(::piola::material::Declared::moduli(self))
+            use ::piola::Real;
+            type R = f64;
+            #statements
+            ::core::option::Option::Some(::piola::material::Moduli { mu: #mu, lambda: #lambda })
         }
     }
 }
 
-/// The methods that compute, for one way to read parameters.
-struct Bodies<'a> {
-    writer: Writer<'a>,
-    stretches: &'a [Ident; 3],
-    energy: TokenStream,
-    gradient: TokenStream,
-    at_strains: TokenStream,
-    blocks: TokenStream,
-    admits: TokenStream,
-}
-
-impl<'a> Bodies<'a> {
-    fn new(declaration: &'a Declaration, model: &mut Model, writer: Writer<'a>) -> Self {
-        let stretches = &declaration.stretches;
-        let threshold = &writer.threshold;
-        let inversion = writer.inversion();
-        let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
-                          result: &dyn Fn(&[TokenStream]) -> TokenStream| {
-            let body = |model: &mut Model, roots: &[Id]| {
-                let program = model.program(roots);
-                let (mut body, outputs) = writer.program(&program);
-                body.extend(result(&outputs));
-                body
-            };
-            let plain = body(model, &select(&model.plain));
-            match model.extended.as_ref().map(select) {
-                None => plain,
-                Some(extended) => {
-                    let extended = body(model, &extended);
-                    quote! {
-                        match #inversion {
-                            ::piola::Inversion::Refuse => { #plain }
-                            ::piola::Inversion::Extend { epsilon: #threshold } => {
-                                let #threshold = R::splat(#threshold);
-                                #extended
-                            }
+/// The methods that compute.
+fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
+    let writer = &Writer::new(declaration);
+    let [l1, l2, l3] = &declaration.stretches;
+    let threshold = &writer.threshold;
+    let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
+                      result: &dyn Fn(&[TokenStream]) -> TokenStream| {
+        let body = |model: &mut Model, roots: &[Id]| {
+            let program = model.program(roots);
+            let (mut body, outputs) = writer.program(&program);
+            body.extend(result(&outputs));
+            body
+        };
+        let plain = body(model, &select(&model.plain));
+        match model.extended.as_ref().map(select) {
+            None => plain,
+            Some(extended) => {
+                let extended = body(model, &extended);
+                quote! {
+                    match self.inversion {
+                        ::piola::Inversion::Refuse => { #plain }
+                        ::piola::Inversion::Extend { epsilon: #threshold } => {
+                            let #threshold = R::splat(#threshold);
+                            #extended
                         }
                     }
                 }
             }
-        };
-        let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
-        let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
-        let blocks = bodies(&Variant::blocks, &|outputs| {
-            let (gradient, hessian, flip, twist) =
-                (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
-            quote! {
-                ::piola::material::Blocks {
-                    gradient: [#(#gradient),*],
-                    hessian: [#(#hessian),*],
-                    flip: [#(#flip),*],
-                    twist: [#(#twist),*],
-                }
-            }
-        });
-
-        let at_strains = at_strains(model, &writer, stretches);
-        let admits = admits(model, &writer, stretches);
-        Self { writer, stretches, energy, gradient, at_strains, blocks, admits }
-    }
-
-    /// `receiver` is what parameters are read from, `ending` that of the methods' names.
-    fn methods(&self, receiver: &TokenStream, ending: &str) -> TokenStream {
-        let Self { writer, stretches: [l1, l2, l3], energy, gradient, at_strains, blocks, admits } = self;
-        let strains = &writer.strains;
-        let method = |name: &str| format_ident!("{name}{ending}");
-        let names = ["energy", "gradient", "gradient_at_strains", "blocks", "admits"];
-        let [energy_of, gradient_of, at_strains_of, blocks_of, admits_of] = names.map(method);
-        let stretches = quote!([#l1, #l2, #l3]: [R; 3]);
+        }
+    };
+    let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
+    let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
+    let blocks = bodies(&Variant::blocks, &|outputs| {
+        let (gradient, hessian, flip, twist) =
+            (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
         quote! {
-            #[inline(always)]
-            fn #energy_of<R: ::piola::Real>(#receiver, #stretches) -> R {
-                #energy
-            }
-
-            #[inline(always)]
-            fn #gradient_of<R: ::piola::Real>(#receiver, #stretches) -> [R; 3] {
-                #gradient
-            }
-
-            #[inline(always)]
-            fn #at_strains_of<R: ::piola::Real>(#receiver, #strains: [R; 3]) -> [R; 3] {
-                #at_strains
-            }
-
-            #[inline(always)]
-            fn #blocks_of<R: ::piola::Real>(#receiver, #stretches) -> ::piola::material::Blocks<R> {
-                #blocks
-            }
-
-            #[inline(always)]
-            fn #admits_of<R: ::piola::Real>(#receiver, #stretches) -> R::Mask {
-                #admits
+            ::piola::material::Blocks {
+                gradient: [#(#gradient),*],
+                hessian: [#(#hessian),*],
+                flip: [#(#flip),*],
+                twist: [#(#twist),*],
             }
         }
+    });
+    let at_strains = at_strains(model, writer, &declaration.stretches);
+    let admits = admits(model, writer, &declaration.stretches);
+    let by_invariants = invariants::methods(model, writer);
+    let strains = &writer.strains;
+    quote! {
+        #[inline(always)]
+        fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
+            #energy
+        }
+
+        #[inline(always)]
+        fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
+            #gradient
+        }
+
+        #[inline(always)]
+        fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
+            #at_strains
+        }
+
+        #[inline(always)]
+        fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
+            #blocks
+        }
+
+        #[inline(always)]
+        fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
+            #admits
+        }
+
+        #by_invariants
     }
 }
 
@@ -245,25 +212,14 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     if model.extended.is_none() {
         return quote!(#inside [#(#outputs),*]);
     }
-    let inversion = writer.inversion();
-    let gradient = match &writer.materials {
-        None => quote!(self.gradient(#stretches)),
-        Some(materials) => {
-            quote!(<Self as ::piola::material::Varying>::gradient_of(#materials, #stretches))
-        }
-    };
     quote! {
         #inside
         let inside = [#(#outputs),*];
-        if let ::piola::Inversion::Extend { epsilon: #threshold } = #inversion {
+        if let ::piola::Inversion::Extend { epsilon: #threshold } = self.inversion {
             let below = #strains[2].less(R::splat(#threshold - 1.0));
-            if ::piola::lanes::Mask::any(below) {
-                let extended = #gradient;
-                return [
-                    R::select(below, extended[0], inside[0]),
-                    R::select(below, extended[1], inside[1]),
-                    R::select(below, extended[2], inside[2]),
-                ];
+            if __piola::Mask::any(below) {
+                let extended = ::piola::Material::gradient(self, #stretches);
+                return ::core::array::from_fn(|k| R::select(below, extended[k], inside[k]));
             }
         }
         inside
@@ -283,17 +239,16 @@ fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> Tok
         Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
         Volume::Nonzero => Some(quote!(R::splat(0.0).less(#smallest.abs()))),
     };
-    let inversion = writer.inversion();
     conditions.extend(inside.map(|inside| match &model.extended {
         None => inside,
         Some(_) => quote! {
-            match #inversion {
+            match self.inversion {
                 ::piola::Inversion::Refuse => #inside,
-                ::piola::Inversion::Extend { .. } => <R::Mask as ::piola::lanes::Mask>::splat(true),
+                ::piola::Inversion::Extend { .. } => __piola::Mask::splat(true),
             }
         },
     }));
     let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
-    let all = all.unwrap_or_else(|| quote!(<R::Mask as ::piola::lanes::Mask>::splat(true)));
+    let all = all.unwrap_or_else(|| quote!(__piola::Mask::splat(true)));
     quote!(#statements #all)
 }

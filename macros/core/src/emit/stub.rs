@@ -146,35 +146,12 @@ fn inert_type(function: &Function) -> TokenStream {
         }
 
         #[allow(unused_variables)]
-        impl<#(const #generics: usize),*> ::piola::material::Varying for #name<#(#generics),*> {
-            fn energy_of<AnyReal: ::piola::Real>(
-                materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [AnyReal; 3],
-            ) -> AnyReal {
-                #unreachable
-            }
-            fn gradient_of<AnyReal: ::piola::Real>(
-                materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [AnyReal; 3],
-            ) -> [AnyReal; 3] {
-                #unreachable
-            }
-            fn gradient_at_strains_of<AnyReal: ::piola::Real>(
-                materials: &impl ::piola::material::Parameters<Self>,
-                strains: [AnyReal; 3],
-            ) -> [AnyReal; 3] {
-                #unreachable
-            }
-            fn blocks_of<AnyReal: ::piola::Real>(
-                materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [AnyReal; 3],
-            ) -> ::piola::material::Blocks<AnyReal> {
-                #unreachable
-            }
-            fn admits_of<AnyReal: ::piola::Real>(
-                materials: &impl ::piola::material::Parameters<Self>,
-                stretches: [AnyReal; 3],
-            ) -> AnyReal::Mask {
+        impl<#(const #generics: usize),*> ::piola::material::Graded for #name<#(#generics),*> {
+            type OnLanes = Self;
+            fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self
+            where
+                Self: 'a,
+            {
                 #unreachable
             }
         }
@@ -196,9 +173,6 @@ fn inert_type(function: &Function) -> TokenStream {
                 values: &[&[f64]],
                 inversion: ::piola::Inversion,
             ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-                #unreachable
-            }
-            fn moduli(&self) -> ::piola::material::Moduli {
                 #unreachable
             }
         }

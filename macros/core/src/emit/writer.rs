@@ -21,8 +21,6 @@ pub(super) struct Writer<'a> {
     pub(super) threshold: Ident,
     /// The principal strains.
     pub(super) strains: Ident,
-    /// What parameters are read from, if not from `self`: the materials of several points.
-    pub(super) materials: Option<Ident>,
 }
 
 impl<'a> Writer<'a> {
@@ -46,7 +44,7 @@ impl<'a> Writer<'a> {
         let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
         let strains = free(&["strains", "principal_strains"]);
         let variables = declaration.stretches.clone();
-        Self { declaration, variables, prefix, index, threshold, strains, materials: None }
+        Self { declaration, variables, prefix, index, threshold, strains }
     }
 
     /// The same for programs in which stretches stand for other variables.
@@ -54,27 +52,12 @@ impl<'a> Writer<'a> {
         Self { variables, ..self.clone() }
     }
 
-    /// Reads the parameters of the materials of several points, which no function can be.
-    pub(super) fn for_several(declaration: &'a Declaration) -> Self {
-        let materials = free_name(declaration, &["materials", "all_materials"]);
-        Self { materials: Some(materials), ..Self::new(declaration) }
-    }
-
-    /// How the materials meet what lies outside their domain.
-    pub(super) fn inversion(&self) -> TokenStream {
-        match &self.materials {
-            None => quote!(self.inversion),
-            Some(materials) => quote!(::piola::material::Parameters::first(#materials).inversion),
-        }
-    }
-
-    /// A field of the materials, as a number of type `R`.
+    /// A field as a number of type `R`.
     fn field(&self, field: TokenStream) -> TokenStream {
-        match &self.materials {
-            None => quote!(R::splat(self.#field)),
-            Some(materials) => {
-                quote!(::piola::material::Parameters::read::<R>(#materials, |material| material.#field))
-            }
+        if self.declaration.has_functions() {
+            quote!(R::splat(self.#field))
+        } else {
+            quote!(__piola::ParameterValue::on(&self.#field))
         }
     }
 
@@ -145,7 +128,10 @@ impl<'a> Writer<'a> {
             _ => (self.name(value), self.expression(op, names)),
         };
         names.set(value, name.to_token_stream());
-        Some(quote!(let #name = #expression;))
+        Some(match *op {
+            Op::Parameter(_) | Op::Entry(_) => quote!(let #name: R = #expression;),
+            _ => quote!(let #name = #expression;),
+        })
     }
 
     fn expression(&self, op: &Op, names: &Names) -> TokenStream {
@@ -221,7 +207,7 @@ impl<'a> Writer<'a> {
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
             Op::Pair { values, reciprocals, logarithms } => {
                 let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
-                quote!(::piola::quotient::Pair::new(#(#arguments),*))
+                quote!(__piola::Pair::new(#(#arguments),*))
             }
             Op::LnQuotient(pair) => method(n(pair), "ln_quotient"),
             Op::PowerQuotient { pair, powers, exponent } => {
@@ -259,7 +245,7 @@ impl<'a> Writer<'a> {
 
     fn call(&self, kernel: &str, arguments: &[impl ToTokens]) -> TokenStream {
         let kernel = format_ident!("{kernel}");
-        quote!(::piola::quotient::#kernel(#(#arguments),*))
+        quote!(__piola::#kernel(#(#arguments),*))
     }
 }
 

@@ -1,7 +1,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::*;
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::mesh::TetMesh;
 use crate::step::{Pull, Settings};
 use crate::system::StiffnessOperator;
@@ -9,7 +9,7 @@ use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam};
 
 const DENSITY: f64 = 1000.0;
 
-fn simulation(mesh: &TetMesh, material: impl Energy<f64> + 'static, pins: &Pins) -> Simulation {
+fn simulation(mesh: &TetMesh, material: impl TileMaterial<f64> + 'static, pins: &Pins) -> Simulation {
     let body = Body::new(mesh, material, DENSITY).expect("a body");
     Simulation::new(body, pins, Settings::default()).expect("a simulation")
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::mesh::{Bounds, TetMesh, read_msh};
 use crate::point::Filter;
 use crate::random::Random;
@@ -12,7 +12,7 @@ fn settings(newton: NewtonSettings) -> Settings {
 
 fn simulation(
     mesh: &TetMesh,
-    material: impl Energy<f64> + 'static,
+    material: impl TileMaterial<f64> + 'static,
     pins: &Pins,
     settings: Settings,
 ) -> Simulation {

@@ -3,7 +3,7 @@
 use faer::sparse::SparseColMatRef;
 
 use crate::point::Filter;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::pattern::Pattern;
 use crate::system::stiffnesses::ElementStiffnesses;
@@ -78,7 +78,7 @@ impl<F: Factorisation> Solver for Assembled<F> {
         free.is_some_and(|(a, b)| pattern.block(a.max(b), a.min(b)).is_some())
     }
 
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey {
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
         let survey = objective.elastic.linearise(objective.body, filter, &mut self.stiffnesses);
         if let Some(viscosity) = objective.viscosity {
             viscosity.add_to(&mut self.stiffnesses);

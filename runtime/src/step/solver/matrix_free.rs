@@ -1,7 +1,7 @@
 //! Conjugate gradients on products of the elements.
 
 use crate::point::Filter;
-use crate::system::element::Survey;
+use crate::system::element::Evaluated;
 use crate::system::factored::FactoredStiffness;
 use crate::system::linear::block_jacobi::BlockJacobi;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
@@ -52,7 +52,7 @@ impl Solver for MatrixFree {
         self.stiffness.joins(a, b)
     }
 
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Survey {
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
         objective.elastic.linearise(objective.body, filter, &mut self.stiffness)
     }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::hand_written::RotatedLinear;
 use crate::mesh::embed::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
@@ -12,7 +12,7 @@ const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e
 const INEXACT: [LinearSolver; 2] = [REFINED, GRADIENTS];
 const ALL: [LinearSolver; 3] = [LinearSolver::Cholesky, REFINED, GRADIENTS];
 
-fn simulation(mesh: &TetMesh, material: impl Energy<f64> + 'static, settings: Settings) -> Simulation {
+fn simulation(mesh: &TetMesh, material: impl TileMaterial<f64> + 'static, settings: Settings) -> Simulation {
     let left = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
     let pins = Pins::in_box(mesh, left).expect("the left end");
     let body = Body::new(mesh, material, 1000.0).expect("a body");

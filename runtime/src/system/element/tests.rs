@@ -1,5 +1,5 @@
 use super::*;
-use crate::batch::STIFFEST;
+use crate::batch::MAX_STIFFNESS_RATIO;
 use crate::point::svd;
 use crate::random::Random;
 use crate::system::Body;
@@ -13,14 +13,14 @@ fn sample(seed: u64, amplitude: f64) -> (Element, Vec<[f64; 3]>) {
     (element, shake(&mut Random::new(seed), &mesh.positions, amplitude))
 }
 
-fn energy(material: &dyn Energy<f64>, element: &Element, positions: &[[f64; 3]]) -> f64 {
+fn energy(material: &dyn TileMaterial<f64>, element: &Element, positions: &[[f64; 3]]) -> f64 {
     let mut group = Group::new(&[*element]);
     group.evaluate(material, &[*element], positions);
     group.energies[0]
 }
 
 fn derivatives(
-    material: &dyn Energy<f64>,
+    material: &dyn TileMaterial<f64>,
     element: &Element,
     positions: &[[f64; 3]],
     filter: Filter,
@@ -70,7 +70,7 @@ fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients()
     for seed in 0..12 {
         // Up to twice the size of an element: many of these are inverted.
         let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.2 });
-        for material in [&KIRCHHOFF as &dyn Energy<f64>, &ROTATED] {
+        for material in [&KIRCHHOFF as &dyn TileMaterial<f64>, &ROTATED] {
             let (gradient, stiffness, _) = derivatives(material, &element, &positions, Filter::None);
             let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
             for unknown in 0..12 {
@@ -155,7 +155,7 @@ fn a_convex_kink_is_cut_to_what_a_factorisation_resolves() {
         let (kink, bounded) = largest(collapsed(width));
         assert_eq!(bounded, 1, "width {width:e}");
         // The rest of the tangent is of the size of the ordinary one; ten allows for what differs.
-        assert!(kink <= 10.0 * STIFFEST * ordinary, "{kink:e} beside {ordinary:e}");
+        assert!(kink <= 10.0 * MAX_STIFFNESS_RATIO * ordinary, "{kink:e} beside {ordinary:e}");
     }
 }
 

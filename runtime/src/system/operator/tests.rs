@@ -1,7 +1,7 @@
 #![expect(non_snake_case, reason = "K x as in the literature")]
 
 use super::*;
-use crate::batch::Energy;
+use crate::batch::TileMaterial;
 use crate::random::Random;
 use crate::system::Pins;
 use crate::system::assemble::Elastic;
@@ -44,7 +44,7 @@ fn dot(x: &[[f64; 3]], y: &[[f64; 3]]) -> f64 {
 
 /// Compares an operator with the assembled matrix of a beam whose nodes are moved by up to `amplitude`.
 #[track_caller]
-fn check_against_matrix(material: impl Energy<f64> + 'static, amplitude: f64) {
+fn check_against_matrix(material: impl TileMaterial<f64> + 'static, amplitude: f64) {
     let mesh = beam(20);
     let body = Body::new(&mesh, material, 1000.0).expect("a body");
     let mut random = Random::new(7);

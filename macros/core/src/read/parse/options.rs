@@ -19,7 +19,7 @@ pub struct Options {
     pub extend: Option<Vec<Expr>>,
     /// Why there is no extension.
     pub refuse: Option<LitStr>,
-    /// The rest state is meant to carry stress.
+    /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a sum.
     pub prestressed: bool,
     /// Derivatives by the parameters are asked for.
     pub fit: bool,
@@ -28,12 +28,13 @@ pub struct Options {
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 6] = [
+const FORMS: [(&str, &str); 7] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
     ("prestressed", "prestressed"),
+    ("part", "part"),
     ("fit", "fit"),
 ];
 
@@ -64,7 +65,7 @@ impl Options {
             ("extend", Meta::List(list)) => self.extend = Some(comparisons(&list.tokens, diagnostics)),
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
-            ("prestressed", Meta::Path(_)) => self.prestressed = true,
+            ("prestressed" | "part", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
             (text, _) => {
                 return diagnostics.error(name, unknown(text));

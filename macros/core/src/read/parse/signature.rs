@@ -339,7 +339,7 @@ mod tests {
             ("material.rs", "Material"),
             ("material.rs", "Declared"),
             ("material/fittable.rs", "Fittable"),
-            ("material/varying.rs", "Varying"),
+            ("material/parameter.rs", "Graded"),
         ] {
             let source = fs::read_to_string(folder.join(file)).expect("a file of the runtime");
             let items = syn::parse_file(&source).expect("Rust").items;

@@ -1,0 +1,190 @@
+//! A material as batches see it: one dynamic dispatch for each response of a tile.
+
+use super::tile::{Rows, first_bits, for_each_group};
+use crate::lanes::{Backend, Element, Kernel, Lanes, Mask};
+use crate::material::{Blocks, Graded, Material, PerPoint};
+use crate::point::energy_is_finite;
+use crate::status::Status;
+
+/// The material of a batch's points: the same for all, or one for each.
+trait Points: Send + Sync {
+    type Material: Material;
+
+    /// The material on the lanes that begin with a point.
+    fn at(&self, point: usize) -> impl Material;
+
+    /// All the materials: one, or one for each point.
+    fn materials(&self) -> &[Self::Material];
+
+    /// How many points have a material of their own; `None` if one serves any number of points.
+    fn count(&self) -> Option<usize>;
+}
+
+impl<M: Material> Points for M {
+    type Material = M;
+
+    #[inline(always)]
+    fn at(&self, _: usize) -> impl Material {
+        self
+    }
+
+    fn materials(&self) -> &[M] {
+        std::slice::from_ref(self)
+    }
+
+    fn count(&self) -> Option<usize> {
+        None
+    }
+}
+
+impl<M: Graded> Points for PerPoint<'_, M> {
+    type Material = M;
+
+    #[inline(always)]
+    fn at(&self, point: usize) -> impl Material {
+        self.from(point)
+    }
+
+    fn materials(&self) -> &[M] {
+        PerPoint::materials(self)
+    }
+
+    fn count(&self) -> Option<usize> {
+        Some(PerPoint::materials(self).len())
+    }
+}
+
+/// Principal stretches of a tile, or its invariants where a method takes these, and how to compute with them.
+#[derive(Clone, Copy, Debug)]
+pub struct Arguments<'a, E> {
+    /// The instructions to use.
+    pub(crate) backend: Backend,
+    /// Index of the tile's first point in the batch.
+    pub(crate) start: usize,
+    /// How many points the tile has.
+    pub(crate) count: usize,
+    pub(crate) rows: &'a Rows<E, 3>,
+}
+
+/// Declares the responses of a tile: for each a method of [`TileMaterial`] and the kernel behind it.
+///
+/// A kernel writes the rows of a response for the points of a tile, and returns as bits the points outside the domain of the
+/// response and those where it is not finite, as far as that is asked of it.
+macro_rules! tile_responses {
+    ($(
+        $(#[$doc:meta])*
+        $tile:ident: $response:ident within $domain:ident,
+        $rows:literal rows by $to_rows:expr,
+        finite where |$at:pat_param, $result:pat_param| $finite:expr;
+    )*) => {
+        /// A material over tiles of points: implemented for every [`Material`], and for [`PerPoint`].
+        ///
+        /// Its methods are internals of [`Batch`](super::Batch).
+        pub trait TileMaterial<E: Element>: Send + Sync {
+            $(
+                $(#[$doc])*
+                #[doc(hidden)]
+                fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64>;
+            )*
+
+            #[doc(hidden)]
+            fn properties(&self) -> Properties;
+        }
+
+        impl<E: Element, P: Points> TileMaterial<E> for P {
+            $(
+                fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64> {
+                    struct Respond<'a, P, E>(&'a P, Arguments<'a, E>, &'a mut Rows<E, $rows>);
+                    impl<P: Points, E: Element> Kernel<E> for Respond<'_, P, E> {
+                        type Output = Status<u64>;
+                        #[inline(always)]
+                        fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+                            let Self(points, Arguments { start, count, rows, .. }, to) = self;
+                            let (mut admitted, mut finite) = (0, 0);
+                            for_each_group!(R, count, |group| {
+                                let at = rows.get_all::<R>(group);
+                                let material = points.at(start + group);
+                                let result = material.$response(at);
+                                let ($at, $result) = (at, &result);
+                                finite |= R::bits($finite) << group;
+                                to.set_all(group, $to_rows(result));
+                                admitted |= R::bits(material.$domain(at)) << group;
+                            });
+                            let points = first_bits(count);
+                            Status { refused: !admitted & points, nonfinite: !finite & points, ..Status::default() }
+                        }
+                    }
+                    arguments.backend.run(Respond(self, arguments, to))
+                }
+            )*
+
+            fn properties(&self) -> Properties {
+                let materials = self.materials();
+                let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
+                Properties {
+                    has_invariants: P::Material::HAS_INVARIANTS,
+                    has_pole: materials.iter().any(Material::has_pole),
+                    ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
+                    rest_stiffness: materials.iter().map(stiffness).fold(0.0, f64::max),
+                    points: self.count(),
+                }
+            }
+        }
+    };
+}
+
+tile_responses! {
+    /// ψ, Pa, from signed principal stretches.
+    tile_energies: energy within admits,
+    1 rows by |energy| [energy], finite where |stretches, energy| energy_is_finite(stretches, *energy);
+
+    /// ψ1, ψ2, ψ3, Pa.
+    tile_gradients: gradient within admits,
+    3 rows by |gradient| gradient, finite where |_, _| R::Mask::splat(true);
+
+    /// The fifteen components of [`Blocks`], Pa, in the order of its fields.
+    tile_blocks: blocks within admits,
+    15 rows by |blocks| to_rows(&blocks), finite where |_, _| R::Mask::splat(true);
+
+    /// ψ, Pa, from I1, I2, J.
+    tile_energies_by_invariants: energy_by_invariants within admits_invariants,
+    1 rows by |energy| [energy], finite where |_, energy| energy.is_finite();
+
+    /// W1, W2, WJ, Pa, from I1, I2, J.
+    tile_gradients_by_invariants: gradient_by_invariants within admits_invariants,
+    3 rows by |gradient| gradient, finite where |_, _| R::Mask::splat(true);
+}
+
+/// Properties of a batch's materials that no deformation decides.
+#[derive(Clone, Copy, Debug)]
+pub struct Properties {
+    /// As [`Material::HAS_INVARIANTS`].
+    pub(crate) has_invariants: bool,
+    /// As [`Material::has_pole`], of one of the materials.
+    pub(crate) has_pole: bool,
+    /// As [`Material::ends_at_zero_volume`], of one of the materials.
+    pub(crate) ends_at_zero_volume: bool,
+    /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
+    pub(crate) rest_stiffness: f64,
+    /// How many points have a material of their own; `None` if one serves any number of points.
+    pub(crate) points: Option<usize>,
+}
+
+#[inline(always)]
+pub(super) fn to_rows<R: Copy>(blocks: &Blocks<R>) -> [R; 15] {
+    let [p1, p2, p3] = blocks.gradient;
+    let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
+    let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);
+    [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23]
+}
+
+#[inline(always)]
+pub(super) fn from_rows<R: Copy>(rows: [R; 15]) -> Blocks<R> {
+    let [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23] = rows;
+    Blocks {
+        gradient: [p1, p2, p3],
+        hessian: [h11, h22, h33, h12, h13, h23],
+        flip: [f12, f13, f23],
+        twist: [t12, t13, t23],
+    }
+}

@@ -1,0 +1,241 @@
+//! Sums and multiples of materials, which are materials.
+//!
+//! Energies of the literature are sums: of an isochoric and a volumetric part, of a rubber and its filler. Every response is
+//! linear in the energy, so that a sum needs no derivative of its own and is as exact as its parts.
+
+use super::response::with_responses;
+use super::{Blocks, Given, Graded, Inadmissible, Inversion, Material, Moduli, ParameterValue, PerLane};
+use crate::lanes::Real;
+
+/// The sum of two energies: ψ = ψa + ψb.
+///
+/// It is defined where both are. Longer sums nest: `Sum::new(Sum::new(a, b), c)`.
+///
+/// ```
+/// use piola::material;
+/// use piola::material::{Moduli, Sum, VolumetricPenalty};
+///
+/// /// μ Σ(λ − 1)²: has no resistance of its own to changes of volume.
+/// #[material]
+/// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
+///     mu * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let solid = Sum::new(Springs::new(1.0)?, VolumetricPenalty::new(3.0)?);
+/// assert_eq!(Moduli::at_rest(&solid), Moduli { mu: 1.0, lambda: 3.0 });
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sum<A, B> {
+    a: A,
+    b: B,
+}
+
+impl<A, B> Sum<A, B> {
+    /// The sum of two energies.
+    ///
+    /// Its rest state may be stressed or unstable if that of a part is: [`Moduli::at_rest`] gives the moduli, and the
+    /// [`contract`](mod@crate::contract) judges both.
+    #[must_use]
+    pub fn new(a: A, b: B) -> Self {
+        Self { a, b }
+    }
+
+    /// Both parts, in the order of [`Sum::new`].
+    #[must_use]
+    pub fn parts(&self) -> (&A, &B) {
+        (&self.a, &self.b)
+    }
+}
+
+/// A multiple of an energy: s ψ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaled<M, P = f64> {
+    factor: P,
+    material: M,
+}
+
+impl<M> Scaled<M> {
+    /// The energy times a dimensionless factor s.
+    ///
+    /// # Errors
+    /// [`Inadmissible::NotFinite`] if the factor is infinite or NaN.
+    pub fn new(factor: f64, material: M) -> Result<Self, Inadmissible> {
+        if !factor.is_finite() {
+            return Err(Inadmissible::NotFinite { given: Given::scalar("factor", factor) });
+        }
+        Ok(Self { factor, material })
+    }
+
+    /// The factor s.
+    #[must_use]
+    pub fn factor(&self) -> f64 {
+        self.factor
+    }
+
+    /// The material whose energy is multiplied.
+    #[must_use]
+    pub fn material(&self) -> &M {
+        &self.material
+    }
+}
+
+/// A response that is linear in the energy.
+trait Linear<R> {
+    fn plus(self, other: Self) -> Self;
+    fn times(self, factor: R) -> Self;
+}
+
+impl<R: Real> Linear<R> for R {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        self * factor
+    }
+}
+
+impl<R: Real, const N: usize> Linear<R> for [R; N] {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        std::array::from_fn(|k| self[k] + other[k])
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        self.map(|number| number * factor)
+    }
+}
+
+impl<R: Real> Linear<R> for Blocks<R> {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self {
+            gradient: self.gradient.plus(other.gradient),
+            hessian: self.hessian.plus(other.hessian),
+            flip: self.flip.plus(other.flip),
+            twist: self.twist.plus(other.twist),
+        }
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        Self {
+            gradient: self.gradient.times(factor),
+            hessian: self.hessian.times(factor),
+            flip: self.flip.times(factor),
+            twist: self.twist.times(factor),
+        }
+    }
+}
+
+impl<R: Real> Linear<R> for (R, Blocks<R>) {
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        (self.0 + other.0, self.1.plus(other.1))
+    }
+    #[inline(always)]
+    fn times(self, factor: R) -> Self {
+        (self.0 * factor, self.1.times(factor))
+    }
+}
+
+macro_rules! sum_responses {
+    ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
+        impl<A: Material, B: Material> Material for Sum<A, B> {
+            const HAS_INVARIANTS: bool = A::HAS_INVARIANTS && B::HAS_INVARIANTS;
+            $(
+                #[inline(always)]
+                fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
+                    self.a.$linear(at).plus(self.b.$linear(at))
+                }
+            )*
+            $(
+                #[inline(always)]
+                fn $domain<R: Real>(&self, at: [R; 3]) -> R::Mask {
+                    self.a.$domain(at) & self.b.$domain(at)
+                }
+            )*
+            fn has_pole(&self) -> bool {
+                self.a.has_pole() || self.b.has_pole()
+            }
+            fn ends_at_zero_volume(&self) -> bool {
+                self.a.ends_at_zero_volume() || self.b.ends_at_zero_volume()
+            }
+            /// An extension of both parts, or of one where the other is defined everywhere; of two, that with the larger ε.
+            fn inversion(&self) -> Inversion {
+                match (self.a.inversion(), self.b.inversion()) {
+                    _ if self.ends_at_zero_volume() => Inversion::Refuse,
+                    (Inversion::Extend { epsilon: a }, Inversion::Extend { epsilon: b }) => {
+                        Inversion::Extend { epsilon: a.max(b) }
+                    }
+                    (Inversion::Refuse, inversion) | (inversion, Inversion::Refuse) => inversion,
+                }
+            }
+            fn stated_moduli(&self) -> Option<Moduli> {
+                let (a, b) = (self.a.stated_moduli()?, self.b.stated_moduli()?);
+                Some(Moduli { mu: a.mu + b.mu, lambda: a.lambda + b.lambda })
+            }
+        }
+
+        impl<M: Material, P: ParameterValue> Material for Scaled<M, P> {
+            const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+            $(
+                #[inline(always)]
+                fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
+                    self.material.$linear(at).times(self.factor.on())
+                }
+            )*
+            $(
+                #[inline(always)]
+                fn $domain<R: Real>(&self, at: [R; 3]) -> R::Mask {
+                    self.material.$domain(at)
+                }
+            )*
+            fn has_pole(&self) -> bool {
+                self.material.has_pole()
+            }
+            fn ends_at_zero_volume(&self) -> bool {
+                self.material.ends_at_zero_volume()
+            }
+            fn inversion(&self) -> Inversion {
+                self.material.inversion()
+            }
+            fn stated_moduli(&self) -> Option<Moduli> {
+                let Moduli { mu, lambda } = self.material.stated_moduli()?;
+                let factor = self.factor.on::<f64>();
+                Some(Moduli { mu: factor * mu, lambda: factor * lambda })
+            }
+        }
+    };
+}
+with_responses!(sum_responses);
+
+impl<A: Graded, B: Graded> Graded for Sum<A, B> {
+    type OnLanes = Sum<A::OnLanes, B::OnLanes>;
+
+    #[inline(always)]
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    where
+        Self: 'a,
+    {
+        Sum { a: A::on_lanes(|lane| &material(lane).a), b: B::on_lanes(|lane| &material(lane).b) }
+    }
+}
+
+impl<M: Graded> Graded for Scaled<M> {
+    type OnLanes = Scaled<M::OnLanes, PerLane>;
+
+    #[inline(always)]
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    where
+        Self: 'a,
+    {
+        Scaled {
+            factor: PerLane::gather(|lane| material(lane).factor),
+            material: M::on_lanes(|lane| &material(lane).material),
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Parameters of an energy: one value for all points, or one for each lane.
+//!
+//! A declared material is generic over how its parameters are kept. With `f64`, which is the default, every lane gets that
+//! value; with [`PerLane`] each gets a value of its own, as points of a graded or fitted body need.
+
+use std::fmt;
+
+#[cfg(doc)]
+use super::Inversion;
+use super::Material;
+use crate::lanes::Real;
+
+/// How a declared material keeps a parameter.
+pub trait ParameterValue: Copy + fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// The parameter on the lanes of a real type.
+    fn on<R: Real>(&self) -> R;
+}
+
+impl ParameterValue for f64 {
+    #[inline(always)]
+    fn on<R: Real>(&self) -> R {
+        R::splat(*self)
+    }
+}
+
+/// The most lanes of any back end: 16 of `f32` in AVX-512.
+const LANES: usize = 16;
+
+/// Values of a parameter for the points on the lanes of a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PerLane([f64; LANES]);
+
+impl PerLane {
+    /// The value for each lane.
+    #[inline(always)]
+    pub fn gather(value: impl Fn(usize) -> f64) -> Self {
+        Self(std::array::from_fn(value))
+    }
+}
+
+impl ParameterValue for PerLane {
+    #[inline(always)]
+    fn on<R: Real>(&self) -> R {
+        R::from_fn(|lane| self.0[lane.min(LANES - 1)])
+    }
+}
+
+/// A material whose parameters may differ from point to point: every declared one without functions as parameters.
+pub trait Graded: Material + Sized {
+    /// This kind of material with parameters for each lane.
+    type OnLanes: Material;
+
+    /// Materials side by side, `material(lane)` on each of at most 16 lanes.
+    ///
+    /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] makes sure: it decides which
+    /// program runs.
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    where
+        Self: 'a;
+}
+
+/// A material for each point of a [`Batch`](crate::batch::Batch), in their order.
+///
+/// ```
+/// # #[cfg(feature = "batch")]
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// use piola::batch::Batch;
+/// use piola::material;
+/// use piola::material::PerPoint;
+///
+/// /// μ/2 Σ(λ − 1)².
+/// #[material]
+/// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
+///     mu / 2.0 * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
+/// }
+///
+/// let springs = [Springs::new(1.0)?, Springs::new(2.0)?];
+/// let stretch = [2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+/// let mut energies = [0.0; 2];
+/// Batch::new(&PerPoint::new(&springs)?).energies(&[stretch, stretch].concat(), &mut energies)?;
+/// assert_eq!(energies, [0.5, 1.0]);
+/// # Ok(())
+/// # }
+/// # #[cfg(not(feature = "batch"))]
+/// # fn main() {}
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct PerPoint<'a, M>(&'a [M]);
+
+impl<'a, M: Graded> PerPoint<'a, M> {
+    /// A material for each point; all must do the same outside their domain.
+    ///
+    /// # Errors
+    /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
+    pub fn new(materials: &'a [M]) -> Result<Self, PerPointError> {
+        let first = materials.first().ok_or(PerPointError::NoMaterial)?.inversion();
+        match materials.iter().position(|material| material.inversion() != first) {
+            None => Ok(Self(materials)),
+            Some(material) => Err(PerPointError::DifferentInversion { material }),
+        }
+    }
+
+    /// The materials, one for each point.
+    #[must_use]
+    pub fn materials(&self) -> &'a [M] {
+        self.0
+    }
+
+    /// The materials of the points from `start` on; the last one serves for lanes beyond.
+    #[cfg(feature = "batch")]
+    #[inline(always)]
+    pub(crate) fn from(&self, start: usize) -> M::OnLanes {
+        let rest = &self.0[start..];
+        M::on_lanes(|lane| &rest[lane.min(rest.len() - 1)])
+    }
+}
+
+/// Why materials cannot be evaluated together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PerPointError {
+    /// The list of materials is empty.
+    NoMaterial,
+    /// A material differs from the first one in its [`Inversion`].
+    DifferentInversion {
+        /// Index of the first such material.
+        material: usize,
+    },
+}
+
+impl fmt::Display for PerPointError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoMaterial => {
+                f.write_str("the list of materials is empty: give one material for each point")
+            }
+            Self::DifferentInversion { material } => write!(
+                f,
+                "material {material} treats deformations outside its domain differently from material 0: \
+                 build all of them with the same inversion"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for PerPointError {}

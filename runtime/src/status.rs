@@ -1,0 +1,142 @@
+//! What can go wrong at a point, and how often it did at many.
+
+use std::iter::Sum;
+use std::ops::{Add, BitAnd, BitOr};
+
+use crate::lanes::Mask;
+
+/// What the evaluation of a point met: one truth value of each kind, or one for each of several points.
+///
+/// A `Status` is that of one point; `Status<R::Mask>` is that of the points on the lanes of a real type.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Status<M = bool> {
+    /// The deformation lies outside the domain of the energy, and the results are meaningless.
+    pub refused: M,
+    /// λ2 + λ3 is at a pole of the twist, and the tangent has a bounded value in place of an infinite one.
+    pub bounded: M,
+    /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a factor 16 of it.
+    pub nonfinite: M,
+    /// The filter met a negative eigenvalue and changed the tangent.
+    pub filtered: M,
+}
+
+impl Status {
+    /// Whether the results mean something: neither refused nor infinite.
+    #[must_use]
+    pub fn is_clean(self) -> bool {
+        !self.refused && !self.nonfinite
+    }
+}
+
+impl<M: Mask> Status<M> {
+    /// Nothing to report of any point.
+    #[inline(always)]
+    #[must_use]
+    pub fn clean() -> Self {
+        let no = M::splat(false);
+        Self { refused: no, bounded: no, nonfinite: no, filtered: no }
+    }
+}
+
+/// Both statuses together: whatever one of them reports.
+impl<M: BitOr<Output = M>> BitOr for Status<M> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self {
+            refused: self.refused | other.refused,
+            bounded: self.bounded | other.bounded,
+            nonfinite: self.nonfinite | other.nonfinite,
+            filtered: self.filtered | other.filtered,
+        }
+    }
+}
+
+/// The status where a mask is set, clean elsewhere.
+impl<M: BitAnd<Output = M> + Copy> BitAnd<M> for Status<M> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitand(self, mask: M) -> Self {
+        Self {
+            refused: self.refused & mask,
+            bounded: self.bounded & mask,
+            nonfinite: self.nonfinite & mask,
+            filtered: self.filtered & mask,
+        }
+    }
+}
+
+/// Statuses of up to 64 points, a bit for each.
+impl Status<u64> {
+    /// The status of one of the points.
+    #[must_use]
+    pub(crate) fn of_point(self, point: usize) -> Status {
+        let bit = |bits: u64| bits >> point & 1 == 1;
+        Status {
+            refused: bit(self.refused),
+            bounded: bit(self.bounded),
+            nonfinite: bit(self.nonfinite),
+            filtered: bit(self.filtered),
+        }
+    }
+}
+
+/// Counts of the statuses of many points.
+///
+/// Surveys of different points are added by `+` and [`Iterator::sum`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// How many points lie outside the domain of the energy.
+    pub refused: usize,
+    /// How many points are at a pole of the tangent, which got a bounded value.
+    pub bounded: usize,
+    /// How many points have an infinite or NaN deformation or result, or one within a factor 16 of it.
+    pub nonfinite: usize,
+    /// At how many points the filter changed the tangent.
+    pub filtered: usize,
+    /// Index of the first point that is refused or not finite.
+    pub first: Option<usize>,
+}
+
+impl Survey {
+    /// Counts the points of a tile, whose first is number `start`.
+    pub(crate) fn of(status: Status<u64>, start: usize) -> Self {
+        let count = |bits: u64| bits.count_ones() as usize;
+        let meaningless = status.refused | status.nonfinite;
+        Self {
+            refused: count(status.refused),
+            bounded: count(status.bounded),
+            nonfinite: count(status.nonfinite),
+            filtered: count(status.filtered),
+            first: (meaningless != 0).then(|| start + meaningless.trailing_zeros() as usize),
+        }
+    }
+
+    /// Whether the results of every point mean something.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.refused == 0 && self.nonfinite == 0
+    }
+}
+
+impl Add for Survey {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            refused: self.refused + other.refused,
+            bounded: self.bounded + other.bounded,
+            nonfinite: self.nonfinite + other.nonfinite,
+            filtered: self.filtered + other.filtered,
+            first: self.first.into_iter().chain(other.first).min(),
+        }
+    }
+}
+
+impl Sum for Survey {
+    fn sum<I: Iterator<Item = Self>>(surveys: I) -> Self {
+        surveys.fold(Self::default(), Add::add)
+    }
+}
