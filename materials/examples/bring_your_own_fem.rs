@@ -9,7 +9,7 @@
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use piola::batch::{Batch, Energy};
+use piola::batch::{Batch, TileMaterial};
 use piola::point::Filter;
 use piola_materials::NeoHookean;
 
@@ -53,7 +53,7 @@ const FREE: usize = 3 * FACE;
 ///
 /// Unknown 3n+a is coordinate a of node n, in m. Point 8e+q is Gauss point q of element e, in every slice.
 struct Bar<'a> {
-    material: &'a dyn Energy<f64>,
+    material: &'a dyn TileMaterial<f64>,
     /// Nodal positions at rest.
     X: DVector<f64>,
     elements: Vec<[usize; 8]>,
@@ -73,7 +73,7 @@ struct Slices {
 }
 
 impl<'a> Bar<'a> {
-    fn new(material: &'a dyn Energy<f64>) -> Result<Self> {
+    fn new(material: &'a dyn TileMaterial<f64>) -> Result<Self> {
         let [_, ny, nz] = CELLS;
         let node = |i: usize, j: usize, k: usize| FACE * i + (nz + 1) * j + k;
         // No element is a cube, so that ∂X/∂ξ differs from point to point.
@@ -148,7 +148,7 @@ impl<'a> Bar<'a> {
     fn linearise(&mut self, x: &DVector<f64>, filter: Filter) -> Result<(DVector<f64>, DMatrix<f64>)> {
         self.deform(x);
         let Slices { F, P, dP_dF, .. } = &mut self.slices;
-        let batch = Batch { filter, ..Batch::new(self.material) };
+        let batch = Batch::new(self.material).with_filter(filter);
         let survey = batch.tangents(F, P, dP_dF)?;
         if let Some(point) = survey.first {
             return Err(format!("point {point} is outside the domain of the material").into());

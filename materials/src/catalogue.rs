@@ -1,7 +1,7 @@
 //! The energies by name, for programs that choose a material at run time.
 
 use piola::Inversion;
-use piola::batch::Energy;
+use piola::batch::TileMaterial;
 use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
 
 use crate::{
@@ -187,10 +187,10 @@ impl Entry {
         &self,
         values: &[&[f64]],
         inversion: Inversion,
-    ) -> Result<Box<dyn Energy<f64>>, Inadmissible> {
+    ) -> Result<Box<dyn TileMaterial<f64>>, Inadmissible> {
         struct Boxed;
         impl Visitor for Boxed {
-            type Output = Box<dyn Energy<f64>>;
+            type Output = Box<dyn TileMaterial<f64>>;
             fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
                 Box::new(material)
             }

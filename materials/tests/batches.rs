@@ -5,9 +5,9 @@
 use std::sync::OnceLock;
 
 use piola::Inversion;
-use piola::batch::{Batch, Energy, Layout, Survey};
+use piola::batch::{Batch, TileMaterial, Layout, Survey};
 use piola::lanes::Backend;
-use piola::material::{Each, Mixed, Varying};
+use piola::material::{Graded, PerPoint, PerPointError};
 use piola::mesh::TetMesh;
 use piola::system::{Body, BodyError};
 use piola_materials::{Gent, NeoHookean, Ogden};
@@ -44,11 +44,11 @@ struct Answers {
 }
 
 fn answers(
-    energy: &dyn Energy<f64>,
+    energy: &dyn TileMaterial<f64>,
     backend: Backend,
     all: &[[f64; 9]],
 ) -> Result<Answers, Box<dyn std::error::Error>> {
-    let (batch, F) = (Batch { backend, ..Batch::new(energy) }, all.as_flattened());
+    let (batch, F) = (Batch::new(energy).with_backend(backend), all.as_flattened());
     let n = all.len();
     let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
     let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
@@ -62,9 +62,9 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|x| x.to_bits()).collect()
 }
 
-fn check_each<M: Varying>(materials: &[M]) -> Outcome {
+fn check_each<M: Graded>(materials: &[M]) -> Outcome {
     let all = deformations();
-    let each = Each::new(materials)?;
+    let each = PerPoint::new(materials)?;
     for backend in Backend::available() {
         let together = answers(&each, backend, &all)?;
         for (p, material) in materials.iter().enumerate() {
@@ -99,12 +99,12 @@ fn each_point_of_a_batch_gets_what_it_would_get_alone() -> Outcome {
 fn materials_must_fit_the_points_and_each_other() -> Outcome {
     let rubber = NeoHookean::new(1.0, 3.0)?;
     let three = [rubber; 3];
-    let each = Each::new(&three)?;
+    let each = PerPoint::new(&three)?;
     let error = Batch::<f64>::new(&each).energies(&[1.0; 18], &mut [0.0; 2]).expect_err("two points");
     assert!(error.to_string().contains("materials"), "{error}");
-    assert_eq!(Each::<NeoHookean>::new(&[]).err(), Some(Mixed { material: 0 }));
+    assert_eq!(PerPoint::<NeoHookean>::new(&[]).err(), Some(PerPointError::NoMaterial));
     let mixed = [rubber, rubber.with_inversion(EXTEND)?];
-    assert_eq!(Each::new(&mixed).err(), Some(Mixed { material: 1 }));
+    assert_eq!(PerPoint::new(&mixed).err(), Some(PerPointError::DifferentInversion { material: 1 }));
     Ok(())
 }
 
@@ -112,7 +112,7 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
 fn a_part_of_a_body_has_one_material() -> Outcome {
     static RUBBERS: OnceLock<[NeoHookean; 1]> = OnceLock::new();
     let rubber = NeoHookean::new(1.0, 3.0)?;
-    let each = Each::new(RUBBERS.get_or_init(|| [rubber]))?;
+    let each = PerPoint::new(RUBBERS.get_or_init(|| [rubber]))?;
     let tetrahedron = TetMesh {
         positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         tets: vec![[0, 1, 2, 3]],
@@ -165,7 +165,7 @@ fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
             let bound = 60.0 * f64::EPSILON / 2.0 * (norm(expected) + sensitivity);
             assert!(norm(&difference) <= bound, "point {p}, {backend}: {} > {bound}", norm(&difference));
         }
-        let lines = Batch { layout: Layout::Lines, ..batch };
+        let lines = batch.with_layout(Layout::Lines);
         let whole = COUNT / 8 * 8;
         let (mut F, mut P) = (vec![0.0; 9 * whole], vec![0.0; 9 * whole]);
         for (p, k) in (0..whole).flat_map(|p| (0..9).map(move |k| (p, k))) {

@@ -1,8 +1,8 @@
 //! Each point with parameters of its own gets what it would get alone.
 
-use piola::Inversion;
+use piola::{Inversion, Material};
 use piola::lanes::{Lanes, Pair};
-use piola::material::{Blocks, Each, Inadmissible, Varying};
+use piola::material::{Blocks, Graded, Inadmissible};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
 
 type Four = Pair<Pair<f64>>;
@@ -29,15 +29,13 @@ fn split(numbers: Four) -> [f64; 4] {
 }
 
 #[track_caller]
-fn check<M: Varying>(materials: [M; 4]) {
+fn check<M: Graded>(materials: [M; 4]) {
     let [stretches, strains] = [0.0, 1.0].map(|shift| STRETCHES.map(|l| Four::load(&l.map(|x| x - shift))));
     let each = |materials: &[M]| {
-        let materials = Each::new(materials).expect("they invert alike");
-        let gradients =
-            [M::gradient_of(&materials, stretches), M::gradient_at_strains_of(&materials, strains)];
-        let results =
-            bits(M::energy_of(&materials, stretches), gradients, M::blocks_of(&materials, stretches), split);
-        (results, Four::bits(M::admits_of(&materials, stretches)))
+        let material = M::on_lanes(|lane| &materials[lane.min(3)]);
+        let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];
+        let results = bits(material.energy(stretches), gradients, material.blocks(stretches), split);
+        (results, Four::bits(material.admits(stretches)))
     };
     let uniform = |material: &M| {
         let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];

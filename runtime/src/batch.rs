@@ -19,7 +19,7 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let rubber = Rubber::new(1e6, 4e6)?;
-//! let batch = Batch { filter: Filter::Clamp, ..Batch::new(&rubber) };
+//! let batch = Batch::new(&rubber).with_filter(Filter::Clamp);
 //! // Nine numbers for each of a thousand points, row by row: a simple shear.
 //! let F: Vec<f64> = [1.0, 0.2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
 //! let (mut P, mut dP_dF) = (vec![0.0; 9 * 1000], vec![0.0; 81 * 1000]);
@@ -50,7 +50,7 @@ use std::fmt;
 
 use crate::lanes::{Backend, PastCaches};
 use crate::point::Filter;
-use crate::status::{Status, Survey};
+use crate::status::{Status, StatusCell, Survey};
 
 #[cfg(feature = "system")]
 pub(crate) mod element;
@@ -84,6 +84,7 @@ use tile::first_bits;
 use workspace::{Line, Workspace};
 
 /// A material and how to compute with it.
+#[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Batch<'a, E> {
     /// The material of the points: a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
@@ -99,7 +100,7 @@ pub struct Batch<'a, E> {
     pub streams: bool,
     /// Whether the points are shared among the threads of rayon's pool.
     pub threads: bool,
-    statuses: &'a mut [Status],
+    statuses: &'a [StatusCell],
 }
 
 impl<'a, E: Stages> Batch<'a, E> {
@@ -113,7 +114,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             layout: Layout::Points,
             streams: false,
             threads: false,
-            statuses: &mut [],
+            statuses: &[],
         }
     }
 
@@ -151,7 +152,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// ```
     /// use piola::batch::Batch;
-    /// use piola::{Status, material};
+    /// use piola::{StatusCell, material};
     ///
     /// /// Rubber.
     /// #[material(domain(J > 0.0))]
@@ -162,14 +163,14 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let rubber = Rubber::new(1e6)?;
     /// let (rest, inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]);
-    /// let mut statuses = [Status::default(); 2];
-    /// let survey = Batch::new(&rubber).with_statuses(&mut statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
-    /// assert_eq!((survey.refused, statuses.map(|status| status.refused)), (1, [false, true]));
+    /// let statuses: [StatusCell; 2] = Default::default();
+    /// let survey = Batch::new(&rubber).with_statuses(&statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
+    /// assert_eq!((survey.refused, statuses.map(|status| status.get().refused)), (1, [false, true]));
     /// # Ok(())
     /// # }
     /// ```
     #[must_use]
-    pub fn with_statuses(self, statuses: &'a mut [Status]) -> Self {
+    pub fn with_statuses(self, statuses: &'a [StatusCell]) -> Self {
         Self { statuses, ..self }
     }
 
@@ -177,7 +178,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn energies(&mut self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
+    pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("energies", energies, 1)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
             let Workspace { F: lines, points, invariants, energies_by_invariants, energies: values, .. } =
@@ -208,7 +209,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn stresses(&mut self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
+    pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("P", P, 9)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
             let Workspace { F: lines, points, invariants, gradients, line, stress, .. } = workspace;
@@ -247,7 +248,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn tangents(&mut self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+    pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Full, F, P, ("dP_dF", dP_dF, 81))
     }
 
@@ -255,7 +256,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn packed_tangents(&mut self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+    pub fn packed_tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
     }
 
@@ -264,7 +265,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn factored_tangents(
-        &mut self,
+        &self,
         F: &[E],
         P: &mut [E],
         factors: &mut [E],
@@ -278,7 +279,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn energies_and_tangents(
-        &mut self,
+        &self,
         F: &[E],
         energies: &mut [E],
         P: &mut [E],
@@ -303,7 +304,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn products(&mut self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
+    pub fn products(&self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
         let inputs = [("factors", factors, FACTORS), ("dF", dF, 9)];
         self.run(inputs, [("dP", dP, 9)], |batch, tile| {
             let Workspace { dF: increments, factors: stored, line, .. } = tile.workspace;
@@ -333,7 +334,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn stiffnesses(
-        &mut self,
+        &self,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
@@ -348,7 +349,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn packed_stiffnesses(
-        &mut self,
+        &self,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
@@ -358,7 +359,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 
     fn respond(
-        &mut self,
+        &self,
         form: TangentForm,
         F: &[E],
         P: &mut [E],
@@ -373,7 +374,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 
     fn respond_elements(
-        &mut self,
+        &self,
         form: StiffnessForm,
         F: &[E],
         rest: &[E],
@@ -401,7 +402,7 @@ impl<'a, E: Stages> Batch<'a, E> {
 
     /// Computes every tile of slices, each given with its name and the components it holds for a point.
     fn run<const I: usize, const O: usize>(
-        &mut self,
+        &self,
         inputs: [(&'static str, &[E], usize); I],
         outputs: [(&'static str, &mut [E], usize); O],
         body: impl Fn(Call<'_, E>, Tile<'_, E, I, O>) -> Status<u64> + Sync,
@@ -436,7 +437,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         let work = Work {
             inputs: inputs.map(|(_, slice, components)| (slice, components)),
             outputs: outputs.map(|(_, slice, components)| (slice, components)),
-            statuses: &mut *self.statuses,
+            statuses: self.statuses,
         };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| body(call, tile)))
     }

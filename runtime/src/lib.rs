@@ -83,5 +83,5 @@ pub mod univariate;
 pub use lanes::Real;
 pub use material::{Inversion, Material};
 pub use piola_macros::material;
-pub use status::{Status, Survey};
+pub use status::{Status, StatusCell, Survey};
 pub use univariate::{Spline, Univariate};

@@ -2,6 +2,7 @@
 
 use std::iter::Sum;
 use std::ops::{Add, BitAnd, BitOr};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::lanes::Mask;
 
@@ -80,6 +81,28 @@ impl Status<u64> {
             nonfinite: bit(self.nonfinite),
             filtered: bit(self.filtered),
         }
+    }
+}
+
+/// Room for the status of a point of a batch, which any thread may write.
+#[derive(Debug, Default)]
+pub struct StatusCell(AtomicU8);
+
+impl StatusCell {
+    /// The status that was written last; clean before.
+    #[must_use]
+    pub fn get(&self) -> Status {
+        let bits = self.0.load(Ordering::Relaxed);
+        let bit = |k: u8| bits >> k & 1 == 1;
+        Status { refused: bit(0), bounded: bit(1), nonfinite: bit(2), filtered: bit(3) }
+    }
+
+    /// Replaces the status.
+    pub fn set(&self, status: Status) {
+        let Status { refused, bounded, nonfinite, filtered } = status;
+        let flags = [refused, bounded, nonfinite, filtered].into_iter().enumerate();
+        let bits = flags.fold(0, |bits, (k, flag)| bits | u8::from(flag) << k);
+        self.0.store(bits, Ordering::Relaxed);
     }
 }
 

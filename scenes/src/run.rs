@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use piola::batch::Energy;
+use piola::batch::TileMaterial;
 use piola::step::Simulation;
 
 use crate::error::Error;
@@ -129,7 +129,7 @@ struct Recording<'a> {
     /// What may become tiles, and the path up to there. Only the frames that `stride` divides are kept, and the last.
     candidates: Vec<(render::Frame, f64)>,
     /// The material where tetrahedra are written, too.
-    cages_of: Option<Box<dyn Energy<f64>>>,
+    cages_of: Option<Box<dyn TileMaterial<f64>>>,
     stride: usize,
 }
 
@@ -138,7 +138,7 @@ impl<'a> Recording<'a> {
         geometry: &'a Geometry,
         settings: &Settings,
         folder: Folder,
-        cages_of: Option<Box<dyn Energy<f64>>>,
+        cages_of: Option<Box<dyn TileMaterial<f64>>>,
     ) -> Self {
         Self {
             geometry,

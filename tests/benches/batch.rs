@@ -19,7 +19,7 @@ fn main() {
 fn batch<E: Stages>(bencher: Bencher<'_, '_>, call: &Call) {
     let Call { task, filter, material, backend } = *call;
     let (_, energy) = &materials::<E>()[material];
-    let batch = Batch { backend, filter, ..Batch::new(&**energy) };
+    let batch = Batch::new(&**energy).with_backend(backend).with_filter(filter);
     let mut arrays = Arrays::new(task, Layout::Lines, IN_CACHE);
     bencher.counter(ItemsCount::new(IN_CACHE)).bench_local(|| arrays.run(&batch));
 }

@@ -13,7 +13,7 @@
 use std::fmt;
 
 use piola::Material;
-use piola::batch::{Batch, Energy};
+use piola::batch::{Batch, TileMaterial};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
 
@@ -178,12 +178,12 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
 ///
 /// # Errors
 /// The first fault found.
-pub fn check_element(material: &dyn Energy<f64>, F: &Matrix3<f64>) -> Result<(), Fault> {
+pub fn check_element(material: &dyn TileMaterial<f64>, F: &Matrix3<f64>) -> Result<(), Fault> {
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     const FITS: &str = "the lengths are those of one point";
     let F = F.as_flattened();
     for filter in FILTERS {
-        let batch = Batch { filter, ..Batch::new(material) };
+        let batch = Batch::new(material).with_filter(filter);
         let (mut energy, mut stress) = ([0.0], [0.0; 9]);
         if batch.energies(F, &mut energy).expect(FITS).is_clean() {
             finite(Quantity::Energy, &energy)?;
@@ -249,7 +249,7 @@ pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, 
 pub fn check_single_accuracy(material: &impl Material, F: &Matrix3<f32>) -> Result<(), Fault> {
     let single = evaluate(material, F, Filter::None);
     let clean =
-        |status: piola::material::Status<bool>| !(status.refused || status.bounded || status.nonfinite);
+        |status: piola::Status<bool>| !(status.refused || status.bounded || status.nonfinite);
     let F = widen(F);
     let double = evaluate(material, &F, Filter::None);
     if !clean(single.status) || !clean(double.status) {

@@ -16,7 +16,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use piola::batch::Energy;
+use piola::batch::TileMaterial;
 use piola::material::Declared;
 use piola::point::Matrix3;
 use piola::random::Random;
@@ -92,7 +92,7 @@ trait Judged: Precision {
     /// `elements` is the same material as that of a body; `closely` asks for the judge that takes the longest, too.
     fn judge(
         material: &impl Material,
-        elements: &dyn Energy<f64>,
+        elements: &dyn TileMaterial<f64>,
         F: &Matrix3<Self>,
         closely: bool,
     ) -> Result<Answer, Fault>;
@@ -101,7 +101,7 @@ trait Judged: Precision {
 impl Judged for f64 {
     fn judge(
         material: &impl Material,
-        elements: &dyn Energy<f64>,
+        elements: &dyn TileMaterial<f64>,
         F: &Matrix3<Self>,
         _closely: bool,
     ) -> Result<Answer, Fault> {
@@ -116,7 +116,7 @@ impl Judged for f64 {
 impl Judged for f32 {
     fn judge(
         material: &impl Material,
-        _elements: &dyn Energy<f64>,
+        _elements: &dyn TileMaterial<f64>,
         F: &Matrix3<Self>,
         closely: bool,
     ) -> Result<Answer, Fault> {
@@ -169,7 +169,7 @@ impl Tally {
 
 /// One material at random patterns of bits.
 struct Trial<R> {
-    elements: Box<dyn Energy<f64>>,
+    elements: Box<dyn TileMaterial<f64>>,
     seed: u64,
     patterns: usize,
     precision: PhantomData<R>,
@@ -202,7 +202,7 @@ impl<R: Judged> Visitor for Trial<R> {
 
 fn judge<R: Judged>(
     material: &impl Material,
-    elements: &dyn Energy<f64>,
+    elements: &dyn TileMaterial<f64>,
     F: &Matrix3<R>,
     closely: bool,
 ) -> Result<Answer, Fault> {
@@ -212,7 +212,7 @@ fn judge<R: Judged>(
 /// A deformation with the same fault and simpler entries, for whoever has to find out why.
 fn simplest<R: Judged>(
     material: &impl Material,
-    elements: &dyn Energy<f64>,
+    elements: &dyn TileMaterial<f64>,
     mut F: Matrix3<R>,
     fault: Fault,
 ) -> Matrix3<R> {

@@ -1,7 +1,7 @@
 //! An extended energy restores a point: a free element, however collapsed or inverted, ends at a rotation of its rest shape.
 
 use piola::Inversion;
-use piola::batch::Energy;
+use piola::batch::TileMaterial;
 use piola::mesh::TetMesh;
 use piola::point::svd;
 use piola::step::{Damping, NewtonSettings, Settings, Simulation, StepError};
@@ -35,7 +35,7 @@ fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 }
 
 /// Minimises from F0 by long, damped time steps and returns the stretches at the end.
-fn relax(material: Box<dyn Energy<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
+fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
     let settings = Settings {

@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use piola::batch::Batch;
-use piola::material::{Declared, Each, Inadmissible, Moduli, Normalised};
+use piola::material::{Declared, Inadmissible, Moduli, Normalised, PerPoint};
 use piola::{Inversion, Material};
 use piola_materials::{Arap, Gent, MooneyRivlin, find};
 
@@ -65,7 +65,7 @@ fn a_batch_may_have_a_normalised_material_for_each_point() -> Result<(), Box<dyn
     ];
     let F = [1.2, 0.1, 0.0, -0.2, 0.9, 0.3, 0.1, 0.0, 1.1].repeat(materials.len());
     let mut together = vec![0.0; F.len()];
-    Batch::new(&Each::new(&materials)?).stresses(&F, &mut together)?;
+    Batch::new(&PerPoint::new(&materials)?).stresses(&F, &mut together)?;
     for (k, material) in materials.iter().enumerate() {
         let (mut alone, part) = (vec![0.0; 9], 9 * k..9 * (k + 1));
         Batch::new(material).stresses(&F[part.clone()], &mut alone)?;

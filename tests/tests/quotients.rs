@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use piola::material::{Inadmissible, PAIRS};
-use piola::quotient::pole_floor;
+use piola::__private::pole_floor;
 use piola::{Inversion, Material, Real};
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::declared::Declared;

@@ -16,7 +16,7 @@ use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::process::ExitCode;
 
-use piola::batch::{Batch, Energy, LengthError, Stages, Survey};
+use piola::batch::{Batch, TileMaterial, LengthError, Stages, Survey};
 use piola::lanes::Backend;
 use piola::material::{Declared, Status};
 use piola::point::Matrix3;
@@ -169,10 +169,10 @@ enum Verdict {
 fn in_single_precision(
     name: &str,
     values: &[&[f64]],
-) -> Result<Option<Box<dyn Energy<f32>>>, piola::material::Inadmissible> {
+) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::Inadmissible> {
     fn boxed<M: Declared + 'static>(
         values: &[&[f64]],
-    ) -> Result<Option<Box<dyn Energy<f32>>>, piola::material::Inadmissible> {
+    ) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::Inadmissible> {
         Ok(Some(Box::new(M::from_values(values, Inversion::Refuse)?)))
     }
     match name {
@@ -231,7 +231,7 @@ impl Judge<'_> {
     /// The same of a batch of one point, with every back end.
     fn batches<E: Stages>(
         self,
-        energy: &dyn Energy<E>,
+        energy: &dyn TileMaterial<E>,
         precision: &'static str,
         narrow: fn(f64) -> E,
         widen: fn(E) -> f64,
@@ -247,8 +247,8 @@ impl Judge<'_> {
             }
         };
         let judge = |backend| {
-            let plain = Batch { backend, ..Batch::new(energy) };
-            let clamped = Batch { filter: Filter::Clamp, ..plain };
+            let plain = Batch::new(energy).with_backend(backend);
+            let clamped = plain.with_filter(Filter::Clamp);
             let zero = narrow(0.0);
             let (mut psi, mut stress) = ([zero], [zero; 9]);
             let (mut stress_beside, mut tangent, mut projected) = ([zero; 9], [zero; 81], [zero; 81]);

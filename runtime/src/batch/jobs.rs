@@ -4,7 +4,7 @@ use super::stage::Stages;
 use super::tile::TILE;
 use super::workspace::Workspace;
 use crate::lanes::Element;
-use crate::status::{Status, Survey};
+use crate::status::{Status, StatusCell, Survey};
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 const GRAIN: usize = 8;
@@ -14,7 +14,7 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
     pub(super) inputs: [(&'a [E], usize); I],
     pub(super) outputs: [(&'a mut [E], usize); O],
     /// One for each point, or none at all.
-    pub(super) statuses: &'a mut [Status],
+    pub(super) statuses: &'a [StatusCell],
 }
 
 impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
@@ -38,7 +38,7 @@ impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
             (first, numbers)
         });
         let length = self.statuses.len().min(tiles * TILE);
-        let (statuses, later_statuses) = self.statuses.split_at_mut(length);
+        let (statuses, later_statuses) = self.statuses.split_at(length);
         (
             Self { inputs, outputs, statuses },
             Self { inputs: later_inputs, outputs: later_outputs, statuses: later_statuses },
@@ -96,8 +96,8 @@ fn one_after_the_other<E: Element, const I: usize, const O: usize>(
             inputs: tile.inputs.map(|(slice, _)| slice),
             outputs: tile.outputs.map(|(slice, _)| slice),
         });
-        for (point, to) in tile.statuses.iter_mut().enumerate() {
-            *to = status.of_point(point);
+        for (point, to) in tile.statuses.iter().enumerate() {
+            to.set(status.of_point(point));
         }
         survey = survey + Survey::of(status, start);
     }

@@ -99,7 +99,7 @@ fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
     let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
     let mut factors = zero(FACTORS);
     let mut all = All {
-        surveys: [Survey::NONE; 7],
+        surveys: [Survey::default(); 7],
         energies: zero(1),
         P: zero(9),
         P_with_tangent: zero(9),
@@ -152,7 +152,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
     let sample = Sample::<E>::new(200);
     for backend in Backend::available() {
         for filter in FILTERS {
-            let batch = Batch { filter, backend, ..Batch::new(material) };
+            let batch = Batch::new(material).with_filter(filter).with_backend(backend);
             let found = all(&batch, &sample);
             let mut worst = Worst::default();
             let mut refused = 0;
@@ -265,20 +265,20 @@ fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
     bits
 }
 
-fn check_bits<E: Number>(energy: &dyn Energy<E>) {
+fn check_bits<E: Number>(energy: &dyn TileMaterial<E>) {
     // Enough tiles for threads to share, in both layouts, the last one not full.
     const COUNT: usize = 64 * 20 + 16;
     let sample = Sample::<E>::new(COUNT);
     let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool of threads");
     for backend in Backend::available() {
-        let batch = Batch { filter: Filter::Clamp, backend, ..Batch::new(energy) };
+        let batch = Batch::new(energy).with_filter(Filter::Clamp).with_backend(backend);
         let points = all(&batch, &sample);
         let expected = bits(Layout::Points, &points, COUNT);
         for variant in [
-            Batch { layout: Layout::Lines, ..batch },
-            Batch { layout: Layout::Lines, streams: true, ..batch },
-            Batch { threads: true, ..batch },
-            Batch { threads: true, layout: Layout::Lines, ..batch },
+            batch.with_layout(Layout::Lines),
+            batch.with_layout(Layout::Lines).with_streams(true),
+            batch.with_threads(true),
+            batch.with_threads(true).with_layout(Layout::Lines),
         ] {
             let found = two_threads.install(|| all(&variant, &sample));
             assert_eq!(found.surveys, points.surveys, "{backend}");
@@ -311,7 +311,7 @@ fn a_survey_counts_and_names_the_first() {
     F[9 * 101] = f64::NAN;
     F[9 * 129] = f64::INFINITY;
     for backend in Backend::available() {
-        let batch = Batch { backend, ..Batch::new(&NeoHookean) };
+        let batch = Batch::new(&NeoHookean).with_backend(backend);
         let (mut P, mut dP_dF, mut energies) = (vec![0.0; 9 * 130], vec![0.0; 81 * 130], vec![0.0; 130]);
         for survey in [batch.energies(&F, &mut energies), batch.tangents(&F, &mut P, &mut dP_dF)] {
             let survey = survey.expect("lengths fit");
@@ -329,10 +329,10 @@ fn lengths_that_do_not_fit_are_errors() {
     assert_eq!(error.to_string(), "`P` has 17 numbers; 2 points of 9 numbers each would make 18");
     let error = batch.stresses(&[1.0; 17], &mut [0.0; 9]).unwrap_err();
     assert_eq!(error.slice, "F");
-    let lines = Batch { layout: Layout::Lines, ..batch };
+    let lines = batch.with_layout(Layout::Lines);
     let error = lines.stresses(&[1.0; 18], &mut [0.0; 18]).unwrap_err();
     assert!(error.to_string().ends_with("the layout in lines wants a multiple of 8 points"), "{error}");
-    assert_eq!(batch.stresses(&[], &mut []), Ok(Survey::NONE));
+    assert_eq!(batch.stresses(&[], &mut []), Ok(Survey::default()));
 }
 
 #[test]

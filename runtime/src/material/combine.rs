@@ -53,8 +53,8 @@ impl<A, B> Sum<A, B> {
 /// A multiple of an energy: s ψ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaled<M, P = f64> {
-    factor: P,
-    material: M,
+    pub(crate) factor: P,
+    pub(crate) material: M,
 }
 
 impl<M> Scaled<M> {
@@ -236,6 +236,52 @@ impl<M: Graded> Graded for Scaled<M> {
         Scaled {
             factor: PerLane::gather(|lane| material(lane).factor),
             material: M::on_lanes(|lane| &material(lane).material),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+    use crate::material::VolumetricPenalty;
+
+    const STRETCHES: [f64; 3] = [1.3, 0.9, 0.7];
+
+    #[test]
+    fn every_response_of_a_sum_is_the_sum_of_its_parts() {
+        let sum = Sum::new(NeoHookean, Scaled::new(2.0, SaintVenantKirchhoff).expect("finite"));
+        let parts = [NeoHookean.blocks(STRETCHES), SaintVenantKirchhoff.blocks(STRETCHES)];
+        let (energy, blocks) = sum.energy_and_blocks(STRETCHES);
+        assert_eq!(energy, NeoHookean.energy(STRETCHES) + 2.0 * SaintVenantKirchhoff.energy(STRETCHES));
+        assert_eq!(sum.gradient(STRETCHES), blocks.gradient);
+        for k in 0..3 {
+            assert_eq!(blocks.gradient[k], parts[0].gradient[k] + 2.0 * parts[1].gradient[k]);
+            assert_eq!(blocks.flip[k], parts[0].flip[k] + 2.0 * parts[1].flip[k]);
+            assert_eq!(blocks.twist[k], parts[0].twist[k] + 2.0 * parts[1].twist[k]);
+        }
+        for k in 0..6 {
+            assert_eq!(blocks.hessian[k], parts[0].hessian[k] + 2.0 * parts[1].hessian[k]);
+        }
+    }
+
+    #[test]
+    fn a_sum_is_defined_where_both_parts_are() {
+        let inverted = [1.3, 0.9, -0.7];
+        let everywhere = Sum::new(RotatedLinear, VolumetricPenalty::new(1.0).expect("admissible"));
+        assert!(everywhere.admits(inverted) && everywhere.inversion() == Inversion::Refuse);
+        let refusing = Sum::new(RotatedLinear, NeoHookean);
+        assert!(!refusing.admits(inverted) && refusing.ends_at_zero_volume());
+        let extended = Sum::new(RotatedLinear, ExtendedNeoHookean { epsilon: 0.2 });
+        assert!(extended.admits(inverted) && extended.inversion() == Inversion::Extend { epsilon: 0.2 });
+        let half = Sum::new(ExtendedNeoHookean { epsilon: 0.2 }, NeoHookean);
+        assert!(!half.admits(inverted) && half.inversion() == Inversion::Refuse);
+    }
+
+    #[test]
+    fn an_infinite_factor_is_refused() {
+        for factor in [f64::NAN, f64::INFINITY] {
+            assert!(matches!(Scaled::new(factor, NeoHookean), Err(Inadmissible::NotFinite { .. })));
         }
     }
 }

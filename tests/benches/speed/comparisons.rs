@@ -3,7 +3,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 use piola::Material;
-use piola::batch::{Batch, Energy, Layout, Stages};
+use piola::batch::{Batch, TileMaterial, Layout, Stages};
 use piola::lanes::Backend;
 use piola_materials::{NeoHookean, StVenantKirchhoff};
 use piola_speed::{Arrays, Effort, IN_CACHE, LAMBDA, MU, Task, Times, materials, ogden, time_in_turns};
@@ -27,7 +27,7 @@ pub(crate) fn hand_written(effort: Effort) -> String {
 fn hand_written_in<E: Stages>(effort: Effort, task: Task, table: &mut String) {
     let stvk = hand_written::StVenantKirchhoff { mu: MU, lambda: LAMBDA };
     let neo_hookean = hand_written::NeoHookean { mu: MU, lambda: LAMBDA };
-    let by_hand: [&dyn Energy<E>; 2] = [&stvk, &neo_hookean];
+    let by_hand: [&dyn TileMaterial<E>; 2] = [&stvk, &neo_hookean];
     for (by_hand, (name, generated)) in by_hand.into_iter().zip(&materials::<E>()) {
         let times = side_by_side(effort, task, [&Batch::new(by_hand), &Batch::new(&**generated)]);
         compare(table, &[task.name(), std::any::type_name::<E>(), name], times);
@@ -51,7 +51,7 @@ pub(crate) fn paper(effort: Effort) -> String {
 fn paper_of(
     effort: Effort,
     material: &impl Material,
-    (name, energy): &(&'static str, Box<dyn Energy<f64>>),
+    (name, energy): &(&'static str, Box<dyn TileMaterial<f64>>),
     table: &mut String,
 ) {
     let mut points = PointByPoint::new();

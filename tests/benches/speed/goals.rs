@@ -54,7 +54,7 @@ fn decomposition<E: Stages>(effort: Effort, goal: f64, table: &mut String) {
 
 fn kernel<E: Stages>(effort: Effort, task: Task, filter: Filter, goals: [f64; 3], table: &mut String) {
     for ((name, energy), goal) in materials::<E>().iter().zip(goals) {
-        let batch = Batch { filter, ..Batch::new(&**energy) };
+        let batch = Batch::new(&**energy).with_filter(filter);
         let [lines, points] =
             [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, task, layout, &batch));
         let figure = format!("{}, {name}", task.label(filter));

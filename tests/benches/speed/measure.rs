@@ -1,6 +1,6 @@
 //! One configuration at a time.
 
-use piola::batch::{Batch, Energy, Layout, Stages};
+use piola::batch::{Batch, TileMaterial, Layout, Stages};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};
@@ -30,11 +30,11 @@ impl Streamed {
 pub(crate) fn streaming<E: Stages>(
     effort: Effort,
     arrays: &mut Arrays<E>,
-    energy: &dyn Energy<E>,
+    energy: &dyn TileMaterial<E>,
     filter: Filter,
 ) -> Streamed {
-    let batch = Batch { filter, ..Batch::new(energy) };
-    let streaming = Batch { streams: true, ..batch };
+    let batch = Batch::new(energy).with_filter(filter);
+    let streaming = batch.with_streams(true);
     let traffic = traffic(effort, arrays);
     let stored = time(effort, STREAMING, || arrays.run(&batch));
     let past_caches = time(effort, STREAMING, || arrays.run(&streaming));

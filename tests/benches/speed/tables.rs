@@ -40,7 +40,7 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
         for &filter in task.filters() {
             let mut cells = vec![task.label(filter)];
             for (_, energy) in task.materials(&materials) {
-                let batch = Batch { backend, filter, ..Batch::new(&**energy) };
+                let batch = Batch::new(&**energy).with_backend(backend).with_filter(filter);
                 for layout in [Layout::Lines, Layout::Points] {
                     cells.push(cell(measure_in_cache(effort, task, layout, &batch)));
                 }

@@ -44,7 +44,7 @@ impl<E: Stages> Arrays<E> {
 
     /// Does the task with the material, filter and back end of a batch.
     pub fn run(&mut self, batch: &Batch<'_, E>) {
-        let batch = Batch { layout: self.layout, ..*batch };
+        let batch = batch.with_layout(self.layout);
         black_box(self.call(&batch)).expect("slices of matching lengths");
         black_box(&self.outputs);
     }

@@ -1,5 +1,6 @@
 //! Two numbers side by side: the kernels compile over them, and give each the bits it would get alone.
 
+use crate::material::Material;
 use super::measures::every_number;
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
@@ -46,7 +47,7 @@ fn compare(alone: [Point<f64>; 2], both: &Point<Two>) {
             let same = alone.to_bits() == both.to_bits() || (alone.is_nan() && both.is_nan());
             assert!(same, "{alone:e} became {both:e}");
         }
-        assert_eq!(alone.filtered, is_set(both.filtered, k));
+        assert_eq!(alone.status.filtered, is_set(both.status.filtered, k));
         assert_eq!(alone.status.bounded, is_set(both.status.bounded, k));
         assert_eq!(alone.status.refused, is_set(both.status.refused, k));
         assert_eq!(alone.status.nonfinite, is_set(both.status.nonfinite, k));

@@ -36,7 +36,7 @@ fn assembled(layout: Layout, packed: bool) -> Vec<f64> {
         .collect();
     let (F, rest) = (lay(layout, 9, &F), lay(layout, REST, &rest));
     let points = F.len() / 9;
-    let batch = Batch { filter: Filter::Clamp, layout, threads: true, ..Batch::new(&KIRCHHOFF) };
+    let batch = Batch::new(&KIRCHHOFF).with_filter(Filter::Clamp).with_layout(layout).with_threads(true);
     let mut gradients = vec![0.0; 12 * points];
     let mut matrix = BlockMatrix::new(positions.len(), &mesh.tets, &Pins::at([5, 17])).expect("small");
     if packed {

@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F, P, K as in the literature")]
 
 use piola::Real;
-use piola::batch::{Batch, Energy, Layout, Stages};
+use piola::batch::{Batch, TileMaterial, Layout, Stages};
 use piola::lanes::{Backend, Element, Kernel, Lanes};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd};
@@ -165,10 +165,10 @@ pub(crate) struct Contestant<E> {
 
 impl<E: Number> Contestant<E> {
     /// A batch of a material.
-    pub(crate) fn batch(label: Label, material: impl Energy<E> + 'static, filter: Filter) -> Self {
+    pub(crate) fn batch(label: Label, material: impl TileMaterial<E> + 'static, filter: Filter) -> Self {
         let run = move |points: &Points<E>, output: &mut Output<E>| {
             let layout = Layout::Lines;
-            let batch = Batch { filter, layout, ..Batch::new(&material) };
+            let batch = Batch::new(&material).with_filter(filter).with_layout(layout);
             let survey = batch.tangents(&points.lines, &mut output.P, &mut output.K);
             // What a survey complains of, the reference judges too.
             survey.expect("the slices fit the points");

@@ -98,7 +98,7 @@ impl<'a, E: Stages> Flight<'a, E> {
         let numbers = |count: usize| vec![E::default(); count * elements];
         Ok(Self {
             body,
-            batch: Batch { filter: Filter::Clamp, ..Batch::new(material) },
+            batch: Batch::new(material).with_filter(Filter::Clamp),
             narrow,
             widen,
             rest: rest.collect(),

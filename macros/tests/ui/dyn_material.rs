@@ -1,0 +1,7 @@
+//! A material behind `dyn` is a `DynMaterial`: the compiler's message for the wrong trait shows the right one.
+
+use piola::Material;
+
+fn stiffest(_: &[Box<dyn Material>]) {}
+
+fn main() {}
