@@ -246,7 +246,7 @@ pub struct Substance {
     /// Its parameters.
     pub parameters: Parameters,
     /// What elements see of it.
-    pub elements: Box<dyn batch::Energy<f64>>,
+    pub elements: Box<dyn batch::TileMaterial<f64>>,
     /// Its small-strain moduli.
     pub moduli: Moduli,
 }
