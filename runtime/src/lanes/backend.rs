@@ -7,7 +7,11 @@
 
 use std::fmt;
 
-use super::{Element, Lanes, Pair, PastCaches};
+use super::non_temporal::PastCaches;
+use super::pair::Pair;
+use super::vector::{Element, InstructionSet, Lanes};
+#[cfg(target_arch = "x86_64")]
+use super::x86::{F32x8, F32x16, F64x4, F64x8};
 
 /// A computation with lanes of any back end.
 ///
@@ -86,7 +90,31 @@ impl Backend {
     /// Runs a kernel with the lanes of this back end.
     #[inline]
     pub fn run<E: Element, K: Kernel<E>>(self, kernel: K) -> K::Output {
-        E::run(self, kernel)
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+            fn with_avx512<E: Element, K: Kernel<E>>(kernel: K) -> K::Output {
+                align_stack();
+                kernel.run::<E::In<Avx512>>()
+            }
+
+            #[target_feature(enable = "avx2,fma")]
+            fn with_avx2<E: Element, K: Kernel<E>>(kernel: K) -> K::Output {
+                align_stack();
+                kernel.run::<E::In<Avx2>>()
+            }
+
+            match self.0 {
+                // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
+                Instructions::Avx512 => return unsafe { with_avx512(kernel) },
+                // SAFETY: as above.
+                Instructions::Avx2 => return unsafe { with_avx2(kernel) },
+                Instructions::Portable => {}
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        let Instructions::Portable = self.0;
+        kernel.run::<E::In<Portable>>()
     }
 
     /// Copies numbers past the caches where these instructions can and both slices consist of whole aligned registers,
@@ -139,38 +167,30 @@ fn align_stack() {
     std::hint::black_box(&line.0);
 }
 
-macro_rules! runners {
-    ($run:ident, $Number:ident, $F512:ident, $F256:ident, $Portable:ty) => {
-        #[inline]
-        pub(super) fn $run<K: Kernel<$Number>>(backend: Backend, kernel: K) -> K::Output {
-            #[cfg(target_arch = "x86_64")]
-            {
-                #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
-                fn with_avx512<K: Kernel<$Number>>(kernel: K) -> K::Output {
-                    align_stack();
-                    kernel.run::<super::x86::$F512>()
-                }
+/// The registers of AVX-512.
+#[cfg(target_arch = "x86_64")]
+struct Avx512;
 
-                #[target_feature(enable = "avx2,fma")]
-                fn with_avx2<K: Kernel<$Number>>(kernel: K) -> K::Output {
-                    align_stack();
-                    kernel.run::<super::x86::$F256>()
-                }
-
-                match backend.0 {
-                    // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
-                    Instructions::Avx512 => return unsafe { with_avx512(kernel) },
-                    // SAFETY: as above.
-                    Instructions::Avx2 => return unsafe { with_avx2(kernel) },
-                    Instructions::Portable => {}
-                }
-            }
-            #[cfg(not(target_arch = "x86_64"))]
-            let Instructions::Portable = backend.0;
-            kernel.run::<$Portable>()
-        }
-    };
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for Avx512 {
+    type F64 = F64x8;
+    type F32 = F32x16;
 }
 
-runners!(run_f64, f64, F64x8, F64x4, Pair<f64>);
-runners!(run_f32, f32, F32x16, F32x8, Pair<Pair<f32>>);
+/// The registers of AVX2.
+#[cfg(target_arch = "x86_64")]
+struct Avx2;
+
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for Avx2 {
+    type F64 = F64x4;
+    type F32 = F32x8;
+}
+
+/// The lanes of every processor.
+struct Portable;
+
+impl InstructionSet for Portable {
+    type F64 = Pair<f64>;
+    type F32 = Pair<Pair<f32>>;
+}

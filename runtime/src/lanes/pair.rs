@@ -1,18 +1,20 @@
-//! Two of a kind, and pairs of pairs.
+//! Two of a kind side by side, and pairs of pairs.
 //!
-//! Of scalars they are the portable back end, which a compiler turns into what vector instructions the target has. Of
-//! registers they are interleaving: independent batches in one body keep a processor busy while each waits for its own
-//! last result.
+//! Pairs of scalars are the portable back end, which a compiler turns into the vector instructions of its target.
+//! Pairs of registers are interleaved: independent batches in one body keep a processor busy while each waits for its
+//! own last result.
 //!
-//! A structure and not an array, because a kernel has thousands of operations, and each would be a loop: compilers take minutes to
-//! unroll so many.
+//! A structure and not an array, because a kernel has thousands of operations, and each would be a loop: compilers take
+//! minutes to unroll so many.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use super::elementary::elementary_functions;
 use super::primitive::Primitive;
-use super::{Element, Mask};
+use super::real::{Mask, Real};
+use super::vector::{Element, Lanes};
 
-/// Two numbers, two registers, or two pairs.
+/// Two scalars, two registers, or two pairs, with the lanes of both.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<T>(T, T);
 
@@ -57,7 +59,7 @@ impl<M: Mask> Mask for Pair<M> {
     }
 }
 
-/// Operations that each half does by itself.
+/// Operations that act on each half separately.
 macro_rules! halves {
     ($($method:ident($($other:ident),*)),* $(,)?) => {$(
         #[inline(always)]
@@ -67,66 +69,83 @@ macro_rules! halves {
     )*};
 }
 
-impl<P: Primitive> Primitive for Pair<P> {
-    type Choice = Pair<P::Choice>;
-    type Format = P::Format;
+impl<P: Primitive + Lanes> Real for Pair<P> {
+    type Mask = Pair<P::Mask>;
+    const UNIT_ROUNDOFF: f64 = P::UNIT_ROUNDOFF;
+    const MIN_POSITIVE: f64 = P::MIN_POSITIVE;
+
+    elementary_functions!();
+    halves! { sqrt(), reciprocal_sqrt(), rough_sqrt(), abs(), max(other), min(other), copysign(sign) }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(P::splat(value), P::splat(value))
+    }
+
+    #[inline(always)]
+    fn from_fn(value: impl Fn(usize) -> f64) -> Self {
+        Self(P::from_fn(&value), P::from_fn(|lane| value(P::LANES + lane)))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        // Not by halves where there are two instructions: alike ones side by side are what a compiler vectorises.
+        if !P::IS_FUSED {
+            return self * factor + addend;
+        }
+        Self(self.0.mul_add(factor.0, addend.0), self.1.mul_add(factor.1, addend.1))
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        Pair(self.0.less(other.0), self.1.less(other.1))
+    }
+
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(P::select(mask.0, yes.0, no.0), P::select(mask.1, yes.1, no.1))
+    }
+}
+
+impl<P: Primitive + Lanes> Lanes for Pair<P> {
+    type Element = P::Element;
     type Interleaved = Self;
-    const COUNT: usize = 2 * P::COUNT;
+    const LANES: usize = 2 * P::LANES;
+
+    #[inline(always)]
+    fn load(from: &[P::Element]) -> Self {
+        let (first, second) = from[..Self::LANES].split_at(P::LANES);
+        Self(P::load(first), P::load(second))
+    }
+
+    #[inline(always)]
+    fn load_lines(from: &[P::Element], components: usize) -> Self {
+        let line = P::Element::LINE;
+        let second = P::LANES / line * components * line + P::LANES % line;
+        Self(P::load_lines(from, components), P::load_lines(&from[second..], components))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [P::Element]) {
+        let (first, second) = to[..Self::LANES].split_at_mut(P::LANES);
+        self.0.store(first);
+        self.1.store(second);
+    }
+
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> u64 {
+        P::bits(mask.1) << P::LANES | P::bits(mask.0)
+    }
+}
+
+impl<P: Primitive + Lanes> Primitive for Pair<P> {
     const IS_FUSED: bool = P::IS_FUSED;
 
-    halves! {
-        fused(factor, addend), root(), reciprocal_root(), rough_root(), magnitude(), larger(other), smaller(other),
-        with_sign(sign), scale(exponent), leading_power(), reciprocal_of_power(),
-    }
+    halves! { scale(exponent), leading_power(), reciprocal_of_power() }
 
     #[inline(always)]
-    fn fill(value: f64) -> Self {
-        Self(P::fill(value), P::fill(value))
-    }
-
-    #[inline(always)]
-    fn each(value: impl Fn(usize) -> f64) -> Self {
-        Self(P::each(&value), P::each(|lane| value(P::COUNT + lane)))
-    }
-
-    #[inline(always)]
-    fn read(from: &[P::Format]) -> Self {
-        let (first, second) = from[..Self::COUNT].split_at(P::COUNT);
-        Self(P::read(first), P::read(second))
-    }
-
-    #[inline(always)]
-    fn read_lines(from: &[P::Format], numbers: usize) -> Self {
-        let line = P::Format::LINE;
-        let second = P::COUNT / line * numbers * line + P::COUNT % line;
-        Self(P::read_lines(from, numbers), P::read_lines(&from[second..], numbers))
-    }
-
-    #[inline(always)]
-    fn write(self, to: &mut [P::Format]) {
-        let (first, second) = to[..Self::COUNT].split_at_mut(P::COUNT);
-        self.0.write(first);
-        self.1.write(second);
-    }
-
-    #[inline(always)]
-    fn choice_bits(choice: Self::Choice) -> u64 {
-        P::choice_bits(choice.1) << P::COUNT | P::choice_bits(choice.0)
-    }
-
-    #[inline(always)]
-    fn is_less(self, other: Self) -> Self::Choice {
-        Pair(self.0.is_less(other.0), self.1.is_less(other.1))
-    }
-
-    #[inline(always)]
-    fn is_zero(self) -> Self::Choice {
+    fn is_zero(self) -> Self::Mask {
         Pair(self.0.is_zero(), self.1.is_zero())
-    }
-
-    #[inline(always)]
-    fn choose(choice: Self::Choice, yes: Self, no: Self) -> Self {
-        Self(P::choose(choice.0, yes.0, no.0), P::choose(choice.1, yes.1, no.1))
     }
 
     #[inline(always)]

@@ -1,0 +1,103 @@
+//! Lanes and their number formats: what a kernel loads, computes with and stores.
+
+use std::fmt::Debug;
+
+use super::non_temporal::PastCaches;
+use super::primitive::Primitive;
+use super::real::Real;
+
+/// Lanes of one number format: a [`Real`] that is loaded from slices and stored to them.
+pub trait Lanes: Real {
+    /// The number format of a lane.
+    type Element: Element;
+
+    /// Several registers that take turns, for kernels whose operations wait for each other.
+    ///
+    /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the fastest
+    /// for the singular value decomposition; an array of numbers is its own.
+    type Interleaved: Lanes<Element = Self::Element>;
+
+    /// The number of lanes.
+    const LANES: usize;
+
+    /// Loads the first [`LANES`](Self::LANES) entries of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load(from: &[Self::Element]) -> Self;
+
+    /// Loads one component of consecutive points from blocks of [`LINE`](Element::LINE) points, in which the
+    /// `components` of a point lie a line apart: lane i comes from entry i % LINE of block i / LINE, that is from
+    /// `from[i / LINE * components * LINE + i % LINE]`.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    #[inline(always)]
+    fn load_lines(from: &[Self::Element], components: usize) -> Self {
+        // A register is no longer than a line.
+        let _ = components;
+        Self::load(from)
+    }
+
+    /// Stores the lanes into the first [`LANES`](Self::LANES) entries of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn store(self, to: &mut [Self::Element]);
+
+    /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of whole
+    /// aligned registers; otherwise through the caches.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    #[inline]
+    fn stream(from: &[Self::Element], to: &mut [Self::Element], order: &PastCaches) {
+        let _ = order;
+        to.copy_from_slice(from);
+    }
+
+    /// Transposes a matrix: entry (i, j) of the given size from `from[i from_stride + j]` to `to[j to_stride + i]`.
+    ///
+    /// # Panics
+    /// If an entry lies outside of its slice.
+    #[inline(never)]
+    fn transpose(
+        [rows, columns]: [usize; 2],
+        from: &[Self::Element],
+        from_stride: usize,
+        to: &mut [Self::Element],
+        to_stride: usize,
+    ) {
+        for i in 0..rows {
+            for j in 0..columns {
+                to[j * to_stride + i] = from[i * from_stride + j];
+            }
+        }
+    }
+
+    /// A mask as bits: bit i is set if lane i is.
+    fn bits(mask: Self::Mask) -> u64;
+}
+
+/// A format of floating-point numbers: `f64` or `f32`.
+pub trait Element:
+    Primitive + Lanes<Element = Self, Mask = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
+{
+    /// How many numbers fill a cache line of 64 bytes; blocks of points are laid out in such lines.
+    const LINE: usize;
+
+    /// The lanes of this format in a set of instructions.
+    ///
+    /// Safe code outside of this crate must not name registers that the processor may not have. It cannot, since it
+    /// has no name for any `I`.
+    #[doc(hidden)]
+    type In<I: InstructionSet>: Lanes<Element = Self>;
+}
+
+/// A set of instructions, by its lanes for each number format.
+pub trait InstructionSet {
+    /// Lanes of double precision.
+    type F64: Lanes<Element = f64>;
+    /// Lanes of single precision.
+    type F32: Lanes<Element = f32>;
+}
