@@ -1,15 +1,16 @@
 //! The real numbers that every kernel and every generated material computes with.
 //!
-//! A kernel is written once over [`Real`] and instantiated for `f64` and `f32`, for batches of them side by side in the
-//! registers of a processor ([`Lanes`]), and for multiprecision types in tests. So a `Real` may be many numbers at once:
-//! there is no comparison that yields a `bool`, only masks, and no branch on a value, only [`Real::select`].
+//! A kernel is written once over [`Real`] and instantiated for `f64` and `f32`, for several of them side by
+//! side in the registers of a processor ([`Lanes`]), and for multiprecision types in tests. So a `Real` may
+//! be many numbers at once: there is no comparison that yields a `bool`, only masks, and no branch on a
+//! value, only [`Real::select`].
 //!
-//! How wide the registers are is known at run time only. A [`Kernel`] is what wants to compute with lanes; a [`Backend`],
-//! AVX-512, AVX2 or portable, runs it with a type of its own. Scalars and lanes share all code above the operations of
-//! IEEE arithmetic, elementary functions included, and no number depends on its neighbours: within a back end a
-//! number gets the same bits in any lane.
+//! The width of the registers is known at run time only. A [`Kernel`] is a computation written for any lanes;
+//! a [`Backend`], AVX-512, AVX2 or portable, runs it with its own. Scalars and lanes share all code above the
+//! operations of IEEE arithmetic, elementary functions included, and no lane depends on its neighbours:
+//! within a back end a number gets the same bits in any lane.
 //!
-//! This module knows numbers only: no matrices, no materials. It is the only one with unsafe code.
+//! This module has no matrices and no materials. It is the only one with unsafe code.
 
 mod backend;
 mod elementary;

@@ -1,8 +1,11 @@
-//! Which instructions a kernel runs with, decided at run time.
+//! Choice of the instructions that a kernel runs with, at run time.
 
 #![cfg_attr(
     target_arch = "x86_64",
-    expect(unsafe_code, reason = "calls of functions compiled for a processor that was asked for")
+    expect(
+        unsafe_code,
+        reason = "calls of functions compiled for instructions that the processor was found to have"
+    )
 )]
 
 use std::fmt;
@@ -13,19 +16,19 @@ use super::vector::{Element, InstructionSet, Lanes};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{F32x8, F32x16, F64x4, F64x8};
 
-/// A computation with lanes of any back end.
+/// A computation written for the lanes of any back end.
 ///
-/// `run` must be `#[inline(always)]`, and so must everything it does arithmetic with, because only what is inlined
+/// `run` must be `#[inline(always)]`, and so must all arithmetic that it calls: only code that is inlined
 /// into the function of the back end is compiled for its instructions.
 pub trait Kernel<E: Element> {
-    /// What it computes.
+    /// The result of the computation.
     type Output;
 
     /// Computes with lanes of type `R`.
     fn run<R: Lanes<Element = E>>(self) -> Self::Output;
 }
 
-/// Instructions to compute with. A value of this type says that the processor has them.
+/// A set of instructions that this processor has, to run kernels with.
 ///
 /// ```
 /// use piola::lanes::Backend;
@@ -53,7 +56,7 @@ impl Backend {
         Self::available().next().unwrap_or(Self::portable())
     }
 
-    /// What every processor has: arrays of numbers, vectorised as far as the compiler does for its target.
+    /// The back end of every processor: arrays of numbers, which the compiler vectorises for its target.
     #[must_use]
     pub const fn portable() -> Self {
         Self(Instructions::Portable)
@@ -75,7 +78,7 @@ impl Backend {
         vector.into_iter().flatten().chain([Instructions::Portable]).map(Self)
     }
 
-    /// `AVX-512`, `AVX2` or `portable`.
+    /// Name of the back end: `AVX-512`, `AVX2` or `portable`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self.0 {
@@ -117,8 +120,7 @@ impl Backend {
         kernel.run::<E::In<Portable>>()
     }
 
-    /// Copies numbers past the caches where these instructions can and both slices consist of whole aligned registers,
-    /// else as any copy: for comparison with what a kernel writes.
+    /// Copies a slice by [`Lanes::stream`], for benchmarks: the traffic of a kernel's output alone.
     ///
     /// ```
     /// let (from, mut to) = ([1.0, 2.0, 3.0], [0.0; 3]);
@@ -127,7 +129,7 @@ impl Backend {
     /// ```
     ///
     /// # Panics
-    /// Where the lengths differ.
+    /// If the lengths differ.
     pub fn copy_past_caches<E: Element>(self, from: &[E], to: &mut [E]) {
         struct Copy<'a, E>(&'a [E], &'a mut [E]);
         impl<E: Element> Kernel<E> for Copy<'_, E> {
@@ -154,10 +156,10 @@ impl fmt::Display for Backend {
     }
 }
 
-/// Makes the compiler align the stack frame of the function around to the widest register.
+/// Makes the compiler align the stack frame of the calling function to the widest register.
 ///
-/// It does so for variables that want it, not for the registers that it stores there for want of room: without this most of
-/// them would lie across two cache lines, and a kernel take half as long again.
+/// Compilers align a frame for variables that ask for it, not for spilled registers. Unaligned, most of these
+/// cross the border of a cache line, and a kernel takes half as long again.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn align_stack() {

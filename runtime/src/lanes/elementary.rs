@@ -1,14 +1,15 @@
 //! Exponential, logarithm, powers and the cube root, written once for scalars and lanes.
 //!
-//! A power is e^(y ln x), and an error of the logarithm is multiplied by y ln x, which reaches 745. So logarithms come
-//! with ten more digits than the format has, as an unevaluated sum of two numbers, and one of them serves all
-//! powers of a base. There are no tables, since lanes would have to gather from them, and no branch.
+//! A power is e^(y ln x), and an error of the logarithm is multiplied by y ln x, which reaches 745. So
+//! logarithms come with ten more digits than the format has, as an unevaluated sum of two numbers, and one of
+//! them serves all powers of a base. There are no tables, since lanes would have to gather from them, and no
+//! branch.
 //!
-//! Coefficients are minimax fits of the series' tails on the stated intervals. The leading terms stay exact, so that
-//! the functions are exact where they should be: ln 1 = 0, e⁰ = 1, x⁰ = 1, 1ʸ = 1, ∛(n³) = n.
+//! Coefficients are minimax fits of the series' tails on the stated intervals. The leading terms stay exact,
+//! so that the functions are exact where they should be: ln 1 = 0, e⁰ = 1, x⁰ = 1, 1ʸ = 1, ∛(n³) = n.
 //!
-//! Errors, in units in the last place, hold with and without a fused multiply-add: without it a product whose own
-//! error matters is taken apart. `tests/elementary.rs` of the judge measures them.
+//! Errors, in units in the last place, hold with and without a fused multiply-add: without it a product whose
+//! own error matters is taken apart. `tests/elementary.rs` of the judge measures them.
 //!
 //! \[CW80\] Cody, Waite, *Software Manual for the Elementary Functions*, 1980, for the splitting of ln 2.
 //! \[Dekker71\] Dekker, *A floating-point technique for extending the available precision*, 1971.

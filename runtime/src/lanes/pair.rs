@@ -1,11 +1,11 @@
 //! Two of a kind side by side, and pairs of pairs.
 //!
-//! Pairs of scalars are the portable back end, which a compiler turns into the vector instructions of its target.
-//! Pairs of registers are interleaved: independent batches in one body keep a processor busy while each waits for its
-//! own last result.
+//! Pairs of scalars are the portable back end, which a compiler turns into the vector instructions of its
+//! target. Pairs of registers are interleaved: independent batches in one body keep a processor busy while
+//! each waits for its own last result.
 //!
-//! A structure and not an array, because a kernel has thousands of operations, and each would be a loop: compilers take
-//! minutes to unroll so many.
+//! A structure and not an array, because a kernel has thousands of operations, and each would be a loop:
+//! compilers take minutes to unroll so many.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -89,7 +89,7 @@ impl<P: Primitive + Lanes> Real for Pair<P> {
 
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        // Not by halves where there are two instructions: alike ones side by side are what a compiler vectorises.
+        // Two instructions go side by side, not half by half, so that the compiler finds pairs to vectorise.
         if !P::IS_FUSED {
             return self * factor + addend;
         }

@@ -40,7 +40,7 @@ pub(super) fn lift<P: Primitive>(x: P) -> (P, P) {
     (P::select(is_tiny, x * P::splat(power), x), P::select(is_tiny, P::splat(exponent), P::splat(0.0)))
 }
 
-/// `exponent` if x is finite and positive, else the exponent that [`Primitive::split`] promises for such an x.
+/// `exponent` if x is finite and positive, else the exponent that [`Primitive::split`] promises for x.
 #[inline(always)]
 pub(super) fn exponent_or_limit<P: Primitive>(x: P, exponent: P) -> P {
     let zero = P::splat(0.0);

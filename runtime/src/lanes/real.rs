@@ -5,8 +5,8 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or several side by side in the lanes of a register.
 ///
-/// Operations are those of IEEE 754 arithmetic with round-to-nearest; the elementary functions are accurate to
-/// 1.5 units in the last place, exact at 0 and ∞, and give NaN outside their domain.
+/// Operations are those of IEEE 754 arithmetic with round-to-nearest; the elementary functions are accurate
+/// to 1.5 units in the last place, exact at 0 and ∞, and give NaN outside their domain.
 pub trait Real:
     Copy
     + Debug
@@ -79,7 +79,9 @@ pub trait Real:
     /// x^exponent from the logarithm of x.
     #[must_use]
     fn power(logarithm: Self::Logarithm, exponent: Self) -> Self;
-    /// ln (a/b) from the logarithms of a and b, with a relative error of 2u unless a/b is within u² |ln a| of 1.
+    /// ln (a/b) from the logarithms of a and b.
+    ///
+    /// The relative error is 2u unless a/b is within u² |ln a| of 1.
     #[must_use]
     fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self;
 

@@ -115,8 +115,8 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn split(self) -> (Self, Self) {
-                // Bit patterns of positive numbers, read as integers, are in order, and one exponent is 2 to the
-                // width of the mantissa.
+                // Bit patterns of positive numbers, read as integers, are in order, and one exponent is 2 to
+                // the width of the mantissa.
                 const SMALLEST: $Signed = std::$Number::consts::FRAC_1_SQRT_2.to_bits() as $Signed;
                 let (lifted, lift) = lift(self);
                 let bits = lifted.to_bits() as $Signed;

@@ -13,8 +13,8 @@ pub trait Lanes: Real {
 
     /// Several registers that take turns, for kernels whose operations wait for each other.
     ///
-    /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the fastest
-    /// for the singular value decomposition; an array of numbers is its own.
+    /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the
+    /// fastest for the singular value decomposition; an array of numbers is its own.
     type Interleaved: Lanes<Element = Self::Element>;
 
     /// The number of lanes.
@@ -26,9 +26,10 @@ pub trait Lanes: Real {
     /// If the slice is shorter.
     fn load(from: &[Self::Element]) -> Self;
 
-    /// Loads one component of consecutive points from blocks of [`LINE`](Element::LINE) points, in which the
-    /// `components` of a point lie a line apart: lane i comes from entry i % LINE of block i / LINE, that is from
-    /// `from[i / LINE * components * LINE + i % LINE]`.
+    /// Loads one component of consecutive points from blocks of [`LINE`](Element::LINE) points.
+    ///
+    /// A block has `components` lines, one after the other, and each line one component of LINE points. So
+    /// lane i comes from `from[i / LINE * components * LINE + i % LINE]`.
     ///
     /// # Panics
     /// If the slice is shorter.
@@ -45,8 +46,8 @@ pub trait Lanes: Real {
     /// If the slice is shorter.
     fn store(self, to: &mut [Self::Element]);
 
-    /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of whole
-    /// aligned registers; otherwise through the caches.
+    /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of
+    /// whole aligned registers; otherwise through the caches.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -56,7 +57,7 @@ pub trait Lanes: Real {
         to.copy_from_slice(from);
     }
 
-    /// Transposes a matrix: entry (i, j) of the given size from `from[i from_stride + j]` to `to[j to_stride + i]`.
+    /// Transposes a matrix of the given size: `from[i * from_stride + j]` becomes `to[j * to_stride + i]`.
     ///
     /// # Panics
     /// If an entry lies outside of its slice.
@@ -88,8 +89,8 @@ pub trait Element:
 
     /// The lanes of this format in a set of instructions.
     ///
-    /// Safe code outside of this crate must not name registers that the processor may not have. It cannot, since it
-    /// has no name for any `I`.
+    /// Safe code must not name registers that the processor may not have. Code outside of this crate cannot,
+    /// since it has no name for any `I`.
     #[doc(hidden)]
     type In<I: InstructionSet>: Lanes<Element = Self>;
 }

@@ -1,8 +1,8 @@
 //! Registers of x86-64: 512 bits with AVX-512, 256 bits with AVX2 and FMA.
 //!
-//! **Safety.** The intrinsics below must run on a processor that has their instructions. The types of this file are
-//! named in one other place, `backend`, which instantiates kernels with them behind a check of the processor and inside a
-//! function compiled for these instructions. Every method is inlined into that function.
+//! **Safety.** The intrinsics below must run on a processor that has their instructions. The types of this
+//! file are named in one other place, `backend`. There kernels are instantiated with them behind a check of
+//! the processor, inside a function compiled for these instructions, and every method is inlined into it.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module's text")]
 
@@ -68,7 +68,8 @@ macro_rules! register {
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, mask $Mask:ty,
         features $features:literal, splat $splat:ident, load $load:ident, store $store:ident, stream $stream:ident,
         transpose $transpose:path, add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident,
-        mul_add $mul_add:ident, sqrt $sqrt:ident, max $max:ident, min $min:ident, xor $xor:ident, and_not $and_not:ident,
+        mul_add $mul_add:ident, sqrt $sqrt:ident, max $max:ident, min $min:ident,
+        xor $xor:ident, and_not $and_not:ident,
         bits |$bits_of:ident| $bits:expr,
         real { $($real:item)* } primitive { $($primitive:item)* }
     ) => {
@@ -106,7 +107,8 @@ macro_rules! register {
                 }
             }
 
-            /// A matrix of at least one square, by squares; the last of a row or column overlaps the one before.
+            /// Transposes a matrix by squares, at least one; the last in a row or column overlaps its
+            /// neighbour.
             #[target_feature(enable = $features)]
             fn transpose_squares(
                 [rows, columns]: [usize; 2],
@@ -240,7 +242,7 @@ macro_rules! register {
 /// The mantissa of a negative number is NaN, that of −0 is positive.
 const POSITIVE_OR_NAN: _MM_MANTISSA_SIGN_ENUM = _MM_MANT_SIGN_NAN | _MM_MANT_SIGN_ZERO;
 
-/// What AVX-512 does alike in both formats.
+/// Operations that AVX-512 has alike in both formats.
 macro_rules! register_512 {
     (
         $(#[$doc:meta])*
@@ -285,8 +287,8 @@ macro_rules! register_512 {
 
                 #[inline(always)]
                 fn copysign(self, sign: Self) -> Self {
-                    // SAFETY: the processor has these instructions, or there would be no value of this type. The table
-                    // picks a bit of `sign` where the last operand is set, else one of self.
+                    // SAFETY: the processor has these instructions, or there would be no value of this type.
+                    // The table picks a bit of `sign` where the last operand is set, else one of self.
                     unsafe {
                         let sign_bit = $set_bits($sign);
                         Self($from_bits($logic::<0xb8>($to_bits(self.0), sign_bit, $to_bits(sign.0))))
@@ -322,8 +324,8 @@ macro_rules! register_512 {
 
                 #[inline(always)]
                 fn leading_power(self) -> Self {
-                    // SAFETY: the processor has these instructions, or there would be no value of this type. The table
-                    // is a & b.
+                    // SAFETY: the processor has these instructions, or there would be no value of this type.
+                    // The table is a & b.
                     unsafe {
                         let bits = $to_bits(self.0);
                         Self($from_bits($logic::<0xc0>(bits, $set_bits($power), bits)))
@@ -381,7 +383,7 @@ register_512! {
     xor _mm512_xor_ps, and_not _mm512_andnot_ps,
 }
 
-/// What AVX2 does alike in both formats: a mask is a register whose lanes are all ones or all zeros.
+/// Operations that AVX2 has alike in both formats. A mask is a register.
 macro_rules! register_256 {
     (
         $(#[$doc:meta])*
@@ -395,7 +397,7 @@ macro_rules! register_256 {
         xor $xor:ident, and_not $and_not:ident,
         $($operations:tt)*
     ) => {
-        /// The result of a comparison, all bits of a lane alike.
+        /// The result of a comparison: the bits of a lane are all ones or all zeros.
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $Mask($Raw);
 
@@ -412,23 +414,8 @@ macro_rules! register_256 {
             }
         }
 
-        impl BitAnd for $Mask {
-            type Output = Self;
-            #[inline(always)]
-            fn bitand(self, other: Self) -> Self {
-                // SAFETY: the processor has this instruction, or there would be no value of this type.
-                Self(unsafe { $and(self.0, other.0) })
-            }
-        }
-
-        impl BitOr for $Mask {
-            type Output = Self;
-            #[inline(always)]
-            fn bitor(self, other: Self) -> Self {
-                // SAFETY: the processor has this instruction, or there would be no value of this type.
-                Self(unsafe { $or(self.0, other.0) })
-            }
-        }
+        register!(@operator $Mask, BitAnd bitand $and);
+        register!(@operator $Mask, BitOr bitor $or);
 
         impl Not for $Mask {
             type Output = Self;
@@ -441,7 +428,7 @@ macro_rules! register_256 {
         }
 
         impl $Register {
-            /// 2ᵉ, where it is normal.
+            /// 2ᵉ for the exponent of a normal number.
             #[inline(always)]
             fn power_of_two(exponent: Self) -> Self {
                 let biased = exponent + Self::splat(<$Number as Primitive>::ROUNDING + $bias);

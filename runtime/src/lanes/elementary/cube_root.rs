@@ -35,7 +35,8 @@ pub(in super::super) fn cbrt<P: Primitive>(x: P) -> P {
     let y = reciprocal_root(m) * root_of_power;
     let g = (a * (y * y)).mul_add(-y, P::splat(1.0));
     let y = (y * g).mul_add(g.mul_add(P::splat(2.0 / 9.0), third), y);
-    // c ≈ ∛a to 10δ³, whose square is below the last bit after Newton's step c − (c³ − a)/(3c²), 1/c² being y².
+    // c ≈ ∛a to 10δ³. Newton's step c − (c³ − a)/(3c²), with y² for 1/c², squares that error, and so it is
+    // below the last bit.
     let y2 = y * y;
     let c = a * y2;
     let excess = residual(c * c, c, -a);

@@ -1,7 +1,8 @@
-//! Squares of numbers turned in registers.
+//! Transposes of square matrices in registers.
 //!
-//! Neighbours are paired within each 128 bits first, until these hold entries of one column; then blocks of 128 bits are
-//! brought to their places. Macros and loops instead of closures, which nothing can force the compiler to inline.
+//! Neighbours are paired within each 128 bits first, until these hold entries of one column; then blocks of
+//! 128 bits are brought to their places. Macros and loops instead of closures, which nothing can force the
+//! compiler to inline.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module above")]
 
@@ -22,7 +23,7 @@ macro_rules! transpose_blocks {
     }};
 }
 
-/// Four rows of single precision turned within each 128 bits: element j holds entries j, j + 4, j + 8, … of all four.
+/// Four rows of floats, transposed within each 128 bits: element j holds entries j, j + 4, j + 8, … of all.
 macro_rules! transpose_quads {
     (
         $low:ident, $high:ident, $low_pairs:ident, $high_pairs:ident, $to_pairs:ident, $from_pairs:ident,
@@ -114,9 +115,9 @@ pub(super) unsafe fn transpose_f32x16(rows: [__m512; 16]) -> [__m512; 16] {
         let mut columns = rows;
         for j in 0..4 {
             let blocks = [quads[0][j], quads[1][j], quads[2][j], quads[3][j]];
-            let turned = transpose_blocks!(_mm512_shuffle_f32x4, blocks);
+            let transposed = transpose_blocks!(_mm512_shuffle_f32x4, blocks);
             for b in 0..4 {
-                columns[4 * b + j] = turned[b];
+                columns[4 * b + j] = transposed[b];
             }
         }
         columns
