@@ -54,12 +54,12 @@ impl Spline {
                 pair[0][0], pair[1][0]
             ));
         }
-        let bends = bends(points);
+        let moments = moments(points);
         let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
         let mut pieces = Vec::new();
         for (k, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-            let (h, m0, m1) = (x1 - x0, bends[k], bends[k + 1]);
+            let (h, m0, m1) = (x1 - x0, moments[k], moments[k + 1]);
             let slope = (y1 - y0) / h;
             // A curve is zero at rest, x = 1. Pieces are expanded about their end nearer to it, so that a
             // control point (1, 0) is the anchor of both pieces beside it, and the curve exactly zero there.
@@ -112,8 +112,8 @@ impl Piece {
 
     /// The piece with the φ, φ′ and φ″ of this one at x, and a straight φ′.
     fn straight_from(&self, x: f64) -> Self {
-        let [value, slope, bend] = self.taylor(x);
-        Self { anchor: x, coefficients: [value, slope, bend / 2.0, 0.0, 0.0] }
+        let [value, slope, second] = self.taylor(x);
+        Self { anchor: x, coefficients: [value, slope, second / 2.0, 0.0, 0.0] }
     }
 
     /// The coefficients, and the terms of the divided differences of powers: a + b = (a² − b²)/(a − b), a² +
@@ -138,23 +138,23 @@ impl Piece {
     }
 }
 
-/// Second derivatives of the natural cubic spline at its points, by elimination in the tridiagonal system of
-/// continuous slopes [de Boor, *A Practical Guide to Splines*, chapter IV].
-fn bends(points: &[[f64; 2]]) -> Vec<f64> {
+/// Second derivatives, called moments, of the natural cubic spline at its points, by elimination in the
+/// tridiagonal system of continuous slopes [de Boor, *A Practical Guide to Splines*, chapter IV].
+fn moments(points: &[[f64; 2]]) -> Vec<f64> {
     let n = points.len();
     let length = |k: usize| points[k + 1][0] - points[k][0];
     let slope = |k: usize| (points[k + 1][1] - points[k][1]) / length(k);
     let mut factors = vec![0.0; n];
-    let mut bends = vec![0.0; n];
+    let mut moments = vec![0.0; n];
     for k in 1..n - 1 {
         let pivot = 2.0 * (length(k - 1) + length(k)) - length(k - 1) * factors[k - 1];
         factors[k] = length(k) / pivot;
-        bends[k] = (6.0 * (slope(k) - slope(k - 1)) - length(k - 1) * bends[k - 1]) / pivot;
+        moments[k] = (6.0 * (slope(k) - slope(k - 1)) - length(k - 1) * moments[k - 1]) / pivot;
     }
     for k in (1..n - 1).rev() {
-        bends[k] -= factors[k] * bends[k + 1];
+        moments[k] -= factors[k] * moments[k + 1];
     }
-    bends
+    moments
 }
 
 impl Univariate for Spline {
