@@ -27,4 +27,4 @@ pub use backend::{Backend, Kernel};
 pub use non_temporal::PastCaches;
 pub use pair::Pair;
 pub use real::{Mask, Real};
-pub use vector::{Element, Lanes};
+pub use vector::{Lanes, Scalar};

@@ -1,7 +1,7 @@
 //! A material as batches see it: one dynamic dispatch for each tile.
 
 use super::tile::{Rows, first_bits, for_each_group};
-use crate::lanes::{Backend, Element, Kernel, Lanes, Real};
+use crate::lanes::{Backend, Kernel, Lanes, Real, Scalar};
 use crate::material::{Blocks, Each, Material, Varying};
 use crate::point::energy_is_finite;
 
@@ -10,7 +10,7 @@ use crate::point::energy_is_finite;
 ///
 /// The points of a tile are numbered from `start` on within the batch, and its first `count` rows mean something. Each
 /// method returns the points outside the domain of the energy as bits, whose results are meaningless.
-pub trait Energy<E: Element>: Send + Sync {
+pub trait Energy<E: Scalar>: Send + Sync {
     /// ψ, Pa, from signed principal stretches.
     fn energies(&self, tile: TileOf<'_, E>, energies: &mut Rows<E, 1>) -> Verdict;
 
@@ -153,13 +153,13 @@ pub struct TileOf<'a, E> {
     pub(crate) arguments: &'a Rows<E, 3>,
 }
 
-impl<E: Element, L: Law> Energy<E> for L {
+impl<E: Scalar, L: Law> Energy<E> for L {
     fn energies(&self, tile: TileOf<'_, E>, energies: &mut Rows<E, 1>) -> Verdict {
         struct Energies<'a, L, E>(&'a L, TileOf<'a, E>, &'a mut Rows<E, 1>);
-        impl<L: Law, E: Element> Kernel<E> for Energies<'_, L, E> {
+        impl<L: Law, E: Scalar> Kernel<E> for Energies<'_, L, E> {
             type Output = Verdict;
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) -> Verdict {
+            fn run<R: Lanes<Scalar = E>>(self) -> Verdict {
                 let Self(law, tile, energies) = self;
                 let (mut admitted, mut finite) = (0, 0);
                 for_each_group!(R, tile.count, |at| {
@@ -178,10 +178,10 @@ impl<E: Element, L: Law> Energy<E> for L {
 
     fn gradients(&self, tile: TileOf<'_, E>, gradients: &mut Rows<E, 3>) -> u64 {
         struct Gradients<'a, L, E>(&'a L, TileOf<'a, E>, &'a mut Rows<E, 3>);
-        impl<L: Law, E: Element> Kernel<E> for Gradients<'_, L, E> {
+        impl<L: Law, E: Scalar> Kernel<E> for Gradients<'_, L, E> {
             type Output = u64;
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) -> u64 {
+            fn run<R: Lanes<Scalar = E>>(self) -> u64 {
                 let Self(law, tile, gradients) = self;
                 let mut admitted = 0;
                 for_each_group!(R, tile.count, |at| {
@@ -197,10 +197,10 @@ impl<E: Element, L: Law> Energy<E> for L {
 
     fn blocks(&self, tile: TileOf<'_, E>, blocks: &mut Rows<E, 15>) -> u64 {
         struct All<'a, L, E>(&'a L, TileOf<'a, E>, &'a mut Rows<E, 15>);
-        impl<L: Law, E: Element> Kernel<E> for All<'_, L, E> {
+        impl<L: Law, E: Scalar> Kernel<E> for All<'_, L, E> {
             type Output = u64;
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) -> u64 {
+            fn run<R: Lanes<Scalar = E>>(self) -> u64 {
                 let Self(law, tile, blocks) = self;
                 let mut admitted = 0;
                 for_each_group!(R, tile.count, |at| {
@@ -220,10 +220,10 @@ impl<E: Element, L: Law> Energy<E> for L {
 
     fn energies_by_invariants(&self, tile: TileOf<'_, E>, energies: &mut Rows<E, 1>) -> u64 {
         struct Energies<'a, L, E>(&'a L, TileOf<'a, E>, &'a mut Rows<E, 1>);
-        impl<L: Law, E: Element> Kernel<E> for Energies<'_, L, E> {
+        impl<L: Law, E: Scalar> Kernel<E> for Energies<'_, L, E> {
             type Output = u64;
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) -> u64 {
+            fn run<R: Lanes<Scalar = E>>(self) -> u64 {
                 let Self(law, tile, energies) = self;
                 let mut taken = 0;
                 for_each_group!(R, tile.count, |at| {
@@ -241,10 +241,10 @@ impl<E: Element, L: Law> Energy<E> for L {
 
     fn gradients_by_invariants(&self, tile: TileOf<'_, E>, gradients: &mut Rows<E, 3>) -> u64 {
         struct Gradients<'a, L, E>(&'a L, TileOf<'a, E>, &'a mut Rows<E, 3>);
-        impl<L: Law, E: Element> Kernel<E> for Gradients<'_, L, E> {
+        impl<L: Law, E: Scalar> Kernel<E> for Gradients<'_, L, E> {
             type Output = u64;
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) -> u64 {
+            fn run<R: Lanes<Scalar = E>>(self) -> u64 {
                 let Self(law, tile, gradients) = self;
                 let mut taken = 0;
                 for_each_group!(R, tile.count, |at| {

@@ -4,7 +4,7 @@ use super::Survey;
 use super::stage::{Marks, Stages};
 use super::tile::TILE;
 use super::workspace::Workspace;
-use crate::lanes::Element;
+use crate::lanes::Scalar;
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 const GRAIN: usize = 8;
@@ -15,7 +15,7 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
     pub(super) outputs: [(&'a mut [E], usize); O],
 }
 
-impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
+impl<'a, E: Scalar, const I: usize, const O: usize> Work<'a, E, I, O> {
     /// The first `tiles` tiles, and the rest.
     fn split(self, tiles: usize) -> (Self, Self) {
         let mut later_inputs = [(&[][..], 0); I];
@@ -71,7 +71,7 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     E::with_workspace(|workspace| one_after_the_other(work, points, workspace, body))
 }
 
-fn one_after_the_other<E: Element, const I: usize, const O: usize>(
+fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     workspace: &mut Workspace<E>,

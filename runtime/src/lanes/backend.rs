@@ -12,7 +12,7 @@ use std::fmt;
 
 use super::non_temporal::PastCaches;
 use super::pair::Pair;
-use super::vector::{Element, InstructionSet, Lanes};
+use super::vector::{InstructionSet, Lanes, Scalar};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{F32x8, F32x16, F64x4, F64x8};
 
@@ -20,12 +20,12 @@ use super::x86::{F32x8, F32x16, F64x4, F64x8};
 ///
 /// `run` must be `#[inline(always)]`, and so must all arithmetic that it calls: only code that is inlined
 /// into the function of the back end is compiled for its instructions.
-pub trait Kernel<E: Element> {
+pub trait Kernel<E: Scalar> {
     /// The result of the computation.
     type Output;
 
     /// Computes with lanes of type `R`.
-    fn run<R: Lanes<Element = E>>(self) -> Self::Output;
+    fn run<R: Lanes<Scalar = E>>(self) -> Self::Output;
 }
 
 /// A set of instructions that this processor has, to run kernels with.
@@ -92,17 +92,17 @@ impl Backend {
 
     /// Runs a kernel with the lanes of this back end.
     #[inline]
-    pub fn run<E: Element, K: Kernel<E>>(self, kernel: K) -> K::Output {
+    pub fn run<E: Scalar, K: Kernel<E>>(self, kernel: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]
         {
             #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
-            fn with_avx512<E: Element, K: Kernel<E>>(kernel: K) -> K::Output {
+            fn with_avx512<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
                 align_stack();
                 kernel.run::<E::In<Avx512>>()
             }
 
             #[target_feature(enable = "avx2,fma")]
-            fn with_avx2<E: Element, K: Kernel<E>>(kernel: K) -> K::Output {
+            fn with_avx2<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
                 align_stack();
                 kernel.run::<E::In<Avx2>>()
             }
@@ -130,13 +130,13 @@ impl Backend {
     ///
     /// # Panics
     /// If the lengths differ.
-    pub fn copy_past_caches<E: Element>(self, from: &[E], to: &mut [E]) {
+    pub fn copy_past_caches<E: Scalar>(self, from: &[E], to: &mut [E]) {
         struct Copy<'a, E>(&'a [E], &'a mut [E]);
-        impl<E: Element> Kernel<E> for Copy<'_, E> {
+        impl<E: Scalar> Kernel<E> for Copy<'_, E> {
             type Output = ();
 
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) {
+            fn run<R: Lanes<Scalar = E>>(self) {
                 R::stream(self.0, self.1, &PastCaches::new());
             }
         }

@@ -12,7 +12,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use super::elementary::elementary_functions;
 use super::primitive::Primitive;
 use super::real::{Mask, Real};
-use super::vector::{Element, Lanes};
+use super::vector::{Lanes, Scalar};
 
 /// Two scalars, two registers, or two pairs, with the lanes of both.
 #[derive(Clone, Copy, Debug)]
@@ -108,25 +108,25 @@ impl<P: Primitive + Lanes> Real for Pair<P> {
 }
 
 impl<P: Primitive + Lanes> Lanes for Pair<P> {
-    type Element = P::Element;
+    type Scalar = P::Scalar;
     type Interleaved = Self;
     const LANES: usize = 2 * P::LANES;
 
     #[inline(always)]
-    fn load(from: &[P::Element]) -> Self {
+    fn load(from: &[P::Scalar]) -> Self {
         let (first, second) = from[..Self::LANES].split_at(P::LANES);
         Self(P::load(first), P::load(second))
     }
 
     #[inline(always)]
-    fn load_lines(from: &[P::Element], components: usize) -> Self {
-        let line = P::Element::LINE;
+    fn load_lines(from: &[P::Scalar], components: usize) -> Self {
+        let line = P::Scalar::LINE;
         let second = P::LANES / line * components * line + P::LANES % line;
         Self(P::load_lines(from, components), P::load_lines(&from[second..], components))
     }
 
     #[inline(always)]
-    fn store(self, to: &mut [P::Element]) {
+    fn store(self, to: &mut [P::Scalar]) {
         let (first, second) = to[..Self::LANES].split_at_mut(P::LANES);
         self.0.store(first);
         self.1.store(second);

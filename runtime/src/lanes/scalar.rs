@@ -3,7 +3,7 @@
 use super::elementary::elementary_functions;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
-use super::vector::{Element, InstructionSet, Lanes};
+use super::vector::{InstructionSet, Lanes, Scalar};
 
 impl Mask for bool {
     #[inline(always)]
@@ -21,7 +21,7 @@ macro_rules! scalar {
     (
         $Number:ident, $Bits:ident, $Signed:ident, lanes $Lanes:ident, mantissa $mantissa:literal, bias $bias:literal
     ) => {
-        impl Element for $Number {
+        impl Scalar for $Number {
             const LINE: usize = 64 / size_of::<$Number>();
             type In<I: InstructionSet> = I::$Lanes;
         }
@@ -85,7 +85,7 @@ macro_rules! scalar {
         }
 
         impl Lanes for $Number {
-            type Element = Self;
+            type Scalar = Self;
             type Interleaved = Self;
             const LANES: usize = 1;
 

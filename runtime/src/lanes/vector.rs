@@ -9,13 +9,13 @@ use super::real::Real;
 /// Lanes of one number format: a [`Real`] that is loaded from slices and stored to them.
 pub trait Lanes: Real {
     /// The number format of a lane.
-    type Element: Element;
+    type Scalar: Scalar;
 
     /// Several registers that take turns, for kernels whose operations wait for each other.
     ///
     /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the
     /// fastest for the singular value decomposition; an array of numbers is its own.
-    type Interleaved: Lanes<Element = Self::Element>;
+    type Interleaved: Lanes<Scalar = Self::Scalar>;
 
     /// The number of lanes.
     const LANES: usize;
@@ -24,9 +24,9 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If the slice is shorter.
-    fn load(from: &[Self::Element]) -> Self;
+    fn load(from: &[Self::Scalar]) -> Self;
 
-    /// Loads one component of consecutive points from blocks of [`LINE`](Element::LINE) points.
+    /// Loads one component of consecutive points from blocks of [`LINE`](Scalar::LINE) points.
     ///
     /// A block has `components` lines, one after the other, and each line one component of LINE points. So
     /// lane i comes from `from[i / LINE * components * LINE + i % LINE]`.
@@ -34,7 +34,7 @@ pub trait Lanes: Real {
     /// # Panics
     /// If the slice is shorter.
     #[inline(always)]
-    fn load_lines(from: &[Self::Element], components: usize) -> Self {
+    fn load_lines(from: &[Self::Scalar], components: usize) -> Self {
         // A register is no longer than a line.
         let _ = components;
         Self::load(from)
@@ -44,7 +44,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If the slice is shorter.
-    fn store(self, to: &mut [Self::Element]);
+    fn store(self, to: &mut [Self::Scalar]);
 
     /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of
     /// whole aligned registers; otherwise through the caches.
@@ -52,7 +52,7 @@ pub trait Lanes: Real {
     /// # Panics
     /// If the lengths differ.
     #[inline]
-    fn stream(from: &[Self::Element], to: &mut [Self::Element], order: &PastCaches) {
+    fn stream(from: &[Self::Scalar], to: &mut [Self::Scalar], order: &PastCaches) {
         let _ = order;
         to.copy_from_slice(from);
     }
@@ -64,9 +64,9 @@ pub trait Lanes: Real {
     #[inline(never)]
     fn transpose(
         [rows, columns]: [usize; 2],
-        from: &[Self::Element],
+        from: &[Self::Scalar],
         from_stride: usize,
-        to: &mut [Self::Element],
+        to: &mut [Self::Scalar],
         to_stride: usize,
     ) {
         for i in 0..rows {
@@ -81,8 +81,8 @@ pub trait Lanes: Real {
 }
 
 /// A format of floating-point numbers: `f64` or `f32`.
-pub trait Element:
-    Primitive + Lanes<Element = Self, Mask = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
+pub trait Scalar:
+    Primitive + Lanes<Scalar = Self, Mask = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
 {
     /// How many numbers fill a cache line of 64 bytes; blocks of points are laid out in such lines.
     const LINE: usize;
@@ -92,13 +92,13 @@ pub trait Element:
     /// Safe code must not name registers that the processor may not have. Code outside of this crate cannot,
     /// since it has no name for any `I`.
     #[doc(hidden)]
-    type In<I: InstructionSet>: Lanes<Element = Self>;
+    type In<I: InstructionSet>: Lanes<Scalar = Self>;
 }
 
 /// A set of instructions, by its lanes for each number format.
 pub trait InstructionSet {
     /// Lanes of double precision.
-    type F64: Lanes<Element = f64>;
+    type F64: Lanes<Scalar = f64>;
     /// Lanes of single precision.
-    type F32: Lanes<Element = f32>;
+    type F32: Lanes<Scalar = f32>;
 }

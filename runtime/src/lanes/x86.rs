@@ -173,7 +173,7 @@ macro_rules! register {
         }
 
         impl Lanes for $Register {
-            type Element = $Number;
+            type Scalar = $Number;
             type Interleaved = Pair<Pair<Self>>;
             const LANES: usize = $lanes;
 
