@@ -14,8 +14,8 @@
 
 mod backend;
 mod elementary;
+mod lanes2;
 mod non_temporal;
-mod pair;
 mod primitive;
 mod real;
 mod scalar;
@@ -24,7 +24,7 @@ mod vector;
 mod x86;
 
 pub use backend::{Backend, Kernel};
+pub use lanes2::Lanes2;
 pub use non_temporal::PastCaches;
-pub use pair::Pair;
 pub use real::{Mask, Real};
 pub use vector::{Lanes, Scalar};

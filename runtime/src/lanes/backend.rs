@@ -10,8 +10,8 @@
 
 use std::fmt;
 
+use super::lanes2::Lanes2;
 use super::non_temporal::PastCaches;
-use super::pair::Pair;
 use super::vector::{InstructionSet, Lanes, Scalar};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{F32x8, F32x16, F64x4, F64x8};
@@ -193,6 +193,6 @@ impl InstructionSet for Avx2 {
 struct Portable;
 
 impl InstructionSet for Portable {
-    type F64 = Pair<f64>;
-    type F32 = Pair<Pair<f32>>;
+    type F64 = Lanes2<f64>;
+    type F32 = Lanes2<Lanes2<f32>>;
 }

@@ -10,8 +10,8 @@ use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::elementary_functions;
+use super::lanes2::Lanes2;
 use super::non_temporal::PastCaches;
-use super::pair::Pair;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
 use super::vector::Lanes;
@@ -174,7 +174,7 @@ macro_rules! register {
 
         impl Lanes for $Register {
             type Scalar = $Number;
-            type Interleaved = Pair<Pair<Self>>;
+            type Interleaved = Lanes2<Lanes2<Self>>;
             const LANES: usize = $lanes;
 
             #[inline(always)]

@@ -14,7 +14,7 @@ use crate::lanes::{Mask, Real};
 /// the same [`inversion`](Material::inversion), threshold included, as [`Each`] makes sure: it decides which program runs.
 ///
 /// ```
-/// use piola::lanes::{Lanes, Pair};
+/// use piola::lanes::{Lanes, Lanes2};
 /// use piola::material::{Each, Varying};
 /// use piola::{Material, material};
 ///
@@ -26,7 +26,7 @@ use crate::lanes::{Mask, Real};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let springs = [Springs::new(1.0)?, Springs::new(2.0)?];
-/// let stretches = [[1.5, 1.5], [1.0, 1.0], [1.0, 0.5]].map(|lanes| Pair::<f64>::load(&lanes));
+/// let stretches = [[1.5, 1.5], [1.0, 1.0], [1.0, 0.5]].map(|lanes| Lanes2::<f64>::load(&lanes));
 /// let mut energies = [0.0; 2];
 /// Springs::energy_of(&Each::new(&springs)?, stretches).store(&mut energies);
 /// assert_eq!(energies, [springs[0].energy([1.5, 1.0, 1.0]), springs[1].energy([1.5, 1.0, 0.5])]);

@@ -16,11 +16,11 @@ use super::vector::{Lanes, Scalar};
 
 /// Two scalars, two registers, or two pairs, with the lanes of both.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<T>(T, T);
+pub struct Lanes2<T>(T, T);
 
 macro_rules! operators {
     ($($Operator:ident $method:ident),*) => {$(
-        impl<T: $Operator<Output = T>> $Operator for Pair<T> {
+        impl<T: $Operator<Output = T>> $Operator for Lanes2<T> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -31,7 +31,7 @@ macro_rules! operators {
 }
 operators!(Add add, Sub sub, Mul mul, Div div, BitAnd bitand, BitOr bitor);
 
-impl<T: Neg<Output = T>> Neg for Pair<T> {
+impl<T: Neg<Output = T>> Neg for Lanes2<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -39,7 +39,7 @@ impl<T: Neg<Output = T>> Neg for Pair<T> {
     }
 }
 
-impl<T: Not<Output = T>> Not for Pair<T> {
+impl<T: Not<Output = T>> Not for Lanes2<T> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
@@ -47,7 +47,7 @@ impl<T: Not<Output = T>> Not for Pair<T> {
     }
 }
 
-impl<M: Mask> Mask for Pair<M> {
+impl<M: Mask> Mask for Lanes2<M> {
     #[inline(always)]
     fn splat(value: bool) -> Self {
         Self(M::splat(value), M::splat(value))
@@ -69,8 +69,8 @@ macro_rules! halves {
     )*};
 }
 
-impl<P: Primitive + Lanes> Real for Pair<P> {
-    type Mask = Pair<P::Mask>;
+impl<P: Primitive + Lanes> Real for Lanes2<P> {
+    type Mask = Lanes2<P::Mask>;
     const UNIT_ROUNDOFF: f64 = P::UNIT_ROUNDOFF;
     const MIN_POSITIVE: f64 = P::MIN_POSITIVE;
 
@@ -98,7 +98,7 @@ impl<P: Primitive + Lanes> Real for Pair<P> {
 
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
-        Pair(self.0.less(other.0), self.1.less(other.1))
+        Lanes2(self.0.less(other.0), self.1.less(other.1))
     }
 
     #[inline(always)]
@@ -107,7 +107,7 @@ impl<P: Primitive + Lanes> Real for Pair<P> {
     }
 }
 
-impl<P: Primitive + Lanes> Lanes for Pair<P> {
+impl<P: Primitive + Lanes> Lanes for Lanes2<P> {
     type Scalar = P::Scalar;
     type Interleaved = Self;
     const LANES: usize = 2 * P::LANES;
@@ -138,14 +138,14 @@ impl<P: Primitive + Lanes> Lanes for Pair<P> {
     }
 }
 
-impl<P: Primitive + Lanes> Primitive for Pair<P> {
+impl<P: Primitive + Lanes> Primitive for Lanes2<P> {
     const IS_FUSED: bool = P::IS_FUSED;
 
     halves! { scale(exponent), leading_power(), reciprocal_of_power() }
 
     #[inline(always)]
     fn is_zero(self) -> Self::Mask {
-        Pair(self.0.is_zero(), self.1.is_zero())
+        Lanes2(self.0.is_zero(), self.1.is_zero())
     }
 
     #[inline(always)]
