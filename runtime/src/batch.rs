@@ -48,7 +48,7 @@
 
 use std::fmt;
 
-use crate::lanes::{Backend, PastCaches};
+use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 
 #[cfg(feature = "system")]
@@ -280,7 +280,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         let count = self.count(&lengths)?;
         let work = Work { inputs: [(F, 9)], outputs: [(P, 9), (tangents, numbers)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let order = PastCaches::new();
+            let fence = NonTemporal::new();
             let Workspace { F: lines, points, blocks, line, .. } = tile.workspace;
             let ([F], [P, tangents]) = (tile.inputs, tile.outputs);
             self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
@@ -288,7 +288,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             let (points, count) = (&*points, tile.count);
             let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
             let stressed = E::stress(self.backend, kernel);
-            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(tangents, &order));
+            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(tangents, &fence));
             let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
             E::tangent(self.backend, form, kernel).or(stressed).or(judged)
         }))
@@ -311,7 +311,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         let work =
             Work { inputs: [(F, 9), (rest, REST)], outputs: [(gradients, 12), (stiffnesses, numbers)] };
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| {
-            let order = PastCaches::new();
+            let fence = NonTemporal::new();
             let Workspace { F: lines, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
             self.decompose(Source::new(self.backend, self.layout, F, lines), tile.count, points);
@@ -321,7 +321,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             let to = self.sink(gradients);
             let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
             let forced = E::forces(self.backend, kernel);
-            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(stiffnesses, &order));
+            let (has_pole, to) = (self.energy.has_pole(), self.large_sink(stiffnesses, &fence));
             let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
             E::stiffness(self.backend, form, kernel).or(forced).or(judged)
         }))
@@ -345,12 +345,12 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 
     fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, past_caches: None }
+        Sink { to, layout: self.layout, non_temporal: None }
     }
 
     /// For what may be larger than the caches.
-    fn large_sink<'t>(&self, to: &'t mut [E], order: &'t PastCaches) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, past_caches: self.streams.then_some(order) }
+    fn large_sink<'t>(&self, to: &'t mut [E], fence: &'t NonTemporal) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: self.streams.then_some(fence) }
     }
 
     /// The number of points of slices that must all have as many.

@@ -25,6 +25,6 @@ mod x86;
 
 pub use backend::{Backend, Kernel};
 pub use lanes2::Lanes2;
-pub use non_temporal::PastCaches;
+pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};
 pub use vector::{Lanes, Scalar};

@@ -2,7 +2,7 @@
 
 use super::tile::TILE;
 use super::workspace::Line;
-use crate::lanes::{Backend, Kernel, Lanes, PastCaches, Scalar};
+use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
 
 /// How N numbers of each of many points lie in a slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,7 +102,7 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
     }
 
     pub(super) fn sink(&mut self) -> Sink<'_, E> {
-        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, past_caches: None }
+        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None }
     }
 }
 
@@ -128,7 +128,7 @@ pub(super) struct Sink<'a, E> {
     pub(super) to: &'a mut [E],
     pub(super) layout: Layout,
     /// Past the caches, with non-temporal stores, if given what keeps them in order.
-    pub(super) past_caches: Option<&'a PastCaches>,
+    pub(super) non_temporal: Option<&'a NonTemporal>,
 }
 
 impl<E: Scalar> Sink<'_, E> {
@@ -151,7 +151,7 @@ impl<E: Scalar> Sink<'_, E> {
 
     #[inline(always)]
     fn is_direct(&self) -> bool {
-        self.layout == Layout::Lines && self.past_caches.is_none()
+        self.layout == Layout::Lines && self.non_temporal.is_none()
     }
 
     /// Brings what is in a place to the slice; `count` is how many points the tile has.
@@ -167,10 +167,10 @@ impl<E: Scalar> Sink<'_, E> {
         }
         let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
         let line = &line.0.as_flattened()[..N * E::LINE];
-        match (self.layout, self.past_caches) {
-            (Layout::Lines, Some(order)) => {
+        match (self.layout, self.non_temporal) {
+            (Layout::Lines, Some(fence)) => {
                 if offset + R::LANES == E::LINE {
-                    R::stream(line, &mut self.to[start..][..N * E::LINE], order);
+                    R::store_non_temporal(line, &mut self.to[start..][..N * E::LINE], fence);
                 }
             }
             _ => {

@@ -11,7 +11,7 @@
 use std::fmt;
 
 use super::lanes2::Lanes2;
-use super::non_temporal::PastCaches;
+use super::non_temporal::NonTemporal;
 use super::vector::{InstructionSet, Lanes, Scalar};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{F32x8, F32x16, F64x4, F64x8};
@@ -120,24 +120,25 @@ impl Backend {
         kernel.run::<E::In<Portable>>()
     }
 
-    /// Copies a slice by [`Lanes::stream`], for benchmarks: the traffic of a kernel's output alone.
+    /// Copies a slice by [`Lanes::store_non_temporal`], for benchmarks: the traffic of a kernel's output
+    /// alone.
     ///
     /// ```
     /// let (from, mut to) = ([1.0, 2.0, 3.0], [0.0; 3]);
-    /// piola::lanes::Backend::best().copy_past_caches(&from, &mut to);
+    /// piola::lanes::Backend::best().store_non_temporal(&from, &mut to);
     /// assert_eq!(to, from);
     /// ```
     ///
     /// # Panics
     /// If the lengths differ.
-    pub fn copy_past_caches<E: Scalar>(self, from: &[E], to: &mut [E]) {
+    pub fn store_non_temporal<E: Scalar>(self, from: &[E], to: &mut [E]) {
         struct Copy<'a, E>(&'a [E], &'a mut [E]);
         impl<E: Scalar> Kernel<E> for Copy<'_, E> {
             type Output = ();
 
             #[inline(always)]
             fn run<R: Lanes<Scalar = E>>(self) {
-                R::stream(self.0, self.1, &PastCaches::new());
+                R::store_non_temporal(self.0, self.1, &NonTemporal::new());
             }
         }
         self.run(Copy(from, to));

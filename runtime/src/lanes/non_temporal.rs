@@ -8,15 +8,15 @@
 /// work. Therefore only this crate makes a guard, and lets no other thread see what was written until it is
 /// dropped.
 #[derive(Debug)]
-pub struct PastCaches(());
+pub struct NonTemporal(());
 
-impl PastCaches {
+impl NonTemporal {
     pub(crate) fn new() -> Self {
         Self(())
     }
 }
 
-impl Drop for PastCaches {
+impl Drop for NonTemporal {
     fn drop(&mut self) {
         // SAFETY: every processor of x86-64 has SSE.
         #[cfg(target_arch = "x86_64")]

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::non_temporal::PastCaches;
+use super::non_temporal::NonTemporal;
 use super::primitive::Primitive;
 use super::real::Real;
 
@@ -52,8 +52,8 @@ pub trait Lanes: Real {
     /// # Panics
     /// If the lengths differ.
     #[inline]
-    fn stream(from: &[Self::Scalar], to: &mut [Self::Scalar], order: &PastCaches) {
-        let _ = order;
+    fn store_non_temporal(from: &[Self::Scalar], to: &mut [Self::Scalar], fence: &NonTemporal) {
+        let _ = fence;
         to.copy_from_slice(from);
     }
 

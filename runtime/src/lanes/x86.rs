@@ -11,7 +11,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::elementary_functions;
 use super::lanes2::Lanes2;
-use super::non_temporal::PastCaches;
+use super::non_temporal::NonTemporal;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
 use super::vector::Lanes;
@@ -192,7 +192,7 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn stream(from: &[$Number], to: &mut [$Number], _: &PastCaches) {
+            fn store_non_temporal(from: &[$Number], to: &mut [$Number], _: &NonTemporal) {
                 // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
                 unsafe { Self::stream_registers(from, to) }
             }

@@ -83,7 +83,7 @@ impl<E: Stages> Arrays<E> {
                 backend.run(Write(large_to));
             } else if !pattern.is_empty() {
                 for part in large_to.chunks_mut(pattern.len()) {
-                    backend.copy_past_caches(&pattern, part);
+                    backend.store_non_temporal(&pattern, part);
                 }
             }
         }
