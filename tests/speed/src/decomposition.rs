@@ -4,7 +4,7 @@
 
 use std::hint::black_box;
 
-use piola::lanes::{Backend, Kernel, Lanes, Real, Scalar};
+use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::point::{Matrix3, Svd, svd, svd_signed_by_determinant};
 
 use super::IN_CACHE;
