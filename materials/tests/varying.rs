@@ -1,11 +1,11 @@
 //! Each point with parameters of its own gets what it would get alone.
 
 use piola::{Inversion, Material};
-use piola::lanes::{Lanes, Pair};
+use piola::lanes::{Lanes, Lanes2};
 use piola::material::{Blocks, Graded, Inadmissible};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
 
-type Four = Pair<Pair<f64>>;
+type Four = Lanes2<Lanes2<f64>>;
 
 /// Stretches of four points, one of them inverted.
 const STRETCHES: [[f64; 4]; 3] = [[1.5, 1.2, 1.0, 1.1], [1.1, 1.2, 1.0, 0.9], [0.8, 0.7, 1.0, -0.3]];

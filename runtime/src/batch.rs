@@ -48,7 +48,7 @@
 
 use std::fmt;
 
-use crate::lanes::{Backend, PastCaches};
+use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
@@ -384,7 +384,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         let inputs = [("F", F, 9), ("rest", rest, REST)];
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
         self.run(inputs, outputs, |batch, tile| {
-            let order = PastCaches::new();
+            let fence = NonTemporal::new();
             let Workspace { F: lines, points, blocks, rest: shapes, line, .. } = tile.workspace;
             let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
             batch.decompose(Source::new(batch.backend, batch.layout, F, lines), tile.count, points);
@@ -394,7 +394,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             let to = batch.sink(gradients);
             let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
             let forced = E::forces(batch.backend, kernel);
-            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &order));
+            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &fence));
             let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
             E::stiffness(batch.backend, form, kernel) | forced | judged
         })
@@ -485,12 +485,12 @@ impl<E: Stages> Call<'_, E> {
         P: &mut [E],
         tangents: &mut [E],
     ) -> Status<u64> {
-        let order = PastCaches::new();
+        let fence = NonTemporal::new();
         let count = P.len() / 9;
         let judged = self.blocks(points, start, count, blocks);
         let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
         let stressed = E::stress(self.backend, kernel);
-        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &order));
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &fence));
         let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
         E::tangent(self.backend, form, kernel) | stressed | judged
     }
@@ -500,12 +500,12 @@ impl<E: Stages> Call<'_, E> {
     }
 
     fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, past_caches: None }
+        Sink { to, layout: self.layout, non_temporal: None }
     }
 
     /// A sink for outputs that may be larger than the caches.
-    fn large_sink<'t>(&self, to: &'t mut [E], order: &'t PastCaches) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, past_caches: self.streams.then_some(order) }
+    fn large_sink<'t>(&self, to: &'t mut [E], fence: &'t NonTemporal) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: self.streams.then_some(fence) }
     }
 }
 

@@ -1,33 +1,35 @@
-//! Divided differences φ[a, b] = (φ(a) − φ(b)) / (a − b) that never subtract close values, and what else generated
-//! materials need beyond the operations of a real number.
+//! Divided differences φ[a, b] = (φ(a) − φ(b)) / (a − b) that never subtract close values, and other
+//! functions that generated materials call.
 //!
-//! Generated materials call these. Each is accurate to a few u for every gap a − b, zero included: where a kernel
-//! switches between two formulas, both are accurate on both sides of the switch, and neither is a limit. What a
-//! switch discards may be NaN; it is never looked at.
+//! Each is accurate to a few u for every gap a − b, zero included. A function that switches between two
+//! formulas does so where both are accurate, on both sides of the switch, and neither is a limit. The formula
+//! that is not selected may give NaN.
 
 use crate::lanes::{Mask, Real};
 
-/// Two arguments a, b > 0, with what the divided differences of their logarithms and of all their powers share.
+/// Two arguments a, b > 0, with the part that the divided differences of ln and of all powers share.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<R> {
     difference: R,
-    /// 1/(a − b); infinite where both are equal, and not looked at where they are close.
+    /// 1/(a − b): infinite for a = b, and unused if the two are close.
     reciprocal_difference: R,
     ln_quotient: R,
 }
 
 impl<R: Real> Pair<R> {
-    /// From a and b, their reciprocals and their logarithms.
+    /// Prepares the pair (a, b) from both numbers, their reciprocals and their logarithms.
     ///
-    /// With q = (a − b)²/4ab, ln(a/b) = ±2 arsinh √q, and the mean of 1/a and 1/b is √(q (1 + q)) 2/|a − b|. So
+    /// With q = (a − b)²/4ab, |ln(a/b)| = 2 arsinh √q, and ½ (1/a + 1/b) = √(q (1 + q)) 2/|a − b|. So
     ///
     /// ```text
-    /// ln[a, b] = ½ (1/a + 1/b) arsinh √q / √(q (1 + q)) = ½ (1/a + 1/b) (1 − 2/3 q + 8/15 q² − 16/35 q³ + 128/315 q⁴ − …)
+    /// ln[a, b] = ½ (1/a + 1/b) arsinh √q / √(q (1 + q))
+    ///          = ½ (1/a + 1/b) (1 − 2/3 q + 8/15 q² − 16/35 q³ + 128/315 q⁴ − …)
     /// ```
     ///
-    /// for q < 2⁻¹⁴, where q⁴ is below u/8, else the difference of the logarithms over a − b. ln(a/b) is then 2⁻⁶ at least.
-    /// The logarithms, of numbers 2ᵉ m with m near 1, are known to 2⁻¹⁰ u in ln m, and e ln 2, which cancels, to more; so that
-    /// their difference is known to u/4, be it of numbers at the ends of the range. In `f32` the square of q is below u/16 already.
+    /// for q < 2⁻¹⁴, where q⁴ is below u/8 (in `f32` q² is below u/16), else (ln a − ln b)/(a − b). There
+    /// |ln(a/b)| is 2⁻⁶ at least. The logarithm of 2ᵉ m is e ln 2 + ln m: the error of ln m is 2⁻¹⁰ u, that
+    /// of e ln 2, which cancels, is less, and so their difference is known to u/4, even for numbers at the
+    /// ends of the range.
     #[inline(always)]
     pub fn new(
         [a, b]: [R; 2],
@@ -50,7 +52,7 @@ impl<R: Real> Pair<R> {
         Self { difference, reciprocal_difference, ln_quotient: R::select(is_close, close, apart) }
     }
 
-    /// From a and b alone, where nothing else needs their reciprocals and logarithms.
+    /// Prepares the pair (a, b) from both numbers alone, for callers with no other use of the logarithms.
     #[inline(always)]
     pub fn of(a: R, b: R) -> Self {
         let one = R::splat(1.0);
@@ -63,10 +65,10 @@ impl<R: Real> Pair<R> {
         self.ln_quotient
     }
 
-    /// (aʳ − bʳ)/(a − b) from both powers and the exponent.
+    /// (aʳ − bʳ)/(a − b) from both powers and the exponent r.
     ///
-    /// With v = ½ r ln(a/b), aʳ − bʳ = (aʳ + bʳ) tanh v. So it is ½ (aʳ + bʳ) tanh v / v · r ln[a, b] for |v| < ½, else the plain
-    /// quotient, whose numerator then loses less than two bits.
+    /// With v = ½ r ln(a/b), aʳ − bʳ = (aʳ + bʳ) tanh v. So the quotient is ½ (aʳ + bʳ) tanh v / v · r ln[a,
+    /// b] for |v| < ½, else the plain one, which then loses less than two bits.
     #[inline(always)]
     pub fn power_quotient(self, [a_power, b_power]: [R; 2], exponent: R) -> R {
         let half_slope = R::splat(0.5) * exponent * self.ln_quotient;
@@ -76,9 +78,10 @@ impl<R: Real> Pair<R> {
     }
 }
 
-/// (eᵃ − eᵇ)/(a − b) from each argument with its exponential.
+/// (eᵃ − eᵇ)/(a − b) from both arguments, each with its exponential.
 ///
-/// With v = ½ (a − b) it is ½ (eᵃ + eᵇ) tanh v / v for |v| < ½, else the plain quotient, which loses less than two bits.
+/// With v = ½ (a − b) the quotient is ½ (eᵃ + eᵇ) tanh v / v for |v| < ½, else the plain one, which loses
+/// less than two bits.
 #[inline(always)]
 pub fn exp_quotient<R: Real>([a, a_exponential]: [R; 2], [b, b_exponential]: [R; 2]) -> R {
     let half = R::splat(0.5);
@@ -89,7 +92,7 @@ pub fn exp_quotient<R: Real>([a, a_exponential]: [R; 2], [b, b_exponential]: [R;
 
 /// (A + B) tanh v / v · factor for |v| < ½, which is (A − B)/v · factor for A = B e^2v, else `apart`.
 ///
-/// The products are added, not the factors, which may be near the end of the range.
+/// A factor + B factor, not (A + B) factor: the sum of A and B may overflow.
 #[inline(always)]
 fn difference_of_exponentials<R: Real>([a, b]: [R; 2], v: R, factor: R, apart: R) -> R {
     let v2 = v * v;
@@ -100,7 +103,7 @@ fn difference_of_exponentials<R: Real>([a, b]: [R; 2], v: R, factor: R, apart: R
 
 /// tanh v / v from v² ≤ ¼, to u/16.
 ///
-/// 1 − ⅓ v² + 2/15 v⁴ − …, whose coefficients after the first are minimax fits for the relative error of the whole: v = 0 gives 1.
+/// 1 − ⅓ v² + 2/15 v⁴ − …: the leading 1 stays exact, the other coefficients are minimax fits.
 #[inline(always)]
 fn tanhc<R: Real>(v2: R) -> R {
     const SINGLE: [f64; 5] = [
@@ -130,15 +133,16 @@ fn tanhc<R: Real>(v2: R) -> R {
     sum.mul_add(v2, R::splat(1.0))
 }
 
-/// Whether series must be good for more than the 24 bits of `f32`.
+/// Whether a series must serve more than the 24 bits of `f32`.
 const fn is_double<R: Real>() -> bool {
     R::UNIT_ROUNDOFF < 1e-10
 }
 
-/// ln(λ1 λ2 λ3) for λ1 ≥ λ2 ≥ λ3 > 0, also where the product is out of range.
+/// ln(λ1 λ2 λ3) for λ1 ≥ λ2 ≥ λ3 > 0, even if the product is out of range.
 ///
-/// The logarithm of the product, in which stretches near one cancel exactly as far as they do; where the product or a part
-/// of it overflows or loses digits to underflow, the sum of logarithms.
+/// The logarithm of the product keeps its digits if the stretches nearly cancel; a sum of logarithms would
+/// not. If the product or a part of it overflows or loses digits to underflow, the logarithms are added
+/// instead.
 #[inline(always)]
 pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     let extremes = l1 * l3;
@@ -146,16 +150,16 @@ pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     let smallest = R::splat(R::MIN_POSITIVE);
     let in_range = smallest.less(extremes) & smallest.less(product) & product.is_finite();
     let ln = product.ln();
-    // The sum is only computed if one of the numbers in R needs it, and only that one takes it.
+    // The sum is computed only if a lane needs it, and only that lane takes it.
     if !(!in_range).any() {
         return ln;
     }
     R::select(in_range, ln, (l1.ln() + l3.ln()) + l2.ln())
 }
 
-/// The fraction of the interval from a to b that lies above ε; a point counts as above from ε on.
+/// The fraction of the interval from a to b that lies above ε. For a = b it is 1 if a ≥ ε, else 0.
 ///
-/// Differences of the arguments themselves, so every digit is kept.
+/// Only the arguments themselves are subtracted, so that every digit is kept.
 #[inline(always)]
 pub fn share_above<R: Real>(a: R, b: R, epsilon: R) -> R {
     let inside = (a.max(epsilon) - b.max(epsilon)) / (a - b);
@@ -171,10 +175,10 @@ pub fn share_below<R: Real>(a: R, b: R, epsilon: R) -> R {
     R::select(R::splat(0.0).less((a - b).abs()), inside, zero_length)
 }
 
-/// Below this, λi + λj is rounding noise of stretches whose largest is λ1: 2u λ1, and never zero.
+/// The bound below which λi + λj is rounding noise: 2u λ1 for the largest stretch λ1, and never zero.
 ///
-/// A backward-stable singular value decomposition knows each stretch to a few u λ1 and no better. The absolute part
-/// keeps the quotient finite where all stretches vanish.
+/// A backward-stable singular value decomposition gives each stretch to a few u λ1 and no better. The
+/// absolute part keeps a quotient by λi + λj finite if all stretches vanish.
 #[inline(always)]
 pub fn pole_floor<R: Real>(stretches: [R; 3]) -> R {
     (R::splat(2.0 * R::UNIT_ROUNDOFF) * stretches[0].abs()).max(R::splat(R::MIN_POSITIVE.sqrt()))
@@ -184,14 +188,15 @@ pub fn pole_floor<R: Real>(stretches: [R; 3]) -> R {
 mod tests {
     use super::*;
 
-    /// ln(a/b) for a = b (1 + t), as a double-double would give it: ln_1p has half a unit of error.
+    /// ln[b (1 + t), b], with the error of ln_1p only, half a unit.
     fn exact_ln_quotient(b: f64, t: f64) -> f64 {
         if t == 0.0 { 1.0 / b } else { t.ln_1p() / (t * b) }
     }
 
-    /// Worst relative error in units of u over all gaps, such that b (1 + t) is exact: t a power of two, or beside a switch.
+    /// The worst relative error, in units of u, over gaps t for which b (1 + t) is exact: powers of two, and
+    /// some beside each switch between formulas.
     ///
-    /// Also where logarithms are large, of which all but a difference cancels.
+    /// Some bases b have large logarithms, which cancel but for their difference.
     fn worst(error: impl Fn(f64, f64) -> f64) -> f64 {
         let bases = [1.0, 1.5, 3.0 / 1024.0, 1.5 * 2f64.powi(332), 1.25 * 2f64.powi(-332)];
         let gaps = (0..50).map(|k| 2f64.powi(-k)).chain([0.0]).chain((1..20).map(|k| 2f64.powi(k)));
@@ -229,7 +234,7 @@ mod tests {
         }
     }
 
-    /// `f64` as the reference, with 29 bits to spare.
+    /// The reference is `f64`, with 29 bits to spare.
     #[test]
     fn single_precision_keeps_its_digits_at_every_gap() {
         let u = f32::UNIT_ROUNDOFF;
@@ -254,7 +259,7 @@ mod tests {
                     let r = f64::from(r);
                     Pair::of(a, b).power_quotient([a, b].map(|x| x.powf(r)), r)
                 });
-            // Of the plain quotient of two powers, each right to one u, all but the fraction 0.63 may cancel.
+            // Each power is right to one u, and all but the fraction 0.63 may cancel in the plain quotient.
             assert!(worst <= 8.0, "exponent {r}: {worst} u");
         }
     }

@@ -1,8 +1,9 @@
 //! Functions of one variable as parameters of an energy: φ(λi), φ(λiλj), φ(J).
 //!
-//! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A parameter whose
-//! type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. For the derivatives of the energy
-//! it gives its own; for the quotients, φ\[a, b\] and φ′\[a, b\], of which there are defaults. [`Spline`] is such a type.
+//! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A
+//! parameter whose type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. The
+//! type supplies φ, φ′ and φ″, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which have defaults.
+//! [`Spline`] is such a type.
 //!
 //! \[XSZB15\] Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, 2015.
 
@@ -17,7 +18,8 @@ pub use spline::Spline;
 
 /// A function φ of one variable, twice continuously differentiable.
 ///
-/// What computes should be `#[inline(always)]`, so that it is compiled for the instructions of every back end.
+/// Mark every method that computes `#[inline(always)]`: then it is compiled for the instructions of each back
+/// end.
 ///
 /// ```
 /// use piola::{Real, Univariate, material};
@@ -64,31 +66,36 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// φ″(x).
     fn second_derivative<R: Real>(&self, x: R) -> R;
 
-    /// Where φ is not smooth, in increasing order: between these points the defaults below integrate.
+    /// The points at which φ is not smooth, in increasing order; the defaults below integrate between them.
+    ///
+    /// None by default.
     fn breakpoints(&self) -> &[f64] {
         &[]
     }
 
-    /// φ\[a, b\] = (φ(a) − φ(b))/(a − b), φ′(a) where both are equal.
+    /// φ\[a, b\] = (φ(a) − φ(b))/(a − b), and φ′(a) for a = b.
     ///
-    /// The default is the plain quotient for |a − b| > ¼ max(|a|, |b|), which loses about two digits at most, else the mean
-    /// of φ′ over each smooth piece between b and a, by Gauss's rule with eight points. That is within rounding
-    /// where φ is analytic up to zero; in general its error is below h¹⁶ max|φ⁽¹⁷⁾| / 10²⁴ for a piece of length h.
+    /// The default is the plain quotient for |a − b| > ¼ max(|a|, |b|), which loses about two digits at most,
+    /// else the mean of φ′ over each smooth piece between b and a, by Gauss's rule with eight points. The
+    /// error of the mean is below h¹⁶ max|φ⁽¹⁷⁾| / 10²⁴ for a piece of length h, which is within rounding if
+    /// φ is analytic for all x > 0.
     #[inline(always)]
     fn quotient<R: Real>(&self, a: R, b: R) -> R {
         quotient_by_pieces(&Derivative::<_, 0>(self), a, b)
     }
 
-    /// φ′\[a, b\] = (φ′(a) − φ′(b))/(a − b), φ″(a) where both are equal; by default as [`Univariate::quotient`].
+    /// φ′\[a, b\] = (φ′(a) − φ′(b))/(a − b), and φ″(a) for a = b.
+    ///
+    /// The default is that of [`Univariate::quotient`], applied to φ′.
     #[inline(always)]
     fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
         quotient_by_pieces(&Derivative::<_, 1>(self), a, b)
     }
 
-    /// The function that these numbers stand for, where a material is chosen by name.
+    /// Builds the function from a list of numbers, for a material that is chosen by name at run time.
     ///
     /// # Errors
-    /// Where they stand for none; always, by default.
+    /// [`Inadmissible::Shape`] if the list describes no function of this type; by default always.
     fn from_values(values: &[f64]) -> Result<Self, Inadmissible> {
         let _ = values;
         let type_name = std::any::type_name::<Self>();
@@ -147,7 +154,7 @@ trait Piecewise {
     fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R;
 }
 
-/// A divided difference from those of the smooth pieces: their mean, weighted with the length of each.
+/// A divided difference across pieces: the mean of those within each piece, weighted with its length.
 #[inline(always)]
 fn by_pieces<R: Real>(function: &impl Piecewise, a: R, b: R) -> R {
     let breakpoints = function.breakpoints();
@@ -169,7 +176,7 @@ fn by_pieces<R: Real>(function: &impl Piecewise, a: R, b: R) -> R {
 /// The mean of a function between b and a, exact for polynomials of degree 15.
 #[inline(always)]
 fn gauss<F: Univariate, R: Real, const N: u8>(function: &Derivative<'_, F, N>, a: R, b: R) -> R {
-    /// Abscissae and weights of Gauss's rule with eight points on −1 … 1, by symmetry the positive half.
+    /// Positive abscissae and their weights of Gauss's rule with eight points on −1 … 1.
     const RULE: [[f64; 2]; 4] = [
         [0.183_434_642_495_649_8, 0.362_683_783_378_362],
         [0.525_532_409_916_329, 0.313_706_645_877_887_27],

@@ -8,7 +8,7 @@
 use std::f64::consts::{LN_2, SQRT_2};
 
 use piola::Real;
-use piola::lanes::{Backend, Element, Kernel, Lanes};
+use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::random::Random;
 use piola_tests::bits::Precision;
 use piola_tests::multiprecision::Multiprecision;
@@ -183,11 +183,11 @@ struct Apply<'a, E> {
     arguments: &'a [(E, E)],
 }
 
-impl<E: Element> Kernel<E> for Apply<'_, E> {
+impl<E: Scalar> Kernel<E> for Apply<'_, E> {
     type Output = Vec<E>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Vec<E> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Vec<E> {
         let (x, y): (Vec<E>, Vec<E>) = self.arguments.iter().copied().unzip();
         let mut values = vec![E::default(); x.len()];
         for start in (0..x.len()).step_by(R::LANES) {
@@ -207,7 +207,7 @@ fn name(way: Option<Backend>) -> &'static str {
     way.map_or("scalar", Backend::name)
 }
 
-fn apply<E: Element>(way: Option<Backend>, function: Function, arguments: &[(E, E)]) -> Vec<E> {
+fn apply<E: Scalar>(way: Option<Backend>, function: Function, arguments: &[(E, E)]) -> Vec<E> {
     let kernel = Apply { function, arguments };
     match way {
         Some(backend) => backend.run(kernel),
@@ -241,7 +241,7 @@ fn samples() -> usize {
 }
 
 #[track_caller]
-fn judge<E: Element + Precision>() {
+fn judge<E: Scalar + Precision>() {
     let mut failures = Vec::new();
     for function in Function::ALL {
         for region in [Region::Ordinary, Region::Wide, Region::Critical] {

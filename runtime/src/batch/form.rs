@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
 use super::stage::to_numbers;
-use crate::lanes::{Element, Lanes, Mask, Real};
+use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
@@ -19,17 +19,17 @@ pub(super) trait Form<const REST: usize, const N: usize> {
     }
 
     /// Puts number k at k LINE.
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut [R::Element]);
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut [R::Scalar]);
 }
 
 /// Puts number k at k LINE.
 #[inline(always)]
-pub(super) fn put<R: Lanes>(to: &mut [R::Element], k: usize, number: R) {
-    number.store(&mut to[k * <R::Element as Element>::LINE..]);
+pub(super) fn put<R: Lanes>(to: &mut [R::Scalar], k: usize, number: R) {
+    number.store(&mut to[k * <R::Scalar as Scalar>::LINE..]);
 }
 
 #[inline(always)]
-pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Element]) {
+pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Scalar]) {
     for k in 0..N {
         put(to, k, numbers[k]);
     }
@@ -41,7 +41,7 @@ struct Blocks3<'a, F, E>(F, &'a mut [E]);
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
 pub(super) struct FullTangent;
 
-impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
+impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Scalar> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         thrice!(x => {
@@ -56,7 +56,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Element> {
 
 impl Form<0, 81> for FullTangent {
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
         contract(U, V, blocks, &mut Blocks3(Self, to));
     }
@@ -65,7 +65,7 @@ impl Form<0, 81> for FullTangent {
 /// The 45 entries of dP/dF on and above the diagonal, row by row.
 pub(super) struct PackedTangent;
 
-impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
+impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Scalar> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         thrice!(x => {
@@ -80,7 +80,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Element> {
 
 impl Form<0, 45> for PackedTangent {
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
         contract(U, V, blocks, &mut Blocks3(Self, to));
     }
@@ -129,15 +129,15 @@ impl Factored {
 
 impl Form<0, 30> for Factored {
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Element]) {
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         put_factors(&tangent.U, &tangent.V, &tangent.blocks, to);
     }
 }
 
 /// What [`Factored::restore`] takes, with W in the place of V.
 #[inline(always)]
-fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Element]) {
-    let line = <R::Element as Element>::LINE;
+fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Scalar]) {
+    let line = <R::Scalar as Scalar>::LINE;
     put_all(to_numbers(*U), to);
     put_all(to_numbers(*W), &mut to[9 * line..]);
     put_all(blocks.hessian, &mut to[18 * line..]);
@@ -224,7 +224,7 @@ fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: 
 ///
 /// v P Dm⁻ᵀ; its column n belongs to node n + 1, and node 0 takes minus their sum.
 #[inline(always)]
-pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Element]) {
+pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
@@ -234,7 +234,7 @@ pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
 
 /// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at 3n+a.
 #[inline(always)]
-pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Element]) {
+pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Scalar]) {
     put(to, a, -(g1 + g2 + g3));
     put(to, 3 + a, g1);
     put(to, 6 + a, g2);
@@ -252,9 +252,9 @@ trait Places {
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
 struct Stiffness<'a, F, E>(F, &'a mut [E]);
 
-impl<F: Places, E: Element> Stiffness<'_, F, E> {
+impl<F: Places, E: Scalar> Stiffness<'_, F, E> {
     #[inline(always)]
-    fn put<R: Lanes<Element = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
+    fn put<R: Lanes<Scalar = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
         let (place, mirrored) = F::places(i, a, j, c);
         put(self.1, place, entry);
         if let Some(mirrored) = mirrored {
@@ -263,7 +263,7 @@ impl<F: Places, E: Element> Stiffness<'_, F, E> {
     }
 }
 
-impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Element> {
+impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Scalar> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for its mirror image
@@ -303,7 +303,7 @@ macro_rules! stiffness_form {
             }
 
             #[inline(always)]
-            fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Element]) {
+            fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
                 let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
                 contract(U, &W, blocks, &mut Stiffness(Self, to));
@@ -346,7 +346,7 @@ impl Form<10, 30> for FactoredStiffness {
     }
 
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Element]) {
+    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
         let W = Rest::new(*rest).shape_gradients(&tangent.V);
         put_factors(&tangent.U, &W, &tangent.blocks, to);
     }

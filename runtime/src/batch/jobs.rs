@@ -3,7 +3,7 @@
 use super::stage::Stages;
 use super::tile::TILE;
 use super::workspace::Workspace;
-use crate::lanes::Element;
+use crate::lanes::Scalar;
 use crate::status::{Status, StatusCell, Survey};
 
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
@@ -17,7 +17,7 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
     pub(super) statuses: &'a [StatusCell],
 }
 
-impl<'a, E: Element, const I: usize, const O: usize> Work<'a, E, I, O> {
+impl<'a, E: Scalar, const I: usize, const O: usize> Work<'a, E, I, O> {
     /// The first `tiles` tiles, and the rest.
     fn split(self, tiles: usize) -> (Self, Self) {
         let mut later_inputs = [(&[][..], 0); I];
@@ -78,7 +78,7 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     E::with_workspace(|workspace| one_after_the_other(work, points, workspace, body))
 }
 
-fn one_after_the_other<E: Element, const I: usize, const O: usize>(
+fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     workspace: &mut Workspace<E>,

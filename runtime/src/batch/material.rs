@@ -1,7 +1,7 @@
 //! A material as batches see it: one dynamic dispatch for each response of a tile.
 
 use super::tile::{Rows, first_bits, for_each_group};
-use crate::lanes::{Backend, Element, Kernel, Lanes, Mask};
+use crate::lanes::{Backend, Scalar, Kernel, Lanes, Mask};
 use crate::material::{Blocks, Graded, Material, PerPoint};
 use crate::point::energy_is_finite;
 use crate::status::Status;
@@ -80,7 +80,7 @@ macro_rules! tile_responses {
         /// A material over tiles of points: implemented for every [`Material`], and for [`PerPoint`].
         ///
         /// Its methods are internals of [`Batch`](super::Batch).
-        pub trait TileMaterial<E: Element>: Send + Sync {
+        pub trait TileMaterial<E: Scalar>: Send + Sync {
             $(
                 $(#[$doc])*
                 #[doc(hidden)]
@@ -91,14 +91,14 @@ macro_rules! tile_responses {
             fn properties(&self) -> Properties;
         }
 
-        impl<E: Element, P: Points> TileMaterial<E> for P {
+        impl<E: Scalar, P: Points> TileMaterial<E> for P {
             $(
                 fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64> {
                     struct Respond<'a, P, E>(&'a P, Arguments<'a, E>, &'a mut Rows<E, $rows>);
-                    impl<P: Points, E: Element> Kernel<E> for Respond<'_, P, E> {
+                    impl<P: Points, E: Scalar> Kernel<E> for Respond<'_, P, E> {
                         type Output = Status<u64>;
                         #[inline(always)]
-                        fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+                        fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
                             let Self(points, Arguments { start, count, rows, .. }, to) = self;
                             let (mut admitted, mut finite) = (0, 0);
                             for_each_group!(R, count, |group| {

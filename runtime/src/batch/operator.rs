@@ -19,7 +19,7 @@ use super::sink::{Lines, Sink, Source};
 use super::stage::{Decompose, Deform, Judge, Respond, Stages, StiffnessForm, to_matrix};
 use super::tile::for_each_group;
 use super::workspace::{Line, Workspace};
-use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice};
 use crate::point::{Filter, Matrix3, Tangent};
@@ -116,7 +116,7 @@ impl Kernel<f64> for Multiply<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = f64>>(self) {
+    fn run<R: Lanes<Scalar = f64>>(self) {
         let Self { factors, edges, count, line, mut to } = self;
         for_each_group!(R, count, |at| {
             let stiffness = Factored::restore(factors.get_all::<R>(at));
@@ -129,7 +129,7 @@ impl Kernel<f64> for Multiply<'_> {
 }
 
 /// How far apart two numbers of a point are put.
-const LINE: usize = <f64 as Element>::LINE;
+const LINE: usize = <f64 as Scalar>::LINE;
 
 /// Factors into a column of the blocks on the diagonal.
 struct DiagonalColumns<'a> {
@@ -144,7 +144,7 @@ impl Kernel<f64> for DiagonalColumns<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = f64>>(self) {
+    fn run<R: Lanes<Scalar = f64>>(self) {
         let Self { factors, coordinate, count, line, mut to } = self;
         for_each_group!(R, count, |at| {
             let Tangent { U, V: W, blocks } = Factored::restore(factors.get_all::<R>(at));
@@ -159,7 +159,7 @@ impl Kernel<f64> for DiagonalColumns<'_> {
 
 /// Column c of a node's stiffness with itself, w being its row of W: U A(u wᵀ) w with u = Uᵀ e_c.
 #[inline(always)]
-fn put_diagonal<R: Lanes>(U: &Matrix3<R>, w: [R; 3], blocks: &Blocks<R>, c: usize, to: &mut [R::Element]) {
+fn put_diagonal<R: Lanes>(U: &Matrix3<R>, w: [R; 3], blocks: &Blocks<R>, c: usize, to: &mut [R::Scalar]) {
     let D = three!(k => three!(l => U[c][k] * w[l]));
     let response = blocks.apply(&D);
     let traction = three!(k => dot(response[k], w));

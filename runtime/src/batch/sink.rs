@@ -2,7 +2,7 @@
 
 use super::tile::TILE;
 use super::workspace::Line;
-use crate::lanes::{Backend, Element, Kernel, Lanes, PastCaches};
+use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
 
 /// How N numbers of each of many points lie in a slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub enum Layout {
     /// Point by point: number k of point p at p N + k. Lanes are transposed in registers.
     #[default]
     Points,
-    /// In lines of [`LINE`](Element::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number k of point p
+    /// In lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number k of point p
     /// at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a multiple of L: fill the last
     /// line up with identities.
     Lines,
@@ -19,7 +19,7 @@ pub enum Layout {
 impl Layout {
     /// Where number k of a point is.
     #[must_use]
-    pub fn index<E: Element>(self, point: usize, numbers: usize, k: usize) -> usize {
+    pub fn index<E: Scalar>(self, point: usize, numbers: usize, k: usize) -> usize {
         match self {
             Self::Points => point * numbers + k,
             Self::Lines => (point / E::LINE * numbers + k) * E::LINE + point % E::LINE,
@@ -35,7 +35,7 @@ impl<E> Source<'_, E, 0> {
     pub(super) const NONE: Self = Self(&[]);
 }
 
-impl<'a, E: Element, const N: usize> Source<'a, E, N> {
+impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not full gets its room.
     pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
@@ -53,7 +53,7 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
 
     /// The numbers of the points from `at` on.
     #[inline(always)]
-    pub(super) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
+    pub(super) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
         if N > 0 {
             let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..];
@@ -73,7 +73,7 @@ impl<'a, E: Element, const N: usize> Source<'a, E, N> {
 #[repr(C, align(64))]
 pub(super) struct Lines<E, const N: usize>(pub(super) [[E; N]; TILE]);
 
-impl<E: Element, const N: usize> Lines<E, N> {
+impl<E: Scalar, const N: usize> Lines<E, N> {
     pub(super) fn zero() -> Self {
         Self([[E::default(); N]; TILE])
     }
@@ -84,7 +84,7 @@ impl<E: Element, const N: usize> Lines<E, N> {
 
     /// The numbers of the points from `at` on.
     #[inline(always)]
-    pub(super) fn set_all<R: Lanes<Element = E>>(&mut self, at: usize, numbers: [R; N]) {
+    pub(super) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, numbers: [R; N]) {
         let to = &mut self.0.as_flattened_mut()[at / E::LINE * N * E::LINE + at % E::LINE..];
         let to = &mut to[..(N - 1) * E::LINE + R::LANES];
         for k in 0..N {
@@ -102,7 +102,7 @@ impl<E: Element, const N: usize> Lines<E, N> {
     }
 
     pub(super) fn sink(&mut self) -> Sink<'_, E> {
-        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, past_caches: None }
+        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None }
     }
 }
 
@@ -112,11 +112,11 @@ struct Turn<'a, E, const N: usize> {
     to: &'a mut [E],
 }
 
-impl<E: Element, const N: usize> Kernel<E> for Turn<'_, E, N> {
+impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Self { from, to } = self;
         R::transpose([from.len() / N, N], from, N, to, E::LINE);
     }
@@ -128,13 +128,13 @@ pub(super) struct Sink<'a, E> {
     pub(super) to: &'a mut [E],
     pub(super) layout: Layout,
     /// Past the caches, with non-temporal stores, if given what keeps them in order.
-    pub(super) past_caches: Option<&'a PastCaches>,
+    pub(super) non_temporal: Option<&'a NonTemporal>,
 }
 
-impl<E: Element> Sink<'_, E> {
+impl<E: Scalar> Sink<'_, E> {
     /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`] must follow.
     #[inline(always)]
-    pub(super) fn place<'a, R: Lanes<Element = E>, const N: usize>(
+    pub(super) fn place<'a, R: Lanes<Scalar = E>, const N: usize>(
         &'a mut self,
         line: &'a mut Line<E>,
         at: usize,
@@ -151,12 +151,12 @@ impl<E: Element> Sink<'_, E> {
 
     #[inline(always)]
     fn is_direct(&self) -> bool {
-        self.layout == Layout::Lines && self.past_caches.is_none()
+        self.layout == Layout::Lines && self.non_temporal.is_none()
     }
 
     /// Brings what is in a place to the slice; `count` is how many points the tile has.
     #[inline(always)]
-    pub(super) fn finish<R: Lanes<Element = E>, const N: usize>(
+    pub(super) fn finish<R: Lanes<Scalar = E>, const N: usize>(
         &mut self,
         line: &Line<E>,
         at: usize,
@@ -167,10 +167,10 @@ impl<E: Element> Sink<'_, E> {
         }
         let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
         let line = &line.0.as_flattened()[..N * E::LINE];
-        match (self.layout, self.past_caches) {
-            (Layout::Lines, Some(order)) => {
+        match (self.layout, self.non_temporal) {
+            (Layout::Lines, Some(fence)) => {
                 if offset + R::LANES == E::LINE {
-                    R::stream(line, &mut self.to[start..][..N * E::LINE], order);
+                    R::store_non_temporal(line, &mut self.to[start..][..N * E::LINE], fence);
                 }
             }
             _ => {

@@ -15,7 +15,7 @@ use super::material::{from_rows, to_rows};
 use super::sink::{Lines, Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::{Line, Workspace};
-use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::three;
 use crate::point::{
@@ -32,13 +32,13 @@ pub struct Points<E> {
     V: Rows<E, 9>,
 }
 
-impl<E: Element> Points<E> {
+impl<E: Scalar> Points<E> {
     pub(crate) fn new() -> Self {
         Self { U: Rows::zero(), stretches: Rows::zero(), V: Rows::zero() }
     }
 
     #[inline(always)]
-    fn get<R: Lanes<Element = E>>(&self, at: usize) -> Svd<R> {
+    fn get<R: Lanes<Scalar = E>>(&self, at: usize) -> Svd<R> {
         Svd {
             U: to_matrix(self.U.get_all(at)),
             stretches: self.stretches.get_all(at),
@@ -47,7 +47,7 @@ impl<E: Element> Points<E> {
     }
 
     #[inline(always)]
-    fn set<R: Lanes<Element = E>>(&mut self, at: usize, svd: &Svd<R>) {
+    fn set<R: Lanes<Scalar = E>>(&mut self, at: usize, svd: &Svd<R>) {
         self.U.set_all(at, to_numbers(svd.U));
         self.stretches.set_all(at, svd.stretches);
         self.V.set_all(at, to_numbers(svd.V));
@@ -80,11 +80,11 @@ pub(super) struct Decompose<'a, E> {
     pub(super) points: &'a mut Points<E>,
 }
 
-impl<E: Element> Kernel<E> for Decompose<'_, E> {
+impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
             for_each_group!(InTurns<R>, count, |at| {
@@ -105,12 +105,12 @@ pub(super) struct Invariants<'a, E> {
     pub(super) invariants: &'a mut Rows<E, 3>,
 }
 
-impl<E: Element> Kernel<E> for Invariants<'_, E> {
+impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
     /// The points in range.
     type Output = u64;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> u64 {
+    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         let Self { F, count, invariants: to } = self;
         let mut in_range = 0;
         for_each_group!(R, count, |at| {
@@ -132,12 +132,12 @@ pub(super) struct StressByInvariants<'a, E> {
     pub(super) P: Sink<'a, E>,
 }
 
-impl<E: Element> Kernel<E> for StressByInvariants<'_, E> {
+impl<E: Scalar> Kernel<E> for StressByInvariants<'_, E> {
     /// The points whose stress is finite.
     type Output = u64;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> u64 {
+    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         let Self { F, invariants, gradients, count, line, mut P } = self;
         let mut finite = 0;
         for_each_group!(R, count, |at| {
@@ -159,11 +159,11 @@ pub(super) struct Deform<'a, E> {
     pub(super) count: usize,
 }
 
-impl<E: Element> Kernel<E> for Deform<'_, E> {
+impl<E: Scalar> Kernel<E> for Deform<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Self { edges, rest, count } = self;
         for_each_group!(R, count, |at| {
             let Ds = to_matrix(edges.source().get_all::<R>(at));
@@ -184,11 +184,11 @@ pub(super) struct Forces<'a, E> {
     pub(super) to: Sink<'a, E>,
 }
 
-impl<E: Element> Kernel<E> for Forces<'_, E> {
+impl<E: Scalar> Kernel<E> for Forces<'_, E> {
     type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Self { points, gradients, rest, count, line, mut to } = self;
         let mut status = Status::default();
         for_each_group!(R, count, |at| {
@@ -214,11 +214,11 @@ pub(super) struct Stress<'a, E> {
     pub(super) P: Sink<'a, E>,
 }
 
-impl<E: Element> Kernel<E> for Stress<'_, E> {
+impl<E: Scalar> Kernel<E> for Stress<'_, E> {
     type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Self { points, gradients, count, line, mut P } = self;
         let mut status = Status::default();
         for_each_group!(R, count, |at| {
@@ -241,11 +241,11 @@ pub(super) struct Judge<'a, E> {
     pub(super) has_pole: bool,
 }
 
-impl<E: Element> Kernel<E> for Judge<'_, E> {
+impl<E: Scalar> Kernel<E> for Judge<'_, E> {
     type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Self { points, blocks, count, filter, has_pole } = self;
         let mut status = Status::default();
         for_each_group!(R, count, |at| {
@@ -278,13 +278,13 @@ struct Shaped<'a, E, F, const REST: usize, const N: usize>(Respond<'a, E, REST>,
 
 impl<E, F, const REST: usize, const N: usize> Kernel<E> for Shaped<'_, E, F, REST, N>
 where
-    E: Element,
+    E: Scalar,
     F: Form<REST, N>,
 {
     type Output = Status<u64>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Status<u64> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Respond { points, blocks, rest, count, has_pole, line, mut to } = self.0;
         let mut status = Status::default();
         for_each_group!(R, count, |at| {
@@ -310,11 +310,11 @@ pub(super) struct Product<'a, E> {
     pub(super) dP: Sink<'a, E>,
 }
 
-impl<E: Element> Kernel<E> for Product<'_, E> {
+impl<E: Scalar> Kernel<E> for Product<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Self { stored, dF, count, line, mut dP } = self;
         for_each_group!(R, count, |at| {
             let tangent = Factored::restore(stored.get_all::<R>(at));
@@ -344,7 +344,7 @@ pub(super) enum StiffnessForm {
 
 /// The kernels above for one format: no function is generic, so that each is compiled once, here.
 #[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
-pub trait Stages: Element {
+pub trait Stages: Scalar {
     #[doc(hidden)]
     fn decompose(backend: Backend, kernel: Decompose<'_, Self>);
     #[doc(hidden)]

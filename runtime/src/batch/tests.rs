@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
-use crate::lanes::{Element, Real};
+use crate::lanes::{Real, Scalar};
 use crate::material::Material;
 use crate::point::{Matrix3, Point, evaluate, evaluate_energy};
 use crate::random::Random;
@@ -337,7 +337,7 @@ fn lengths_that_do_not_fit_are_errors() {
 
 #[test]
 fn lines_are_as_long_as_a_cache_line() {
-    assert_eq!((<f64 as Element>::LINE, <f32 as Element>::LINE), (8, 16));
+    assert_eq!((<f64 as Scalar>::LINE, <f32 as Scalar>::LINE), (8, 16));
     assert_eq!(Layout::Lines.index::<f64>(11, 9, 2), (9 + 2) * 8 + 3);
     assert_eq!(Layout::Points.index::<f64>(11, 9, 2), 101);
 }

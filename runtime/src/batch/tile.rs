@@ -3,7 +3,7 @@
 //! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as it is. A tile
 //! that is not full is padded with copies of nothing in particular: no lane looks at another.
 
-use crate::lanes::{Element, Lanes};
+use crate::lanes::{Lanes, Scalar};
 
 /// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
 pub(crate) const TILE: usize = 64;
@@ -20,20 +20,20 @@ pub(super) type Row<E> = [E; ROW];
 #[repr(C, align(64))]
 pub struct Rows<E, const N: usize>(pub(crate) [Row<E>; N]);
 
-impl<E: Element, const N: usize> Rows<E, N> {
+impl<E: Scalar, const N: usize> Rows<E, N> {
     pub(crate) fn zero() -> Self {
         Self([[E::default(); ROW]; N])
     }
 
     /// Number k of the points from `at` on.
     #[inline(always)]
-    pub(crate) fn get<R: Lanes<Element = E>>(&self, k: usize, at: usize) -> R {
+    pub(crate) fn get<R: Lanes<Scalar = E>>(&self, k: usize, at: usize) -> R {
         R::load(&self.0[k][at..])
     }
 
     /// All numbers of the points from `at` on.
     #[inline(always)]
-    pub(crate) fn get_all<R: Lanes<Element = E>>(&self, at: usize) -> [R; N] {
+    pub(crate) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
         for k in 0..N {
             numbers[k] = self.get(k, at);
@@ -42,12 +42,12 @@ impl<E: Element, const N: usize> Rows<E, N> {
     }
 
     #[inline(always)]
-    pub(crate) fn set<R: Lanes<Element = E>>(&mut self, k: usize, at: usize, value: R) {
+    pub(crate) fn set<R: Lanes<Scalar = E>>(&mut self, k: usize, at: usize, value: R) {
         value.store(&mut self.0[k][at..]);
     }
 
     #[inline(always)]
-    pub(crate) fn set_all<R: Lanes<Element = E>>(&mut self, at: usize, values: [R; N]) {
+    pub(crate) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, values: [R; N]) {
         for k in 0..N {
             self.set(k, at, values[k]);
         }

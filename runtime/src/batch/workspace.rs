@@ -3,7 +3,7 @@
 use super::sink::Lines;
 use super::stage::Points;
 use super::tile::Rows;
-use crate::lanes::Element;
+use crate::lanes::Scalar;
 
 /// Room for one tile of any call.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub struct Workspace<E> {
 #[repr(C, align(64))]
 pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
 
-impl<E: Element> Workspace<E> {
+impl<E: Scalar> Workspace<E> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             F: Lines::zero(),

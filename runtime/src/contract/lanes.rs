@@ -137,7 +137,7 @@ impl<M: Material> Kernel<f64> for SideBySide<'_, M> {
     type Output = Vec<[f64; ALL]>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = f64>>(self) -> Self::Output {
+    fn run<R: Lanes<Scalar = f64>>(self) -> Self::Output {
         let Self(material, points) = self;
         let mut all = vec![[0.0; ALL]; points.len()];
         let mut lanes = vec![0.0; R::LANES];

@@ -1,27 +1,34 @@
-//! Which instructions a kernel runs with, decided at run time.
+//! Choice of the instructions that a kernel runs with, at run time.
 
 #![cfg_attr(
     target_arch = "x86_64",
-    expect(unsafe_code, reason = "calls of functions compiled for a processor that was asked for")
+    expect(
+        unsafe_code,
+        reason = "calls of functions compiled for instructions that the processor was found to have"
+    )
 )]
 
 use std::fmt;
 
-use super::{Element, Lanes, Pair, PastCaches};
+use super::lanes2::Lanes2;
+use super::non_temporal::NonTemporal;
+use super::vector::{InstructionSet, Lanes, Scalar};
+#[cfg(target_arch = "x86_64")]
+use super::x86::{F32x8, F32x16, F64x4, F64x8};
 
-/// A computation with lanes of any back end.
+/// A computation written for the lanes of any back end.
 ///
-/// `run` must be `#[inline(always)]`, and so must everything it does arithmetic with, because only what is inlined
+/// `run` must be `#[inline(always)]`, and so must all arithmetic that it calls: only code that is inlined
 /// into the function of the back end is compiled for its instructions.
-pub trait Kernel<E: Element> {
-    /// What it computes.
+pub trait Kernel<E: Scalar> {
+    /// The result of the computation.
     type Output;
 
     /// Computes with lanes of type `R`.
-    fn run<R: Lanes<Element = E>>(self) -> Self::Output;
+    fn run<R: Lanes<Scalar = E>>(self) -> Self::Output;
 }
 
-/// Instructions to compute with. A value of this type says that the processor has them.
+/// A set of instructions that this processor has, to run kernels with.
 ///
 /// ```
 /// use piola::lanes::Backend;
@@ -49,7 +56,7 @@ impl Backend {
         Self::available().next().unwrap_or(Self::portable())
     }
 
-    /// What every processor has: arrays of numbers, vectorised as far as the compiler does for its target.
+    /// The back end of every processor: arrays of numbers, which the compiler vectorises for its target.
     #[must_use]
     pub const fn portable() -> Self {
         Self(Instructions::Portable)
@@ -71,7 +78,7 @@ impl Backend {
         vector.into_iter().flatten().chain([Instructions::Portable]).map(Self)
     }
 
-    /// `AVX-512`, `AVX2` or `portable`.
+    /// Name of the back end: `AVX-512`, `AVX2` or `portable`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self.0 {
@@ -85,29 +92,53 @@ impl Backend {
 
     /// Runs a kernel with the lanes of this back end.
     #[inline]
-    pub fn run<E: Element, K: Kernel<E>>(self, kernel: K) -> K::Output {
-        E::run(self, kernel)
+    pub fn run<E: Scalar, K: Kernel<E>>(self, kernel: K) -> K::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+            fn with_avx512<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
+                align_stack();
+                kernel.run::<E::In<Avx512>>()
+            }
+
+            #[target_feature(enable = "avx2,fma")]
+            fn with_avx2<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
+                align_stack();
+                kernel.run::<E::In<Avx2>>()
+            }
+
+            match self.0 {
+                // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
+                Instructions::Avx512 => return unsafe { with_avx512(kernel) },
+                // SAFETY: as above.
+                Instructions::Avx2 => return unsafe { with_avx2(kernel) },
+                Instructions::Portable => {}
+            }
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        let Instructions::Portable = self.0;
+        kernel.run::<E::In<Portable>>()
     }
 
-    /// Copies numbers past the caches where these instructions can and both slices consist of whole aligned registers,
-    /// else as any copy: for comparison with what a kernel writes.
+    /// Copies a slice by [`Lanes::store_non_temporal`], for benchmarks: the traffic of a kernel's output
+    /// alone.
     ///
     /// ```
     /// let (from, mut to) = ([1.0, 2.0, 3.0], [0.0; 3]);
-    /// piola::lanes::Backend::best().copy_past_caches(&from, &mut to);
+    /// piola::lanes::Backend::best().store_non_temporal(&from, &mut to);
     /// assert_eq!(to, from);
     /// ```
     ///
     /// # Panics
-    /// Where the lengths differ.
-    pub fn copy_past_caches<E: Element>(self, from: &[E], to: &mut [E]) {
+    /// If the lengths differ.
+    pub fn store_non_temporal<E: Scalar>(self, from: &[E], to: &mut [E]) {
         struct Copy<'a, E>(&'a [E], &'a mut [E]);
-        impl<E: Element> Kernel<E> for Copy<'_, E> {
+        impl<E: Scalar> Kernel<E> for Copy<'_, E> {
             type Output = ();
 
             #[inline(always)]
-            fn run<R: Lanes<Element = E>>(self) {
-                R::stream(self.0, self.1, &PastCaches::new());
+            fn run<R: Lanes<Scalar = E>>(self) {
+                R::store_non_temporal(self.0, self.1, &NonTemporal::new());
             }
         }
         self.run(Copy(from, to));
@@ -126,10 +157,10 @@ impl fmt::Display for Backend {
     }
 }
 
-/// Makes the compiler align the stack frame of the function around to the widest register.
+/// Makes the compiler align the stack frame of the calling function to the widest register.
 ///
-/// It does so for variables that want it, not for the registers that it stores there for want of room: without this most of
-/// them would lie across two cache lines, and a kernel take half as long again.
+/// Compilers align a frame for variables that ask for it, not for spilled registers. Unaligned, most of these
+/// cross the border of a cache line, and a kernel takes half as long again.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn align_stack() {
@@ -139,38 +170,30 @@ fn align_stack() {
     std::hint::black_box(&line.0);
 }
 
-macro_rules! runners {
-    ($run:ident, $Number:ident, $F512:ident, $F256:ident, $Portable:ty) => {
-        #[inline]
-        pub(super) fn $run<K: Kernel<$Number>>(backend: Backend, kernel: K) -> K::Output {
-            #[cfg(target_arch = "x86_64")]
-            {
-                #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
-                fn with_avx512<K: Kernel<$Number>>(kernel: K) -> K::Output {
-                    align_stack();
-                    kernel.run::<super::x86::$F512>()
-                }
+/// The registers of AVX-512.
+#[cfg(target_arch = "x86_64")]
+struct Avx512;
 
-                #[target_feature(enable = "avx2,fma")]
-                fn with_avx2<K: Kernel<$Number>>(kernel: K) -> K::Output {
-                    align_stack();
-                    kernel.run::<super::x86::$F256>()
-                }
-
-                match backend.0 {
-                    // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
-                    Instructions::Avx512 => return unsafe { with_avx512(kernel) },
-                    // SAFETY: as above.
-                    Instructions::Avx2 => return unsafe { with_avx2(kernel) },
-                    Instructions::Portable => {}
-                }
-            }
-            #[cfg(not(target_arch = "x86_64"))]
-            let Instructions::Portable = backend.0;
-            kernel.run::<$Portable>()
-        }
-    };
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for Avx512 {
+    type F64 = F64x8;
+    type F32 = F32x16;
 }
 
-runners!(run_f64, f64, F64x8, F64x4, Pair<f64>);
-runners!(run_f32, f32, F32x16, F32x8, Pair<Pair<f32>>);
+/// The registers of AVX2.
+#[cfg(target_arch = "x86_64")]
+struct Avx2;
+
+#[cfg(target_arch = "x86_64")]
+impl InstructionSet for Avx2 {
+    type F64 = F64x4;
+    type F32 = F32x8;
+}
+
+/// The lanes of every processor.
+struct Portable;
+
+impl InstructionSet for Portable {
+    type F64 = Lanes2<f64>;
+    type F32 = Lanes2<Lanes2<f32>>;
+}

@@ -1,27 +1,9 @@
 //! One number at a time: `f64` and `f32`.
 
-use std::fmt::Debug;
-
+use super::elementary::elementary_functions;
 use super::primitive::{Primitive, exponent_or_limit, lift};
-use super::{Backend, Kernel, Mask};
-
-/// A format of floating-point numbers: `f64` or `f32`.
-pub trait Element:
-    Primitive<Format = Self, Choice = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
-{
-    /// Binary digits of the significand.
-    const DIGITS: u32;
-    /// The smallest positive normal number.
-    const SMALLEST_NORMAL: f64;
-    /// Adding and subtracting it rounds |x| ≤ 2⁵⁰ (`f32`: 2²¹) to the nearest integer.
-    const ROUNDING: f64;
-
-    /// Numbers in a cache line of 64 bytes, the group in which blocks of numbers are laid out.
-    const LINE: usize;
-
-    /// Runs a kernel with the lanes of a back end.
-    fn run<K: Kernel<Self>>(backend: Backend, kernel: K) -> K::Output;
-}
+use super::real::{Mask, Real};
+use super::vector::{InstructionSet, Lanes, Scalar};
 
 impl Mask for bool {
     #[inline(always)]
@@ -37,98 +19,94 @@ impl Mask for bool {
 
 macro_rules! scalar {
     (
-        $Number:ident, $Bits:ident, $Signed:ident,
-        mantissa: $mantissa:literal, bias: $bias:literal, line: $line:literal,
-        run: $run:path
+        $Number:ident, $Bits:ident, $Signed:ident, lanes $Lanes:ident, mantissa $mantissa:literal, bias $bias:literal
     ) => {
-        impl Element for $Number {
-            const DIGITS: u32 = $Number::MANTISSA_DIGITS;
-            const SMALLEST_NORMAL: f64 = $Number::MIN_POSITIVE as f64;
-            const ROUNDING: f64 = (3u64 << ($mantissa - 1)) as f64;
-            const LINE: usize = $line;
-
-            #[inline(always)]
-            fn run<K: Kernel<Self>>(backend: Backend, kernel: K) -> K::Output {
-                $run(backend, kernel)
-            }
+        impl Scalar for $Number {
+            const LINE: usize = 64 / size_of::<$Number>();
+            type In<I: InstructionSet> = I::$Lanes;
         }
 
-        impl Primitive for $Number {
-            type Choice = bool;
-            type Format = Self;
-            type Interleaved = Self;
-            const COUNT: usize = 1;
-            const IS_FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+        impl Real for $Number {
+            type Mask = bool;
+            const UNIT_ROUNDOFF: f64 = $Number::EPSILON as f64 / 2.0;
+            const MIN_POSITIVE: f64 = $Number::MIN_POSITIVE as f64;
+
+            elementary_functions!();
 
             #[inline(always)]
-            fn fill(value: f64) -> Self {
+            fn splat(value: f64) -> Self {
                 value as $Number
             }
 
             #[inline(always)]
-            fn each(value: impl Fn(usize) -> f64) -> Self {
+            fn from_fn(value: impl Fn(usize) -> f64) -> Self {
                 value(0) as $Number
             }
 
             #[inline(always)]
-            fn read(from: &[Self]) -> Self {
-                from[0]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if Self::IS_FUSED { $Number::mul_add(self, factor, addend) } else { self * factor + addend }
             }
 
             #[inline(always)]
-            fn write(self, to: &mut [Self]) {
-                to[0] = self;
-            }
-
-            #[inline(always)]
-            fn choice_bits(choice: bool) -> u64 {
-                u64::from(choice)
-            }
-
-            #[inline(always)]
-            fn fused(self, factor: Self, addend: Self) -> Self {
-                $Number::mul_add(self, factor, addend)
-            }
-
-            #[inline(always)]
-            fn root(self) -> Self {
+            fn sqrt(self) -> Self {
                 $Number::sqrt(self)
             }
 
             #[inline(always)]
-            fn reciprocal_root(self) -> Self {
-                1.0 / $Number::sqrt(self)
-            }
-
-            #[inline(always)]
-            fn rough_root(self) -> Self {
-                $Number::sqrt(self)
-            }
-
-            #[inline(always)]
-            fn magnitude(self) -> Self {
+            fn abs(self) -> Self {
                 $Number::abs(self)
             }
 
             #[inline(always)]
-            fn larger(self, other: Self) -> Self {
+            fn max(self, other: Self) -> Self {
                 if self > other { self } else { other }
             }
 
             #[inline(always)]
-            fn smaller(self, other: Self) -> Self {
+            fn min(self, other: Self) -> Self {
                 if self < other { self } else { other }
             }
 
             #[inline(always)]
-            fn with_sign(self, sign: Self) -> Self {
+            fn copysign(self, sign: Self) -> Self {
                 $Number::copysign(self, sign)
             }
 
             #[inline(always)]
-            fn is_less(self, other: Self) -> bool {
+            fn less(self, other: Self) -> bool {
                 self < other
             }
+
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+        }
+
+        impl Lanes for $Number {
+            type Scalar = Self;
+            type Interleaved = Self;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn load(from: &[Self]) -> Self {
+                from[0]
+            }
+
+            #[inline(always)]
+            fn store(self, to: &mut [Self]) {
+                to[0] = self;
+            }
+
+            #[inline(always)]
+            fn bits(mask: bool) -> u64 {
+                u64::from(mask)
+            }
+        }
+
+        impl Primitive for $Number {
+            const IS_FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
 
             #[inline(always)]
             fn is_zero(self) -> bool {
@@ -136,13 +114,9 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
-            fn choose(choice: bool, yes: Self, no: Self) -> Self {
-                if choice { yes } else { no }
-            }
-
-            #[inline(always)]
             fn split(self) -> (Self, Self) {
-                // As integers, patterns of bits are in the order of the numbers, an exponent is worth 2 to the mantissa.
+                // Bit patterns of positive numbers, read as integers, are in order, and one exponent is 2 to
+                // the width of the mantissa.
                 const SMALLEST: $Signed = std::$Number::consts::FRAC_1_SQRT_2.to_bits() as $Signed;
                 let (lifted, lift) = lift(self);
                 let bits = lifted.to_bits() as $Signed;
@@ -176,16 +150,8 @@ macro_rules! scalar {
     };
 }
 
-scalar!(
-    f64, u64, i64,
-    mantissa: 52, bias: 1023, line: 8,
-    run: super::backend::run_f64
-);
-scalar!(
-    f32, u32, i32,
-    mantissa: 23, bias: 127, line: 16,
-    run: super::backend::run_f32
-);
+scalar!(f64, u64, i64, lanes F64, mantissa 52, bias 1023);
+scalar!(f32, u32, i32, lanes F32, mantissa 23, bias 127);
 
 #[cfg(test)]
 mod tests {

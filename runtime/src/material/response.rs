@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Blocks, Inversion, Material, Moduli};
-use crate::lanes::{Element, Real};
+use crate::lanes::{Scalar, Real};
 
 /// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
 ///
@@ -138,9 +138,9 @@ with_responses!(forward_to_pointee impl<M: Material> Material for Arc<M>);
 /// # Ok(())
 /// # }
 /// ```
-pub trait DynMaterial<E: Element>: Response<E> + Tiles<E> {}
+pub trait DynMaterial<E: Scalar>: Response<E> + Tiles<E> {}
 
-impl<E: Element, M: Material> DynMaterial<E> for M {}
+impl<E: Scalar, M: Material> DynMaterial<E> for M {}
 
 #[cfg(feature = "batch")]
 use crate::batch::TileMaterial as Tiles;

@@ -13,7 +13,7 @@ use super::fill::{NodePairs, fill};
 use super::linear::LinearError;
 use super::pattern::Pattern;
 use crate::batch::{Layout, LengthError, PACKED_12};
-use crate::lanes::Element;
+use crate::lanes::Scalar;
 
 /// The lower triangle of a symmetric matrix with a 3×3 block for each two nodes that share a tetrahedron, N/m.
 ///

@@ -6,8 +6,9 @@ use crate::material::Inadmissible;
 
 /// A function φ given by its derivative: φ′ is the natural cubic spline through control points, φ(1) = 0.
 ///
-/// φ′ is twice continuously differentiable, and linear before the first and behind the last control point, so that φ is defined
-/// for every argument. With a control point (1, 0) on each curve of an energy its rest state is free of stress.
+/// φ′ is twice continuously differentiable, and linear before the first and after the last control point, so
+/// that φ is defined for every argument. If each curve of an energy has a control point (1, 0), the rest
+/// state is free of stress.
 ///
 /// ```
 /// use piola::{Spline, Univariate};
@@ -23,7 +24,7 @@ use crate::material::Inadmissible;
 pub struct Spline {
     /// Abscissae of the control points.
     knots: Vec<f64>,
-    /// One more than knots: piece k ends at knot k. The first and the last are straight.
+    /// Piece k ends at knot k, and one more follows the last knot. The first and the last are straight lines.
     pieces: Vec<Piece>,
 }
 
@@ -53,14 +54,15 @@ impl Spline {
                 pair[0][0], pair[1][0]
             ));
         }
-        let bends = bends(points);
+        let moments = moments(points);
         let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
         let mut pieces = Vec::new();
         for (k, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-            let (h, m0, m1) = (x1 - x0, bends[k], bends[k + 1]);
+            let (h, m0, m1) = (x1 - x0, moments[k], moments[k + 1]);
             let slope = (y1 - y0) / h;
-            // At the end that is nearer to rest, where a curve is zero, it is so from both sides.
+            // A curve is zero at rest, x = 1. Pieces are expanded about their end nearer to it, so that a
+            // control point (1, 0) is the anchor of both pieces beside it, and the curve exactly zero there.
             let (anchor, y, slope, m) = if x1 <= 1.0 {
                 (x1, y1, slope + h * (m0 + 2.0 * m1) / 6.0, m1)
             } else {
@@ -84,7 +86,7 @@ impl Spline {
         Ok(spline)
     }
 
-    /// The coefficients of the piece that x lies in, each number of R by itself, and the distance from its anchor.
+    /// The coefficients of the piece that x lies in, for each lane, and the distance of x from its anchor.
     #[inline(always)]
     fn piece<R: Real>(&self, x: R) -> ([R; 5], R) {
         let mut coefficients = self.pieces[0].coefficients_for();
@@ -108,14 +110,14 @@ impl Piece {
         [R::splat(c0), R::splat(c1), R::splat(c2), R::splat(c3), R::splat(c4)]
     }
 
-    /// Goes on from x with the same φ, φ′ and φ″.
+    /// The piece with the φ, φ′ and φ″ of this one at x, and a straight φ′.
     fn straight_from(&self, x: f64) -> Self {
-        let [value, slope, bend] = self.taylor(x);
-        Self { anchor: x, coefficients: [value, slope, bend / 2.0, 0.0, 0.0] }
+        let [value, slope, second] = self.taylor(x);
+        Self { anchor: x, coefficients: [value, slope, second / 2.0, 0.0, 0.0] }
     }
 
-    /// The coefficients, and what divided differences of powers are made of: a + b = (a² − b²)/(a − b), a² + b², and
-    /// a² + ab + b² = (a³ − b³)/(a − b), of the distances from the anchor.
+    /// The coefficients, and the terms of the divided differences of powers: a + b = (a² − b²)/(a − b), a² +
+    /// b² and a² + ab + b² = (a³ − b³)/(a − b), where a and b are measured from the anchor.
     #[inline(always)]
     fn between<R: Real>(&self, a: R, b: R) -> ([R; 5], [R; 3]) {
         let anchor = R::splat(self.anchor);
@@ -124,7 +126,7 @@ impl Piece {
         (self.coefficients_for(), [a + b, squares, a.mul_add(b, squares)])
     }
 
-    /// φ, φ′ and φ″.
+    /// φ, φ′ and φ″ at x.
     fn taylor(&self, x: f64) -> [f64; 3] {
         let [c0, c1, c2, c3, c4] = self.coefficients;
         let d = x - self.anchor;
@@ -136,23 +138,23 @@ impl Piece {
     }
 }
 
-/// Second derivatives of the natural cubic spline at its points, by elimination in the tridiagonal system of continuous
-/// slopes [de Boor, *A Practical Guide to Splines*, chapter IV].
-fn bends(points: &[[f64; 2]]) -> Vec<f64> {
+/// Second derivatives, called moments, of the natural cubic spline at its points, by elimination in the
+/// tridiagonal system of continuous slopes [de Boor, *A Practical Guide to Splines*, chapter IV].
+fn moments(points: &[[f64; 2]]) -> Vec<f64> {
     let n = points.len();
     let length = |k: usize| points[k + 1][0] - points[k][0];
     let slope = |k: usize| (points[k + 1][1] - points[k][1]) / length(k);
     let mut factors = vec![0.0; n];
-    let mut bends = vec![0.0; n];
+    let mut moments = vec![0.0; n];
     for k in 1..n - 1 {
         let pivot = 2.0 * (length(k - 1) + length(k)) - length(k - 1) * factors[k - 1];
         factors[k] = length(k) / pivot;
-        bends[k] = (6.0 * (slope(k) - slope(k - 1)) - length(k - 1) * bends[k - 1]) / pivot;
+        moments[k] = (6.0 * (slope(k) - slope(k - 1)) - length(k - 1) * moments[k - 1]) / pivot;
     }
     for k in (1..n - 1).rev() {
-        bends[k] -= factors[k] * bends[k + 1];
+        moments[k] -= factors[k] * moments[k + 1];
     }
-    bends
+    moments
 }
 
 impl Univariate for Spline {
@@ -189,7 +191,7 @@ impl Univariate for Spline {
         by_pieces(&Forces(self), a, b)
     }
 
-    /// Control points x, φ′, x, φ′, …
+    /// Builds the spline from its control points, listed as x, φ′, x, φ′, …
     fn from_values(values: &[f64]) -> Result<Self, Inadmissible> {
         let (points, rest) = values.as_chunks::<2>();
         if !rest.is_empty() {

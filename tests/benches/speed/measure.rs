@@ -16,13 +16,13 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, ba
 pub(crate) struct Streamed {
     pub(crate) traffic: Times,
     pub(crate) stored: Times,
-    pub(crate) past_caches: Times,
+    pub(crate) non_temporal: Times,
 }
 
 impl Streamed {
     /// The better of the two ways to store.
     pub(crate) fn best(&self) -> Times {
-        if self.stored.least < self.past_caches.least { self.stored } else { self.past_caches }
+        if self.stored.least < self.non_temporal.least { self.stored } else { self.non_temporal }
     }
 }
 
@@ -37,16 +37,16 @@ pub(crate) fn streaming<E: Stages>(
     let streaming = batch.with_streams(true);
     let traffic = traffic(effort, arrays);
     let stored = time(effort, STREAMING, || arrays.run(&batch));
-    let past_caches = time(effort, STREAMING, || arrays.run(&streaming));
-    Streamed { traffic, stored, past_caches }
+    let non_temporal = time(effort, STREAMING, || arrays.run(&streaming));
+    Streamed { traffic, stored, non_temporal }
 }
 
 /// The faster of ordinary stores and stores past the caches.
 fn traffic<E: Stages>(effort: Effort, arrays: &mut Arrays<E>) -> Times {
     let backend = Backend::best();
     let stored = time(effort, STREAMING, || arrays.move_only(backend, false));
-    let past_caches = time(effort, STREAMING, || arrays.move_only(backend, true));
-    if stored.least < past_caches.least { stored } else { past_caches }
+    let non_temporal = time(effort, STREAMING, || arrays.move_only(backend, true));
+    if stored.least < non_temporal.least { stored } else { non_temporal }
 }
 
 /// Both in turns: the first, the second.

@@ -53,7 +53,7 @@ impl<M: Material, const BY_LIBRARY: bool> Kernel<f64> for Compute<'_, M, BY_LIBR
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = f64>>(self) {
+    fn run<R: Lanes<Scalar = f64>>(self) {
         let PointByPoint { F, results } = self.points;
         for (F, result) in F.iter().zip(results) {
             let svd = if BY_LIBRARY { decompositions::nalgebra(F) } else { Some(svd(F)) };

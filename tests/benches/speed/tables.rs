@@ -56,7 +56,7 @@ pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
     let materials = materials::<E>();
     let mut titles = vec!["kernel".to_owned(), "the numbers moved".to_owned()];
     for (name, _) in &materials {
-        titles.extend([name.to_string(), "past caches".to_owned()]);
+        titles.extend([name.to_string(), "non-temporal".to_owned()]);
     }
     let mut table = header(&titles.iter().map(String::as_str).collect::<Vec<_>>());
     for task in Task::ALL {
@@ -68,7 +68,7 @@ pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
                 if cells.len() == 1 {
                     cells.push(cell(found.traffic));
                 }
-                cells.extend([cell(found.stored), cell(found.past_caches)]);
+                cells.extend([cell(found.stored), cell(found.non_temporal)]);
             }
             row(&mut table, &cells);
         }

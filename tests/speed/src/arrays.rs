@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::ops::{Deref, DerefMut};
 
 use piola::batch::{Batch, Layout, LengthError, Stages};
-use piola::lanes::{Backend, Element, Kernel, Lanes, Real};
+use piola::lanes::{Backend, Kernel, Lanes, Real, Scalar};
 
 use super::task::Task;
 use piola::random::Random;
@@ -83,7 +83,7 @@ impl<E: Stages> Arrays<E> {
                 backend.run(Write(large_to));
             } else if !pattern.is_empty() {
                 for part in large_to.chunks_mut(pattern.len()) {
-                    backend.copy_past_caches(&pattern, part);
+                    backend.store_non_temporal(&pattern, part);
                 }
             }
         }
@@ -93,11 +93,11 @@ impl<E: Stages> Arrays<E> {
 /// Loads each number once, in several sums that don't wait for each other.
 struct Read<'a, E>(&'a [E]);
 
-impl<E: Element> Kernel<E> for Read<'_, E> {
+impl<E: Scalar> Kernel<E> for Read<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let mut sum = R::Interleaved::splat(0.0);
         for part in self.0.chunks_exact(R::Interleaved::LANES) {
             sum = sum + R::Interleaved::load(part);
@@ -109,11 +109,11 @@ impl<E: Element> Kernel<E> for Read<'_, E> {
 /// Stores each number once.
 struct Write<'a, E>(&'a mut [E]);
 
-impl<E: Element> Kernel<E> for Write<'_, E> {
+impl<E: Scalar> Kernel<E> for Write<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         // Unknown to the compiler, which would call a library for zeros.
         let number = R::splat(black_box(0.0));
         for part in self.0.chunks_exact_mut(R::LANES) {
@@ -129,7 +129,7 @@ pub(super) struct Aligned<E> {
     start: usize,
 }
 
-impl<E: Element> Aligned<E> {
+impl<E: Scalar> Aligned<E> {
     pub(super) fn new(count: usize) -> Self {
         let mut numbers = vec![E::default(); count + E::LINE];
         let start = numbers.as_ptr().align_offset(64);

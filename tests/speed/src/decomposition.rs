@@ -4,7 +4,7 @@
 
 use std::hint::black_box;
 
-use piola::lanes::{Backend, Element, Kernel, Lanes, Real};
+use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::point::{Matrix3, Svd, svd, svd_signed_by_determinant};
 
 use super::IN_CACHE;
@@ -22,7 +22,7 @@ pub struct Decompositions<E> {
 /// same places of the innermost cache.
 const ROW: usize = IN_CACHE + 16;
 
-impl<E: Element> Decompositions<E> {
+impl<E: Scalar> Decompositions<E> {
     /// The points of [`Arrays`](super::Arrays).
     #[must_use]
     pub fn new() -> Self {
@@ -46,7 +46,7 @@ impl<E: Element> Decompositions<E> {
     }
 }
 
-impl<E: Element> Default for Decompositions<E> {
+impl<E: Scalar> Default for Decompositions<E> {
     fn default() -> Self {
         Self::new()
     }
@@ -54,11 +54,11 @@ impl<E: Element> Default for Decompositions<E> {
 
 struct Decompose<'a, E, const IS_SIGNED: bool>(&'a [E], &'a mut [E]);
 
-impl<E: Element, const IS_SIGNED: bool> Kernel<E> for Decompose<'_, E, IS_SIGNED> {
+impl<E: Scalar, const IS_SIGNED: bool> Kernel<E> for Decompose<'_, E, IS_SIGNED> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Self(from, to) = self;
         let mut at = 0;
         while at < IN_CACHE {
@@ -69,7 +69,7 @@ impl<E: Element, const IS_SIGNED: bool> Kernel<E> for Decompose<'_, E, IS_SIGNED
 }
 
 #[inline(always)]
-fn decompose<R: Lanes, const IS_SIGNED: bool>(from: &[R::Element], to: &mut [R::Element]) {
+fn decompose<R: Lanes, const IS_SIGNED: bool>(from: &[R::Scalar], to: &mut [R::Scalar]) {
     let mut F: Matrix3<R> = [[R::splat(0.0); 3]; 3];
     for i in 0..3 {
         for j in 0..3 {

@@ -2,10 +2,13 @@
 //!
 //! x = k ln 2 + r with an integer k and |r| ≤ ½ ln 2, and eˣ = 2ᵏ (1 + r + r² (½ + r/6 + …)).
 
-use super::{Logarithm, Primitive, is_single, ln_2, nearest_integer_to_product, polynomial, residual};
-use crate::lanes::Real;
+use super::arithmetic::{is_single, ln_2, nearest_integer_to_product, polynomial, residual};
+use super::logarithm::Logarithm;
+use crate::lanes::primitive::Primitive;
 
-/// (eʳ − 1 − r)/r² as a polynomial, for |r| ≤ ½ ln 2: even and odd powers apart, which halves the time to the result.
+/// (eʳ − 1 − r)/r² as a polynomial, for |r| ≤ ½ ln 2.
+///
+/// Even and odd powers are summed apart, which halves the time to the result.
 ///
 /// r² times its error is below 2⁻⁵⁷ eʳ (`f32`: 2⁻²⁸ eʳ).
 #[inline(always)]
@@ -34,16 +37,16 @@ fn exponential_tail<P: Primitive>(r: P, square: P) -> P {
 #[inline(always)]
 fn exponential<P: Primitive>(k: P, r: P) -> P {
     let square = r * r;
-    (P::fill(1.0) + square.mul_add(exponential_tail(r, square), r)).scale(k)
+    (P::splat(1.0) + square.mul_add(exponential_tail(r, square), r)).scale(k)
 }
 
 /// x within bounds, and the integer nearest to x / ln 2.
 #[inline(always)]
 fn reduce<P: Primitive>(x: P) -> (P, P) {
-    // Beyond, the result is 0 or ∞, also when 1 is added or subtracted; as the second operand NaN comes through.
+    // Outside of the bounds, by 1 and more, the result is 0 or ∞. NaN passes through as the second operand.
     let (bottom, top) = if is_single::<P>() { (-106.0, 90.0) } else { (-748.0, 711.0) };
-    let bounded = P::fill(bottom).larger(P::fill(top).smaller(x));
-    (bounded, nearest_integer_to_product(bounded, P::fill(std::f64::consts::LOG2_E)))
+    let bounded = P::splat(bottom).max(P::splat(top).min(x));
+    (bounded, nearest_integer_to_product(bounded, P::splat(std::f64::consts::LOG2_E)))
 }
 
 /// e^x.
@@ -60,11 +63,12 @@ pub(in super::super) fn exp<P: Primitive>(x: P) -> P {
 pub(in super::super) fn power<P: Primitive>(logarithm: Logarithm<P>, exponent: P) -> P {
     let (high, k) = reduce(logarithm.high * exponent);
     let low = logarithm.low.mul_add(exponent, residual(logarithm.high, exponent, -high));
-    // Where the product is out of bounds this is large, of its sign, or NaN, which as the first operand is replaced:
-    // e^low must not make up for it below, and may be anything but NaN above.
-    let low = low.larger(P::fill(-1.0));
+    // If the product is out of bounds, `low` is large with the product's sign, or NaN, which `max` replaces
+    // as its first operand. Below the bounds the polynomial of a large −r would lift the result from 0, hence
+    // the limit; above them any value but NaN gives ∞.
+    let low = low.max(P::splat(-1.0));
     let (ln_2, ln_2_low) = ln_2::<P>();
     let r = k.mul_add(-ln_2, high) + k.mul_add(-ln_2_low, low);
     let is_one = logarithm.high.is_zero() | exponent.is_zero();
-    P::choose(is_one, P::fill(1.0), exponential(k, r))
+    P::select(is_one, P::splat(1.0), exponential(k, r))
 }

@@ -2,17 +2,17 @@
 //!
 //! x = 2ᵉ m with √½ ≤ m < √2, and ln m = 2 artanh (t/2) = t + t³/12 + t⁵/80 + … for t = (m − 1)/((m + 1)/2).
 
-use super::{Primitive, is_single, ln_2, polynomial, product, quick_two_sum, residual};
-use crate::lanes::Real;
+use super::arithmetic::{is_single, ln_2, polynomial, quick_two_sum, residual, two_product};
+use crate::lanes::primitive::Primitive;
 
-/// ln x as the unevaluated sum of two numbers, |low| ≤ u |high|. Where high is infinite, low is anything.
+/// ln x as the unevaluated sum of two numbers, |low| ≤ u |high|. If high is infinite, low may have any value.
 #[derive(Clone, Copy, Debug)]
 pub struct Logarithm<P> {
     pub(super) high: P,
     pub(super) low: P,
 }
 
-/// x = 2ᵉ m, and t with an error so small that ln m is linear in it.
+/// x = 2ᵉ m, and t + t_low for ln m, t_low so small that ln m is linear in it.
 struct Reduced<P> {
     e: P,
     t: P,
@@ -21,7 +21,7 @@ struct Reduced<P> {
 
 #[inline(always)]
 fn reduce<P: Primitive>(x: P) -> Reduced<P> {
-    let (one, half) = (P::fill(1.0), P::fill(0.5));
+    let (one, half) = (P::splat(1.0), P::splat(0.5));
     let (m, e) = x.split();
     let f = m - one; // exact
     let reciprocal = one / m.mul_add(half, half);
@@ -31,7 +31,7 @@ fn reduce<P: Primitive>(x: P) -> Reduced<P> {
     Reduced { e, t, t_low: rest * reciprocal }
 }
 
-/// 1/12 = TWELFTH + what is below it in the format.
+/// 1/12 to double precision; `twelfth_low` in [`logarithm`] is the rest in the format.
 const TWELFTH: f64 = 1.0 / 12.0;
 
 /// (2 artanh (t/2) − t − t³/12)/t⁵ as a polynomial in z = t², for t² < 0.1178.
@@ -54,23 +54,27 @@ fn artanh_tail<P: Primitive>(z: P) -> P {
 
 /// ln x to a relative error of 2⁻⁶² (`f32`: 2⁻³³).
 ///
-/// The terms t and t³/12 are carried with their errors; what is left is below 2⁻¹¹ of the result and needs none.
+/// The terms t and t³/12 are carried with their errors; all others are below 2⁻¹¹ of the result and need
+/// none.
 #[inline(always)]
 pub(in super::super) fn logarithm<P: Primitive>(x: P) -> Logarithm<P> {
     let Reduced { e, t, t_low } = reduce(x);
 
-    let twelfth = P::fill(TWELFTH);
-    let twelfth_low =
-        P::fill(if is_single::<P>() { TWELFTH - (TWELFTH as f32) as f64 } else { 4.625_929_269_271_485e-18 });
-    let (square, square_low) = product(t, t);
-    let (cube, cube_low) = product(t, square);
+    let twelfth = P::splat(TWELFTH);
+    let twelfth_low = P::splat(if is_single::<P>() {
+        TWELFTH - (TWELFTH as f32) as f64
+    } else {
+        4.625_929_269_271_485e-18
+    });
+    let (square, square_low) = two_product(t, t);
+    let (cube, cube_low) = two_product(t, square);
     let cube_low = t.mul_add(square_low, cube_low);
-    let (cubic, cubic_low) = product(twelfth, cube);
+    let (cubic, cubic_low) = two_product(twelfth, cube);
     let cubic_low = twelfth.mul_add(cube_low, cubic_low);
     // d ln m/dt = 1/(1 − t²/4) = 1 + t²/4 + …, to 2⁻¹² by the chord-like line 1 + 0.2561 t².
-    let t_low = (t_low * square).mul_add(P::fill(0.2561), t_low);
+    let t_low = (t_low * square).mul_add(P::splat(0.2561), t_low);
 
-    // e HIGH + t + cubic, and the error of these two sums: each difference is exact.
+    // e ln_2 + t + cubic, and the error of these two sums: each difference is exact.
     let (ln_2, ln_2_low) = ln_2::<P>();
     let high = e.mul_add(ln_2, t) + cubic;
     let low = (e.mul_add(ln_2, -high) + t) + cubic;
@@ -80,10 +84,10 @@ pub(in super::super) fn logarithm<P: Primitive>(x: P) -> Logarithm<P> {
     Logarithm { high, low }
 }
 
-/// A correction below 1, and 1 instead of the NaN that ∞ − ∞ makes of it where the logarithm is infinite.
+/// A correction below 1, or 1 in place of NaN, which ∞ − ∞ makes of it if the logarithm is infinite.
 #[inline(always)]
 fn without_nan<P: Primitive>(correction: P) -> P {
-    correction.smaller(P::fill(1.0))
+    correction.min(P::splat(1.0))
 }
 
 /// ln x.
@@ -94,7 +98,7 @@ pub(in super::super) fn ln<P: Primitive>(x: P) -> P {
     let high = e.mul_add(ln_2, t);
     let low = e.mul_add(ln_2_low, e.mul_add(ln_2, -high) + t) + t_low;
     let square = t * t;
-    let tail = square.mul_add(artanh_tail(square), P::fill(TWELFTH));
+    let tail = square.mul_add(artanh_tail(square), P::splat(TWELFTH));
     high + without_nan((t * square).mul_add(tail, low))
 }
 

@@ -1,14 +1,15 @@
-//! Squares of numbers turned in registers.
+//! Transposes of square matrices in registers.
 //!
-//! Neighbours are paired within each 128 bits first, until these hold entries of one column; then blocks of 128 bits are
-//! brought to their places. Macros and loops instead of closures, which nothing can force the compiler to inline.
+//! Neighbours are paired within each 128 bits first, until these hold entries of one column; then blocks of
+//! 128 bits are brought to their places. Macros and loops instead of closures, which nothing can force the
+//! compiler to inline.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module above")]
 
 use std::arch::x86_64::*;
 
 /// Columns 0, 1, 2, 3 of a 4×4 matrix of 128-bit blocks given by rows.
-macro_rules! turn_blocks {
+macro_rules! transpose_blocks {
     ($shuffle:ident, $rows:expr) => {{
         let [a, b, c, d] = $rows;
         let (ab_even, ab_odd) = ($shuffle::<0x88>(a, b), $shuffle::<0xdd>(a, b));
@@ -22,8 +23,8 @@ macro_rules! turn_blocks {
     }};
 }
 
-/// Four rows of single precision turned within each 128 bits: element j holds entries j, j + 4, j + 8, … of all four.
-macro_rules! turn_quads {
+/// Four rows of floats, transposed within each 128 bits: element j holds entries j, j + 4, j + 8, … of all.
+macro_rules! transpose_quads {
     (
         $low:ident, $high:ident, $low_pairs:ident, $high_pairs:ident, $to_pairs:ident, $from_pairs:ident,
         $rows:expr, $start:expr
@@ -40,9 +41,9 @@ macro_rules! turn_quads {
     }};
 }
 
-macro_rules! turn_quads_512 {
+macro_rules! transpose_quads_512 {
     ($rows:expr, $start:expr) => {
-        turn_quads!(
+        transpose_quads!(
             _mm512_unpacklo_ps,
             _mm512_unpackhi_ps,
             _mm512_unpacklo_pd,
@@ -55,9 +56,9 @@ macro_rules! turn_quads_512 {
     };
 }
 
-macro_rules! turn_quads_256 {
+macro_rules! transpose_quads_256 {
     ($rows:expr, $start:expr) => {
-        turn_quads!(
+        transpose_quads!(
             _mm256_unpacklo_ps,
             _mm256_unpackhi_ps,
             _mm256_unpacklo_pd,
@@ -75,7 +76,7 @@ macro_rules! turn_quads_256 {
 /// # Safety
 /// The processor has AVX-512.
 #[inline(always)]
-pub(super) unsafe fn turn_f64x8([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m512d; 8] {
+pub(super) unsafe fn transpose_f64x8([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m512d; 8] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
         let low = [
@@ -90,7 +91,8 @@ pub(super) unsafe fn turn_f64x8([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m5
             _mm512_unpackhi_pd(e, f),
             _mm512_unpackhi_pd(g, h),
         ];
-        let (even, odd) = (turn_blocks!(_mm512_shuffle_f64x2, low), turn_blocks!(_mm512_shuffle_f64x2, high));
+        let (even, odd) =
+            (transpose_blocks!(_mm512_shuffle_f64x2, low), transpose_blocks!(_mm512_shuffle_f64x2, high));
         [even[0], odd[0], even[1], odd[1], even[2], odd[2], even[3], odd[3]]
     }
 }
@@ -100,22 +102,22 @@ pub(super) unsafe fn turn_f64x8([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m5
 /// # Safety
 /// The processor has AVX-512.
 #[inline(always)]
-pub(super) unsafe fn turn_f32x16(rows: [__m512; 16]) -> [__m512; 16] {
+pub(super) unsafe fn transpose_f32x16(rows: [__m512; 16]) -> [__m512; 16] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
         // Column 4b + j of four rows each is in block b of element j.
         let quads = [
-            turn_quads_512!(rows, 0),
-            turn_quads_512!(rows, 4),
-            turn_quads_512!(rows, 8),
-            turn_quads_512!(rows, 12),
+            transpose_quads_512!(rows, 0),
+            transpose_quads_512!(rows, 4),
+            transpose_quads_512!(rows, 8),
+            transpose_quads_512!(rows, 12),
         ];
         let mut columns = rows;
         for j in 0..4 {
             let blocks = [quads[0][j], quads[1][j], quads[2][j], quads[3][j]];
-            let turned = turn_blocks!(_mm512_shuffle_f32x4, blocks);
+            let transposed = transpose_blocks!(_mm512_shuffle_f32x4, blocks);
             for b in 0..4 {
-                columns[4 * b + j] = turned[b];
+                columns[4 * b + j] = transposed[b];
             }
         }
         columns
@@ -127,7 +129,7 @@ pub(super) unsafe fn turn_f32x16(rows: [__m512; 16]) -> [__m512; 16] {
 /// # Safety
 /// The processor has AVX2.
 #[inline(always)]
-pub(super) unsafe fn turn_f64x4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
+pub(super) unsafe fn transpose_f64x4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
         let (ab_low, ab_high) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
@@ -146,11 +148,11 @@ pub(super) unsafe fn turn_f64x4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
 /// # Safety
 /// The processor has AVX2.
 #[inline(always)]
-pub(super) unsafe fn turn_f32x8(rows: [__m256; 8]) -> [__m256; 8] {
+pub(super) unsafe fn transpose_f32x8(rows: [__m256; 8]) -> [__m256; 8] {
     // SAFETY: that the processor has these instructions is the condition of this function.
     unsafe {
         // Column 4b + j of four rows each is in block b of element j.
-        let (upper, lower) = (turn_quads_256!(rows, 0), turn_quads_256!(rows, 4));
+        let (upper, lower) = (transpose_quads_256!(rows, 0), transpose_quads_256!(rows, 4));
         let mut columns = rows;
         for j in 0..4 {
             columns[j] = _mm256_permute2f128_ps::<0x20>(upper[j], lower[j]);

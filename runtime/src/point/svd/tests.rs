@@ -2,7 +2,7 @@
 //! with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
 
 use super::*;
-use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::twice::Twice;
 use crate::random::Random;
 
@@ -33,17 +33,17 @@ struct Decompose<'a, E> {
     matrices: &'a [Matrix3<E>],
 }
 
-impl<E: Element> Kernel<E> for Decompose<'_, E> {
+impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
     type Output = Vec<Svd<E>>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Vec<Svd<E>> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Vec<Svd<E>> {
         decompose_in_lanes::<R::Interleaved>(self.method, self.matrices)
     }
 }
 
 #[inline(always)]
-fn decompose_in_lanes<R: Lanes>(method: Method, matrices: &[Matrix3<R::Element>]) -> Vec<Svd<R::Element>> {
+fn decompose_in_lanes<R: Lanes>(method: Method, matrices: &[Matrix3<R::Scalar>]) -> Vec<Svd<R::Scalar>> {
     let mut answers = Vec::with_capacity(matrices.len());
     for some in matrices.chunks(R::LANES) {
         let of_lane = |lane: usize| some[lane.min(some.len() - 1)];
@@ -59,14 +59,14 @@ fn decompose_in_lanes<R: Lanes>(method: Method, matrices: &[Matrix3<R::Element>]
 }
 
 /// What one lane holds.
-fn of<R: Lanes>(x: R, lane: usize) -> R::Element {
-    let mut all = vec![R::Element::default(); R::LANES];
+fn of<R: Lanes>(x: R, lane: usize) -> R::Scalar {
+    let mut all = vec![R::Scalar::default(); R::LANES];
     x.store(&mut all);
     all[lane]
 }
 
 /// The decompositions of matrices by every back end.
-fn by_every_backend<E: Element>(method: Method, matrices: &[Matrix3<E>]) -> Vec<(Backend, Vec<Svd<E>>)> {
+fn by_every_backend<E: Scalar>(method: Method, matrices: &[Matrix3<E>]) -> Vec<(Backend, Vec<Svd<E>>)> {
     Backend::available().map(|backend| (backend, backend.run(Decompose { method, matrices }))).collect()
 }
 
@@ -74,7 +74,7 @@ fn rounded<R: Real>(F: &Exact) -> Matrix3<R> {
     F.map(|row| row.map(R::splat))
 }
 
-fn exact<R: Element>(F: &Matrix3<R>) -> Exact {
+fn exact<R: Scalar>(F: &Matrix3<R>) -> Exact {
     F.map(|row| row.map(Into::into))
 }
 
@@ -132,7 +132,7 @@ struct Worst {
 
 impl Worst {
     #[track_caller]
-    fn see<R: Element>(&mut self, F: &Matrix3<R>, svd: &Svd<R>) {
+    fn see<R: Scalar>(&mut self, F: &Matrix3<R>, svd: &Svd<R>) {
         let (U, V) = (exact(&svd.U), exact(&svd.V));
         let stretches: [f64; 3] = svd.stretches.map(Into::into);
         let [s1, s2, s3] = stretches;
@@ -219,7 +219,7 @@ fn perturbed(A: &Exact, amount: f64, B: &Exact) -> Exact {
     std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + amount * B[i][j]))
 }
 
-fn bounds_hold<E: Element>(exponent: f64, method: Method) {
+fn bounds_hold<E: Scalar>(exponent: f64, method: Method) {
     let (mut names, mut matrices) = (Vec::<String>::new(), Vec::<Matrix3<E>>::new());
     families(5_000, exponent, |name, F| {
         names.push(name.into());
@@ -255,7 +255,7 @@ fn bounds_hold_with_the_determinant() {
 /// All 19683 matrices of −1, 0, 1: every rank, every tie of columns, every reflection.
 #[test]
 fn bounds_hold_for_small_integers() {
-    fn check<E: Element>() {
+    fn check<E: Scalar>() {
         let entry = |code: usize, k: u32| E::splat((code / 3usize.pow(k) % 3) as f64 - 1.0);
         let matrices: Vec<Matrix3<E>> = (0..3usize.pow(9))
             .map(|code| {
@@ -295,7 +295,7 @@ fn portable_lanes_give_the_bits_of_a_scalar() {
 /// Climbs towards worse backward errors from the worst of random starts.
 #[test]
 fn a_search_for_counterexamples_finds_none() {
-    fn climb<R: Element>(seed: u64) {
+    fn climb<R: Scalar>(seed: u64) {
         let mut random = Random::new(seed);
         for start in 0..40 {
             let mut F = random.matrix();
@@ -357,7 +357,7 @@ fn subnormal_matrices_keep_their_direction() {
 
 #[test]
 fn what_is_not_finite_gives_no_plausible_number() {
-    fn check<E: Element>(method: Method) {
+    fn check<E: Scalar>(method: Method) {
         let mut matrices = Vec::new();
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for k in 0..9 {

@@ -2,7 +2,7 @@
 
 use crate::material::Material;
 use super::*;
-use crate::lanes::{Backend, Element, Kernel, Lanes};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 
 /// f(A) by nalgebra's eigensolver, which has never heard of stretches.
 fn by_eigensolver(A: &[[f64; 9]; 9], f: impl Fn(f64) -> f64) -> [[f64; 9]; 9] {
@@ -79,11 +79,11 @@ struct Project<'a, E> {
     filter: Filter,
 }
 
-impl<E: Element> Kernel<E> for Project<'_, E> {
+impl<E: Scalar> Kernel<E> for Project<'_, E> {
     type Output = Blocks<E>;
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) -> Blocks<E> {
+    fn run<R: Lanes<Scalar = E>>(self) -> Blocks<E> {
         let blocks = convert(self.blocks, |x| R::splat(x.into()));
         convert(&project(&blocks, self.filter).0, |x: R| {
             let mut all = vec![E::default(); R::LANES];
@@ -105,7 +105,7 @@ fn convert<A: Real, B: Real>(blocks: &Blocks<A>, number: impl Fn(A) -> B) -> Blo
 /// A filter in precision E, on every back end, against the eigensolver in doubles; magnitudes are multiplied by a power of two
 /// on the way in and divided by it on the way out, which is exact.
 #[track_caller]
-fn check<E: Element>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
+fn check<E: Scalar>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
     let given = convert(&tangent.blocks, |x| E::splat(x * magnitude));
     // The filter works in the principal frames, the oracle in the world.
     let matrix = |blocks: &Blocks<E>| {

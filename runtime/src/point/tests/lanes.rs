@@ -4,9 +4,9 @@ use crate::material::Material;
 use super::measures::every_number;
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
-use crate::lanes::{Lanes, Pair};
+use crate::lanes::{Lanes, Lanes2};
 
-type Two = Pair<f64>;
+type Two = Lanes2<f64>;
 
 /// The two numbers.
 fn parts(both: Two) -> [f64; 2] {

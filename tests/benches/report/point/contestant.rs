@@ -215,7 +215,7 @@ impl<T: AtPoint<E>, E: Number> Kernel<E> for OneByOne<'_, T, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Output { P, K } = self.output;
         for point in 0..self.F.len() {
             let (stress, tangent) = self.method.evaluate(&self.F[point]);
@@ -235,7 +235,7 @@ impl<T: OnLanes, E: Number> Kernel<E> for SideBySide<'_, T, E> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Lanes<Element = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) {
         let Output { P, K } = self.output;
         let mut at = 0;
         while at < POINTS {
@@ -257,6 +257,6 @@ impl<T: OnLanes, E: Number> Kernel<E> for SideBySide<'_, T, E> {
 
 /// Where number k of the points from `at` on lies in lines.
 #[inline(always)]
-fn place<E: Element>(at: usize, numbers: usize, k: usize) -> usize {
+fn place<E: Scalar>(at: usize, numbers: usize, k: usize) -> usize {
     (at / E::LINE * numbers + k) * E::LINE + at % E::LINE
 }

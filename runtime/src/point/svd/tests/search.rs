@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use super::*;
 
 /// A real type whose bits can be read, written and mutated.
-trait Bits: Element {
+trait Bits: Scalar {
     const NAME: &'static str;
     const WIDTH: u32;
     /// Entries stay between 2^−RANGE and 2^RANGE in magnitude, or zero: no stretch is then subnormal.

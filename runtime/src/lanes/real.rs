@@ -1,0 +1,128 @@
+//! The operations of a real number, and the truth values that its comparisons give.
+
+use std::fmt::Debug;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// A real number, or several side by side in the lanes of a register.
+///
+/// Operations are those of IEEE 754 arithmetic with round-to-nearest; the elementary functions are accurate
+/// to 1.5 units in the last place, exact at 0 and ∞, and give NaN outside their domain.
+pub trait Real:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The result of a comparison.
+    type Mask: Mask;
+
+    /// A logarithm with enough digits to make any power from it; see [`Real::logarithm`].
+    type Logarithm: Copy + Debug + Send + Sync + 'static;
+
+    /// Unit roundoff u: 2⁻⁵³ for `f64`, 2⁻²⁴ for `f32`.
+    const UNIT_ROUNDOFF: f64;
+
+    /// The smallest positive normal number.
+    const MIN_POSITIVE: f64;
+
+    /// `value` in every lane, rounded to the number format.
+    fn splat(value: f64) -> Self;
+
+    /// `value(lane)` in each lane, rounded to the number format. A scalar is lane 0.
+    fn from_fn(value: impl Fn(usize) -> f64) -> Self;
+
+    /// self · factor + addend, with one rounding where the hardware has such an instruction, else with two.
+    ///
+    /// Without the instruction a fused operation is a library call, an order of magnitude slower.
+    #[must_use]
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
+
+    /// √self.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// 1/√self to two units in the last place for a normal self > 0.
+    #[must_use]
+    #[inline(always)]
+    fn reciprocal_sqrt(self) -> Self {
+        Self::splat(1.0) / self.sqrt()
+    }
+    /// √self to 2⁻¹² at least for a normal self > 0, by a fast instruction where there is one.
+    #[must_use]
+    #[inline(always)]
+    fn rough_sqrt(self) -> Self {
+        self.sqrt()
+    }
+    /// ∛self.
+    #[must_use]
+    fn cbrt(self) -> Self;
+    /// ln self.
+    #[must_use]
+    fn ln(self) -> Self;
+    /// e^self.
+    #[must_use]
+    fn exp(self) -> Self;
+    /// self^exponent for self ≥ 0; NaN for self < 0.
+    #[must_use]
+    #[inline(always)]
+    fn powf(self, exponent: Self) -> Self {
+        Self::power(self.logarithm(), exponent)
+    }
+
+    /// ln self with extra digits, from which each power costs one exponential.
+    fn logarithm(self) -> Self::Logarithm;
+    /// x^exponent from the logarithm of x.
+    #[must_use]
+    fn power(logarithm: Self::Logarithm, exponent: Self) -> Self;
+    /// ln (a/b) from the logarithms of a and b.
+    ///
+    /// The relative error is 2u unless a/b is within u² |ln a| of 1.
+    #[must_use]
+    fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self;
+
+    /// |self|.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// The larger of two numbers: self > other ? self : other, hence `other` if either is NaN.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+    /// The smaller of two numbers: self < other ? self : other, hence `other` if either is NaN.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+    /// |self| with the sign bit of `sign`, that of a zero included.
+    #[must_use]
+    fn copysign(self, sign: Self) -> Self;
+
+    /// self < other; false if either is NaN.
+    fn less(self, other: Self) -> Self::Mask;
+    /// Whether self is neither infinite nor NaN.
+    fn is_finite(self) -> Self::Mask;
+    /// `yes` where the mask is set, `no` elsewhere.
+    #[must_use]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// A product as a pair: its rounded value and the exact rounding error.
+    ///
+    /// Exact while neither factor exceeds 2⁹⁹⁶ (`f32`: 2¹¹⁶) and the error does not underflow.
+    fn two_product(self, other: Self) -> (Self, Self);
+
+    /// Powers of two (s, 1/s) that bring |self| into [1, 2): multiply by s, undo exactly by 1/s.
+    ///
+    /// (1, 1) for zero, ∞ and NaN; subnormal numbers are brought as far as s stays finite.
+    fn power_of_two_scale(self) -> (Self, Self);
+}
+
+/// The result of comparing [`Real`]s: one truth value for each lane.
+pub trait Mask:
+    Copy + Debug + Send + Sync + 'static + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// `value` in every lane.
+    fn splat(value: bool) -> Self;
+    /// Whether any lane is set.
+    fn any(self) -> bool;
+}

@@ -1,0 +1,104 @@
+//! Lanes and their number formats: what a kernel loads, computes with and stores.
+
+use std::fmt::Debug;
+
+use super::non_temporal::NonTemporal;
+use super::primitive::Primitive;
+use super::real::Real;
+
+/// Lanes of one number format: a [`Real`] that is loaded from slices and stored to them.
+pub trait Lanes: Real {
+    /// The number format of a lane.
+    type Scalar: Scalar;
+
+    /// Several registers that take turns, for kernels whose operations wait for each other.
+    ///
+    /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the
+    /// fastest for the singular value decomposition; an array of numbers is its own.
+    type Interleaved: Lanes<Scalar = Self::Scalar>;
+
+    /// The number of lanes.
+    const LANES: usize;
+
+    /// Loads the first [`LANES`](Self::LANES) entries of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn load(from: &[Self::Scalar]) -> Self;
+
+    /// Loads one component of consecutive points from blocks of [`LINE`](Scalar::LINE) points.
+    ///
+    /// A block has `components` lines, one after the other, and each line one component of LINE points. So
+    /// lane i comes from `from[i / LINE * components * LINE + i % LINE]`.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    #[inline(always)]
+    fn load_lines(from: &[Self::Scalar], components: usize) -> Self {
+        // A register is no longer than a line.
+        let _ = components;
+        Self::load(from)
+    }
+
+    /// Stores the lanes into the first [`LANES`](Self::LANES) entries of a slice.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    fn store(self, to: &mut [Self::Scalar]);
+
+    /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of
+    /// whole aligned registers; otherwise through the caches.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    #[inline]
+    fn store_non_temporal(from: &[Self::Scalar], to: &mut [Self::Scalar], fence: &NonTemporal) {
+        let _ = fence;
+        to.copy_from_slice(from);
+    }
+
+    /// Transposes a matrix of the given size: `from[i * from_stride + j]` becomes `to[j * to_stride + i]`.
+    ///
+    /// # Panics
+    /// If an entry lies outside of its slice.
+    #[inline(never)]
+    fn transpose(
+        [rows, columns]: [usize; 2],
+        from: &[Self::Scalar],
+        from_stride: usize,
+        to: &mut [Self::Scalar],
+        to_stride: usize,
+    ) {
+        for i in 0..rows {
+            for j in 0..columns {
+                to[j * to_stride + i] = from[i * from_stride + j];
+            }
+        }
+    }
+
+    /// A mask as bits: bit i is set if lane i is.
+    fn bits(mask: Self::Mask) -> u64;
+}
+
+/// A format of floating-point numbers: `f64` or `f32`.
+pub trait Scalar:
+    Primitive + Lanes<Scalar = Self, Mask = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
+{
+    /// How many numbers fill a cache line of 64 bytes; blocks of points are laid out in such lines.
+    const LINE: usize;
+
+    /// The lanes of this format in a set of instructions.
+    ///
+    /// Safe code must not name registers that the processor may not have. Code outside of this crate cannot,
+    /// since it has no name for any `I`.
+    #[doc(hidden)]
+    type In<I: InstructionSet>: Lanes<Scalar = Self>;
+}
+
+/// A set of instructions, by its lanes for each number format.
+pub trait InstructionSet {
+    /// Lanes of double precision.
+    type F64: Lanes<Scalar = f64>;
+    /// Lanes of single precision.
+    type F32: Lanes<Scalar = f32>;
+}
