@@ -81,3 +81,7 @@ pub use lanes::Real;
 pub use material::{Inversion, Material};
 pub use piola_macros::material;
 pub use univariate::{Spline, Univariate};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
