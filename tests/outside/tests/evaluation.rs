@@ -37,7 +37,8 @@ fn the_stress_of_a_sum_is_the_sum_of_stresses() -> Result {
 #[test]
 fn a_boxed_material_gives_the_stress_of_its_type() -> Result {
     let boxed: [Box<dyn Energy<f64>>; 2] = [Box::new(outside::stiffening()?), Box::new(outside::sum()?)];
-    let typed = [evaluate(&outside::stiffening()?, &F, Filter::None), evaluate(&outside::sum()?, &F, Filter::None)];
+    let typed =
+        [evaluate(&outside::stiffening()?, &F, Filter::None), evaluate(&outside::sum()?, &F, Filter::None)];
     for (boxed, typed) in boxed.iter().zip(typed) {
         let mut stress = [0.0; 9];
         let survey = Batch::new(&**boxed).stresses(F.as_flattened(), &mut stress)?;

@@ -8,7 +8,8 @@ fn a_material_is_read_as_it_was_written() -> Result<(), Box<dyn std::error::Erro
     let written = outside::stiffening()?;
     let read: Stiffening = serde_json::from_str(&serde_json::to_string(&written)?)?;
     let deformation: [[f64; 3]; 3] = [[1.2, 0.3, 0.0], [0.0, 0.9, 0.1], [0.0, 0.0, 1.1]];
-    let [written, read] = [written, read].map(|material| evaluate(&material, &deformation, Filter::None).stress);
+    let [written, read] =
+        [written, read].map(|material| evaluate(&material, &deformation, Filter::None).stress);
     assert_eq!(written, read);
     Ok(())
 }
