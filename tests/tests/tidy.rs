@@ -103,27 +103,6 @@ fn nothing_is_left_undone() {
     }
 }
 
-/// Relative links of the repository's documents lead to files.
-#[test]
-fn links_of_documents_lead_to_files() {
-    let folders = [root(), root().join("docs"), root().join("tests")];
-    let documents =
-        folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder of the repository"));
-    let documents: Vec<PathBuf> = documents
-        .map(|entry| entry.expect("an entry").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
-        .collect();
-    assert!(documents.len() > 5, "{documents:?}");
-    for document in documents {
-        let text = fs::read_to_string(&document).expect("a document");
-        for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
-            let file = link.split('#').next().unwrap_or_default();
-            let exists = file.contains("://") || document.with_file_name(file).exists();
-            assert!(exists, "{}: {link} leads nowhere", document.display());
-        }
-    }
-}
-
 /// The README shows a program that the test target `readme` compiles and runs.
 #[test]
 fn the_readme_shows_the_example() {
