@@ -18,3 +18,7 @@ mod specimen;
 pub mod stability;
 
 pub use specimen::Specimen;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -39,3 +39,7 @@ use proc_macro::TokenStream;
 pub fn material(arguments: TokenStream, item: TokenStream) -> TokenStream {
     piola_codegen::expand(arguments.into(), item.into()).into()
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

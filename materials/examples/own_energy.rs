@@ -2,7 +2,7 @@
 
 use piola::material;
 use piola::material::Declared;
-use piola::point::project::Filter;
+use piola::point::Filter;
 
 /// Compressible neo-Hookean solid.
 #[material(domain(J > 0.0), extend)]

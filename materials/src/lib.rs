@@ -137,3 +137,7 @@ pub use symmetric_dirichlet::SymmetricDirichlet;
 pub use valanis_landel::ValanisLandel;
 pub use varga::Varga;
 pub use yeoh::Yeoh;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

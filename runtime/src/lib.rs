@@ -85,3 +85,7 @@ pub use material::{Inversion, Material};
 pub use piola_macros::material;
 pub use status::{Status, StatusCell, Survey};
 pub use univariate::{Spline, Univariate};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -27,3 +27,7 @@ pub mod settings;
 pub mod settle;
 pub mod trial;
 pub mod view;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
