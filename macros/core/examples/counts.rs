@@ -8,7 +8,7 @@
 
 use std::error::Error;
 
-use piola_codegen::schedule::count::{LEGEND, counts, table};
+use piola_codegen::schedule::count::{LEGEND, table};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("{LEGEND}.");
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         for (arguments, item) in declarations {
             let (declaration, mut model) = piola_codegen::understand(arguments, item)?;
-            println!("\n## {}\n\n{}", declaration.name, table(&declaration, &counts(&mut model)).trim_end());
+            println!("\n## {}\n\n{}", declaration.name, table(&declaration, &model.counts()).trim_end());
         }
     }
     Ok(())

@@ -14,11 +14,11 @@ use crate::algebra::interpret::{Point, Value, evaluate};
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 use crate::judge::culprit::{culprit, holder};
-use crate::model::{Volume, bounds};
 use crate::printer::source::{factor, source};
 use crate::read::diagnostics::Diagnostics;
+use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, identifiers};
-use crate::read::resolve::{Nodes, Resolver};
+use crate::read::resolve::{self, Nodes};
 use crate::read::spelling::list;
 
 mod arguments;
@@ -105,7 +105,7 @@ pub fn samples(graph: &mut Graph, written: &Written<'_>, diagnostics: &mut Diagn
     if found.len() >= FEWEST {
         return found;
     }
-    match excludes_rest.and_then(|k| bounds(declaration).nth(k)) {
+    match excludes_rest.and_then(|k| declaration.bounds().nth(k)) {
         Some(condition) => diagnostics.error(
             condition,
             "this excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts: widen the domain",
@@ -371,7 +371,7 @@ fn balance(
 
 /// The declared domain where J > 0, with further conditions.
 fn positive_domain(declaration: &Declaration, limits: &[String]) -> String {
-    let conditions = bounds(declaration).map(|condition| condition.to_token_stream().to_string());
+    let conditions = declaration.bounds().map(|condition| condition.to_token_stream().to_string());
     let conditions: Vec<_> =
         std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits.iter().cloned()).collect();
     format!("`domain({})`", conditions.join(", "))
@@ -402,8 +402,7 @@ fn in_place(names: &[&str]) -> String {
 
 /// The energy with I1b and I2b for I1 and I2.
 fn isochoric(graph: &mut Graph, written: &Written<'_>) -> Id {
-    // Its names are known to be understood.
-    Resolver::of_isochoric(written.declaration, graph, &mut Diagnostics::default()).energy()
+    resolve::isochoric(written.declaration, graph)
 }
 
 /// Which of I1 and I2 are written in the energy.
@@ -417,7 +416,7 @@ const FLAT: [[f64; 3]; 2] = [[1.0, 1.0, 1e-30], [0.7, 1.0, 1e-30]];
 
 /// Conditions that exclude what is flat leave nothing to an extension, which begins there.
 pub fn flat(graph: &Graph, written: &Written<'_>, samples: &[Point], diagnostics: &mut Diagnostics) {
-    for (&bound, condition) in written.bounds.iter().zip(bounds(written.declaration)) {
+    for (&bound, condition) in written.bounds.iter().zip(written.declaration.bounds()) {
         let excludes = |stretches: [f64; 3]| {
             let flat = |point: &Point| Point { stretches, ..point.clone() };
             let is_inside = |point: &Point| evaluate(graph, bound, &flat(point)).value > 0.0;

@@ -2,13 +2,10 @@
 
 use std::rc::Rc;
 
-use quote::ToTokens;
-use syn::{BinOp, Expr, Ident};
-
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand;
-use crate::algebra::expr::{Graph, Id};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::extension;
 use crate::algebra::hash::HashMap;
 use crate::algebra::increment::{Increments, at_rest};
@@ -21,8 +18,10 @@ use crate::algebra::volume::{Purpose, separate};
 use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
 use crate::judge::{self, Written};
 use crate::read::diagnostics::Diagnostics;
-use crate::read::parse::{Declaration, indexed_lists};
-use crate::read::resolve::Resolver;
+use crate::read::domain::Volume;
+use crate::read::parse::{Declaration, Parameter};
+use crate::read::resolve::{self, Resolver};
+use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
@@ -70,18 +69,24 @@ impl Model {
         self.programs.insert(roots.to_vec(), program.clone());
         program
     }
-}
 
-/// The volumes J for which an energy is defined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Volume {
-    /// All of them.
-    #[default]
-    Any,
-    /// J > 0.
-    Positive,
-    /// J ≠ 0.
-    Nonzero,
+    /// The operations of each result of a material, by its name: inside the domain, and last the blocks of an energy
+    /// continued beyond it. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
+    #[must_use]
+    pub fn counts(&mut self) -> Vec<(&'static str, Count)> {
+        let Variant { energy, gradient, hessian, flip, twist, .. } = &self.plain;
+        let mut results = vec![
+            ("energy", vec![*energy]),
+            ("gradient", gradient.to_vec()),
+            ("energy, gradient and Hessian", [&[*energy], &gradient[..], hessian].concat()),
+            ("flip", flip.to_vec()),
+            ("twist", twist.to_vec()),
+            ("blocks", self.plain.blocks()),
+        ];
+        results.extend(self.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
+        let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&self.program(&roots)));
+        results.into_iter().map(count).collect()
+    }
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -126,12 +131,11 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let energy = resolver.energy();
-    let bounds: Vec<_> = bounds(declaration).filter_map(|condition| resolver.bound(condition)).collect();
+    let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
     let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
-    let admissible: Vec<_> =
-        conditions.filter_map(|condition| resolver.condition(condition, index(condition))).collect();
+    let admissible: Vec<_> = conditions.filter_map(|condition| resolver.condition(condition)).collect();
     let nodes = resolver.into_nodes();
-    let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
+    let volume = declaration.volume();
     // A domain that is misspelt may be one of these.
     if is_well_formed && options.extend.is_some() && volume == Volume::Any {
         diagnostics.error(
@@ -188,11 +192,17 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if !options.prestressed && is_well_at_rest {
         judge::stiffness(&graph, &written, moduli, &samples, diagnostics);
     }
-    let invariants = by_invariants(declaration, &mut graph);
-    let by_parameters = options.fit.then(|| by_parameters(&mut graph, declaration, plain.gradient));
+    let invariants = resolve::by_invariants(declaration, &mut graph)
+        .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
+    let by_parameters = options.fit.then(|| {
+        let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
+        by_parameters(&mut graph, &variables, plain.gradient)
+    });
     judge::fractions(&graph, &written, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
-    let from_young_poisson = young_poisson(&graph, declaration, moduli);
+    // Moduli of a stressed rest state determine no response; those with functions are known to the constructor alone.
+    let are_known = !options.prestressed && !declaration.has_functions();
+    let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     Some(Model {
         graph,
         energy,
@@ -211,9 +221,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     })
 }
 
-/// The conditions of the domain but those on the sign of the last stretch.
-pub(crate) fn bounds(declaration: &Declaration) -> impl Iterator<Item = &Expr> {
-    declaration.options.domain.iter().filter(|condition| volume_condition(condition).is_none())
+/// A parameter as a variable of derivatives: of a list, one entry.
+fn variable((k, parameter): (usize, &Parameter)) -> Node {
+    if parameter.length().is_some() { Node::Entry(k) } else { Node::Parameter(k) }
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
@@ -250,36 +260,4 @@ fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
     let shear = graph.scale(difference, half);
     [shear, mixed].map(|modulus| simplify(graph, modulus))
-}
-
-/// `J > 0.0` or `J != 0.0`, the conditions that are spelled out for the sign of the last stretch.
-pub(crate) fn volume_condition(condition: &Expr) -> Option<Volume> {
-    let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
-    let is_zero = |e: &Expr| {
-        matches!(e, Expr::Lit(lit) if match &lit.lit {
-            syn::Lit::Float(number) => number.base10_parse::<f64>().is_ok_and(|value| value == 0.0),
-            syn::Lit::Int(number) => number.base10_parse::<u64>().is_ok_and(|value| value == 0),
-            _ => false,
-        })
-    };
-    let Expr::Binary(binary) = condition else { return None };
-    let (forward, backward) =
-        (is_j(&binary.left) && is_zero(&binary.right), is_zero(&binary.left) && is_j(&binary.right));
-    match binary.op {
-        BinOp::Gt(_) if forward => Some(Volume::Positive),
-        BinOp::Lt(_) if backward => Some(Volume::Positive),
-        BinOp::Ne(_) if forward || backward => Some(Volume::Nonzero),
-        _ => None,
-    }
-}
-
-/// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
-#[must_use]
-pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
-    indexed_lists(condition.to_token_stream()).into_iter().next()
-}
-
-/// What stands for all entries in a condition on them.
-fn index(condition: &Expr) -> Option<Ident> {
-    indexed_list(condition).map(|(_, index)| index)
 }

@@ -2,6 +2,7 @@
 //! to an expression graph.
 
 pub mod diagnostics;
+pub mod domain;
 pub(crate) mod literals;
 pub mod parse;
 pub mod resolve;

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use piola_codegen::schedule::count::{LEGEND, counts, table};
+use piola_codegen::schedule::count::{LEGEND, table};
 use piola_codegen::{declarations, expand, understand};
 use proc_macro2::TokenStream;
 
@@ -91,7 +91,7 @@ fn results_take_the_operations_committed() {
     let mut text = format!("# Operations of the catalogue\n\n{LEGEND}.\n");
     for (arguments, item) in all() {
         let (declaration, mut model) = understand(arguments, item).expect("an energy without mistakes");
-        let table = table(&declaration, &counts(&mut model));
+        let table = table(&declaration, &model.counts());
         write!(text, "\n## {}\n\n{table}", declaration.name).expect("text");
     }
     check("counts.md", &text);

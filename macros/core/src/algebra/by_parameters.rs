@@ -14,30 +14,25 @@
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::simplify::simplify;
-use crate::read::parse::{Declaration, Kind};
 
-/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each parameter p, from ψ1, ψ2, ψ3; of a list for its entry q.
-pub fn by_parameters(graph: &mut Graph, declaration: &Declaration, gradient: [Id; 3]) -> Vec<[Id; 3]> {
+/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each variable p, a parameter or the entry of a list, from ψ1, ψ2, ψ3.
+pub fn by_parameters(graph: &mut Graph, variables: &[Node], gradient: [Id; 3]) -> Vec<[Id; 3]> {
     let mut d = Differentiator::default();
-    let mut all = Vec::new();
-    for (k, parameter) in declaration.parameters.iter().enumerate() {
-        all.push(gradient.map(|stress| {
-            let derivative = match parameter.kind {
-                Kind::List(_) => by_entry(&mut d, graph, stress, k),
-                Kind::Number | Kind::Function(_) => {
-                    let number = graph.leaf(Node::Parameter(k));
-                    d.derivative(graph, stress, number)
-                }
+    let mut by_variable = |variable: &Node| {
+        gradient.map(|stress| {
+            let variable_id = graph.leaf(variable.clone());
+            let derivative = match variable {
+                Node::Entry(_) => by_entry(&mut d, graph, stress, variable_id),
+                _ => d.derivative(graph, stress, variable_id),
             };
             simplify(graph, derivative)
-        }));
-    }
-    all
+        })
+    };
+    variables.iter().map(&mut by_variable).collect()
 }
 
 /// ∂e/∂m_q of a list m.
-fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, list: usize) -> Id {
-    let entry = graph.leaf(Node::Entry(list));
+fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, entry: Id) -> Id {
     let mut terms = Vec::new();
     for sum in graph.reachable(&[e]) {
         let Node::Sum(_, body) = *graph.node(sum) else { continue };

@@ -9,7 +9,6 @@
 
 use crate::algebra::expr::{Graph, Id, Node, Parameter};
 use crate::algebra::rational::Rational;
-use crate::read::parse::Declaration;
 
 /// The two parameters, in the order of the declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,12 +35,8 @@ impl YoungPoisson {
     }
 }
 
-/// The parameters that follow from μ and λ, if they do. Moduli of a stressed rest state determine no response, and those with
-/// functions in them are known to the constructor alone.
-pub fn young_poisson(graph: &Graph, declaration: &Declaration, moduli: [Id; 2]) -> Option<YoungPoisson> {
-    if declaration.options.prestressed || declaration.has_functions() {
-        return None;
-    }
+/// The parameters that follow from the small-strain moduli μ and λ, if exactly two do.
+pub fn young_poisson(graph: &Graph, moduli: [Id; 2]) -> Option<YoungPoisson> {
     let [p, q] = <[Parameter; 2]>::try_from(entering(graph, moduli)?).ok()?;
     let [shear, lame] = moduli.map(|modulus| affine(graph, modulus, [p, q]));
     let ((a, shear), (b, lame)) = (shear?, lame?);

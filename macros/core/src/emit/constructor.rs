@@ -7,9 +7,9 @@ use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
-use crate::model::{Model, indexed_list};
+use crate::model::Model;
 use crate::read::literals::typed;
-use crate::read::parse::{Declaration, Parameter, identifiers};
+use crate::read::parse::{Declaration, Parameter, identifiers, indexed_list};
 
 /// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {

@@ -4,7 +4,7 @@
 use crate::model::Model;
 use crate::printer::formula::{Formulas, formulas, formulas_by_invariants};
 use crate::read::parse::Declaration;
-use crate::schedule::count::{LEGEND, counts, table};
+use crate::schedule::count::{LEGEND, table};
 
 use super::{Texts, condition_text};
 
@@ -101,7 +101,7 @@ fn block(names: &[&str], Formulas { parts, formulas }: &Formulas) -> String {
 
 /// What each result costs.
 fn operations(declaration: &Declaration, model: &mut Model) -> String {
-    let table = table(declaration, &counts(model));
+    let table = table(declaration, &model.counts());
     format!("**Operations**, of each result by itself:\n\n{table}\n{LEGEND}.")
 }
 

@@ -4,7 +4,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::writer::Writer;
-use crate::model::{Model, Volume};
+use crate::model::Model;
+use crate::read::domain::Volume;
 
 /// Says that there are such methods.
 pub(super) fn constant(model: &Model) -> TokenStream {

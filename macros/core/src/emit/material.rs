@@ -8,7 +8,8 @@ use super::invariants;
 use super::writer::Writer;
 use super::{generics, naming};
 use crate::algebra::expr::Id;
-use crate::model::{Model, Variant, Volume};
+use crate::model::{Model, Variant};
+use crate::read::domain::Volume;
 use crate::read::parse::Declaration;
 
 /// `impl Material`, and `impl Varying` where all parameters are numbers.

@@ -6,8 +6,8 @@ use super::arguments::{Argument, is_good};
 use super::{CANDIDATES, Mistakes, Random, Written, candidate};
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::interpret::{Point, evaluate};
-use crate::model::Volume;
 use crate::printer::source::source;
+use crate::read::domain::Volume;
 
 /// Stretches of such elements, and what they are.
 const COLLAPSED: [([f64; 3], &str); 3] = [

@@ -10,6 +10,7 @@
 //! ```
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::{Attribute, Expr, Ident, Type, Visibility};
 
 use crate::algebra::expr::Length;
@@ -153,6 +154,11 @@ pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
         _ => Vec::new(),
     });
     names.flatten().collect()
+}
+
+/// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
+pub(crate) fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
+    indexed_lists(condition.to_token_stream()).into_iter().next()
 }
 
 /// All names with an index that is a name, as in `mu[p]`, in order.

@@ -8,7 +8,7 @@ use syn::{BinOp, Expr, Ident, Lit, Pat, Stmt, UnOp};
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::diagnostics::Diagnostics;
-use crate::read::parse::{Declaration, identifiers, is_f64};
+use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
 use crate::read::spelling::taken;
 use sums::Index;
 
@@ -44,6 +44,23 @@ const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 /// What to say of a closure or a function of the body's own.
 const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts by \
      `let`, also in a sum: `sum(|p| { let s = …; … })`";
+
+/// The energy and the bounds of its domain with I1, I2, J in the places of the three stretches, unless a stretch is named.
+/// The declaration must be free of mistakes.
+pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>)> {
+    let mut diagnostics = Diagnostics::default();
+    let mut resolver =
+        Resolver { scope: Scope::Invariants, ..Resolver::new(declaration, graph, &mut diagnostics) };
+    let energy = resolver.energy();
+    let bounds = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
+    diagnostics.is_clean().then_some((energy, bounds))
+}
+
+/// The energy with I1b, I2b in the places of I1, I2. The declaration must be free of mistakes.
+pub fn isochoric(declaration: &Declaration, graph: &mut Graph) -> Id {
+    let mut diagnostics = Diagnostics::default();
+    Resolver { scope: Scope::Isochoric, ..Resolver::new(declaration, graph, &mut diagnostics) }.energy()
+}
 
 /// What an expression is a function of.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -90,24 +107,6 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The same with I1, I2, J in the places of the three stretches, whose names are mistakes.
-    pub fn of_invariants(
-        declaration: &'a Declaration,
-        graph: &'a mut Graph,
-        diagnostics: &'a mut Diagnostics,
-    ) -> Self {
-        Self { scope: Scope::Invariants, ..Self::new(declaration, graph, diagnostics) }
-    }
-
-    /// The same with I1b, I2b in the places of I1, I2.
-    pub fn of_isochoric(
-        declaration: &'a Declaration,
-        graph: &'a mut Graph,
-        diagnostics: &'a mut Diagnostics,
-    ) -> Self {
-        Self { scope: Scope::Isochoric, ..Self::new(declaration, graph, diagnostics) }
-    }
-
     /// The nodes of everything understood.
     #[must_use]
     pub fn into_nodes(self) -> Nodes {
@@ -142,9 +141,9 @@ impl<'a> Resolver<'a> {
 
     /// The same of a comparison of parameters. One of entries `mu[p]` is summed: enough to steer samples, which use equal
     /// signs for all entries.
-    pub fn condition(&mut self, comparison: &Expr, index: Option<Ident>) -> Option<Id> {
+    pub fn condition(&mut self, comparison: &Expr) -> Option<Id> {
         let outer = std::mem::replace(&mut self.scope, Scope::Parameters);
-        self.index = index.map(Index::new);
+        self.index = indexed_list(comparison).map(|(_, index)| Index::new(index));
         let difference = self.difference(comparison);
         self.scope = outer;
         match self.index.take() {

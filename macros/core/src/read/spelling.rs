@@ -18,6 +18,11 @@ pub(crate) fn list(names: &[impl Display]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
+/// A name without underscores, which papers write as indices.
+pub(crate) fn plain(name: impl ToString) -> String {
+    name.to_string().replace('_', "")
+}
+
 /// What to say of a name given to a second thing.
 pub(crate) fn taken(name: &impl Display) -> String {
     format!("the name `{name}` is taken already: choose another one")

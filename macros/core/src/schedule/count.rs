@@ -8,28 +8,9 @@ use quote::ToTokens;
 use syn::Expr;
 
 use crate::algebra::expr::Length;
-use crate::model::{Model, Variant};
 use crate::read::parse::Declaration;
 use crate::schedule::sorted::{Sorted, entry};
 use crate::schedule::{Op, Program, Statement};
-
-/// The operations that each result of a material takes by itself, by its name: inside the domain, and last the blocks of an
-/// energy continued beyond that. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
-#[must_use]
-pub fn counts(model: &mut Model) -> Vec<(&'static str, Count)> {
-    let Variant { energy, gradient, hessian, flip, twist, .. } = &model.plain;
-    let mut results = vec![
-        ("energy", vec![*energy]),
-        ("gradient", gradient.to_vec()),
-        ("energy, gradient and Hessian", [&[*energy], &gradient[..], hessian].concat()),
-        ("flip", flip.to_vec()),
-        ("twist", twist.to_vec()),
-        ("blocks", model.plain.blocks()),
-    ];
-    results.extend(model.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
-    let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&model.program(&roots)));
-    results.into_iter().map(count).collect()
-}
 
 /// The counts of a declaration as a table in Markdown.
 #[must_use]

@@ -1,6 +1,7 @@
 //! What papers write and a declaration writes in another way.
 
 use super::tensors;
+use crate::read::spelling::plain;
 
 /// How a declaration writes what papers call by this name.
 pub(super) fn name(name: &str) -> Option<&'static str> {
@@ -20,11 +21,6 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
         "PI" | "pi" => "write the number, `3.141592653589793`",
         _ => return None,
     })
-}
-
-/// Papers have indices where a name has underscores.
-pub(super) fn plain(name: impl ToString) -> String {
-    name.to_string().replace('_', "")
 }
 
 /// How a declaration writes what papers call by this function.

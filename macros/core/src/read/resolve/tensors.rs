@@ -3,7 +3,7 @@
 use quote::ToTokens;
 use syn::Expr;
 
-use super::paper_notation::plain;
+use crate::read::spelling::plain;
 
 /// How a declaration writes what papers call a function of tensors, of one of these if its argument is one.
 pub(super) fn function(name: &str, of: Option<Tensor>) -> Option<&'static str> {
