@@ -10,7 +10,7 @@
 
 pub mod algebra;
 pub mod emit;
-pub mod judge;
+mod judge;
 pub mod model;
 pub mod printer;
 pub mod read;

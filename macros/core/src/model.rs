@@ -8,7 +8,7 @@ use crate::algebra::expand::expand;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::extension;
 use crate::algebra::hash::HashMap;
-use crate::algebra::increment::{Increments, at_rest};
+use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
 use crate::algebra::invariants::{ByInvariants, by_invariants};
 use crate::algebra::quotient::Quotients;
@@ -16,7 +16,7 @@ use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 use crate::algebra::volume::{Purpose, separate};
 use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
-use crate::judge::{self, Written};
+use crate::judge::{self, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Parameter};
@@ -136,48 +136,36 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let admissible: Vec<_> = conditions.filter_map(|condition| resolver.condition(condition)).collect();
     let nodes = resolver.into_nodes();
     let volume = declaration.volume();
-    // A domain that is misspelt may be one of these.
-    if is_well_formed && options.extend.is_some() && volume == Volume::Any {
-        diagnostics.error(
-            options.words.iter().find(|word| *word == "extend"),
-            "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`",
-        );
-    }
-    if options.fit && declaration.has_functions() {
-        diagnostics.error(
-            options.words.iter().find(|word| *word == "fit"),
-            "`fit` derives the stress by parameters that are numbers, and a function is none: remove `fit`, or write numbers in its \
-             place",
-        );
-    }
+    let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
+    // A misspelt domain may be the one that `extend` needs.
+    judge::report(&mut graph, &source, judge::options(&source, is_well_formed), diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
-    let positive = volume == Volume::Positive;
-    let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
-    let samples = judge::samples(&mut graph, &written, diagnostics);
-    if !samples.is_empty() {
-        judge::isotropy(&mut graph, &written, &samples, diagnostics);
-    }
+    let samples = judge::samples(&mut graph, &source);
+    let samples =
+        samples.map_err(|finding| judge::report(&mut graph, &source, [finding], diagnostics)).ok()?;
+    let asymmetry = judge::isotropy(&graph, &source, &samples);
+    judge::report(&mut graph, &source, asymmetry, diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
 
+    let positive = volume == Volume::Positive;
     let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
     let bounds = bounds.iter().copied().map(&mut in_range).collect();
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
-    judge::fractions(&graph, &written, diagnostics);
-    let is_well_at_rest = diagnostics.is_clean()
-        && judge::values(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
-    if options.extend.is_some() {
-        judge::flat(&graph, &written, &samples, diagnostics);
+    let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
+    if findings.is_empty() {
+        findings = judge::values(&mut graph, &source, plain.gradient[0], &samples);
     }
+    findings.extend(judge::flat(&graph, &source, &samples));
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
         if options.prestressed {
-            let stress = at_rest(&mut graph, derivative);
+            let stress = substitute_rest(&mut graph, derivative);
             graph.add(stress, increment)
         } else {
             increment
@@ -188,9 +176,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         derive(&mut graph, extended, &samples, false)
     });
     let moduli = moduli(&mut graph, &plain);
-    // What takes the stress at rest away may resist shear.
-    if !options.prestressed && is_well_at_rest {
-        judge::stiffness(&graph, &written, moduli, &samples, diagnostics);
+    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
+    if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
+        findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
     }
     let invariants = resolve::by_invariants(declaration, &mut graph)
         .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
@@ -198,7 +186,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
         by_parameters(&mut graph, &variables, plain.gradient)
     });
-    judge::fractions(&graph, &written, diagnostics);
+    if findings.is_empty() {
+        findings.extend(judge::fractions(&graph, &source));
+    }
+    judge::report(&mut graph, &source, findings, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     // Moduli of a stressed rest state determine no response; those with functions are known to the constructor alone.
     let are_known = !options.prestressed && !declaration.has_functions();

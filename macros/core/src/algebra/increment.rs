@@ -71,7 +71,7 @@ impl Increments {
             [(base, exponent), ref others @ ..] => {
                 let (f, g) = (graph.power(base, exponent), graph.product(others));
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
-                let f_at_rest = at_rest(graph, f);
+                let f_at_rest = substitute_rest(graph, f);
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)
             }
@@ -83,14 +83,14 @@ impl Increments {
         if graph.is_zero(inner) {
             return inner;
         }
-        let b = at_rest(graph, a);
+        let b = substitute_rest(graph, a);
         let outer = outer(graph, a, b);
         graph.mul(outer, inner)
     }
 }
 
 /// e₁.
-pub fn at_rest(graph: &mut Graph, e: Id) -> Id {
+pub fn substitute_rest(graph: &mut Graph, e: Id) -> Id {
     let one = graph.integer(1);
     graph.substitute(e, [one; 3])
 }

@@ -35,8 +35,8 @@ fn physics() {
         (
             "",
             "I1b - 3.0",
-            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is \
-             to be as good as upright",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` if the energy should treat \
+             inverted elements (J < 0) like upright ones",
         ),
         (
             "",
@@ -173,10 +173,10 @@ fn what_vanishes_at_rest_has_whole_powers() {
         ("sum(|p| m[p])", "(2.0 * J.ln()).powf(mu)", "(2.0 * J.ln()).powf(mu)"),
     ] {
         let term = format!("{factor} * {written}");
-        check_added(&term, written, &format!("`{power}` is of what vanishes at rest"));
+        check_added(&term, written, &format!("the base of `{power}` vanishes at rest"));
     }
     let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
-    check_added(of_entries, of_entries, "`(2.0 * J.ln()).powf(m[p])` is of what vanishes at rest");
+    check_added(of_entries, of_entries, "the base of `(2.0 * J.ln()).powf(m[p])` vanishes at rest");
     check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
 }
 
@@ -249,19 +249,19 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
         (
             "mu * (I2 / 3).powf(1 + b)",
             "(I2 / 3).powf(1 + b)",
-            "λ2 = λ3 = 0, in what is collapsed to a line",
+            "λ2 = λ3 = 0, in elements collapsed to a line",
             "b + 1.0",
         ),
         (
             "mu * (I1 / 3).powf(b)",
             "(I1 / 3).powf(b)",
-            "λ1 = λ2 = λ3 = 0, in what is collapsed to a point",
+            "λ1 = λ2 = λ3 = 0, in elements collapsed to a point",
             "b",
         ),
         (
             "mu * J.powi(2).powf(2 - b)",
             "J.powi(2).powf(2 - b)",
-            "λ3 = 0, in what is collapsed to a sheet",
+            "λ3 = 0, in elements collapsed to a sheet",
             "2.0 - b",
         ),
         (
@@ -284,7 +284,8 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
     }
     check("prestressed", &energy("mu * I2.ln()"), &[("I2.ln()", "`I2.ln()` has no value where λ2 = λ3 = 0")]);
     let of_sums = "mu * I1.powf(sum(|q| m[q]))";
-    let message = "negative and λ1 = λ2 = λ3 = 0, in what is collapsed to a point: declare `domain(J > 0.0)`";
+    let message =
+        "negative and λ1 = λ2 = λ3 = 0, in elements collapsed to a point: declare `domain(J > 0.0)`";
     check("prestressed", &energy(of_sums), &[("I1.powf(sum(|q| m[q]))", message)]);
     check("prestressed", &energy("mu / I1"), &[("mu / I1", "has no value where λ1 = λ2 = λ3 = 0")]);
     for fine in ["mu * I2.sqrt()", "mu * (1 + I1).powf(b)", "mu * (1 + I1).ln()", "mu * (b * b * I2).exp()"] {
@@ -344,7 +345,7 @@ fn independent_mistakes_come_at_once() {
     check(
         "domain(J > 0.0)",
         &energy("kappa * (I1b - 3).powf(2.5) + mu * I1"),
-        &[("(I1b - 3).powf(2.5)", "is of what vanishes at rest"), ("mu * I1", stressed)],
+        &[("(I1b - 3).powf(2.5)", "vanishes at rest and is negative nearby"), ("mu * I1", stressed)],
     );
     check(
         "",
@@ -389,5 +390,10 @@ fn one_term_is_one_mistake() {
         "mu * J.ln()",
         "append `+ mu * (J - 1.0)` with `domain(J > 0.0)`, or remove the term in `J.ln()`",
     );
-    check("", &format!("mu * (J - 1).cbrt() + {volume}"), "(J - 1).cbrt()", "is of what vanishes at rest");
+    check(
+        "",
+        &format!("mu * (J - 1).cbrt() + {volume}"),
+        "(J - 1).cbrt()",
+        "vanishes at rest and is negative nearby",
+    );
 }
