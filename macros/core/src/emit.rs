@@ -5,7 +5,7 @@ use quote::{ToTokens, quote};
 use syn::Expr;
 
 use crate::model::Model;
-use crate::printer::formula::formula;
+use crate::printer::formula;
 use crate::read::parse::{Declaration, documentation};
 use constructor::constructor;
 use declared::declared;

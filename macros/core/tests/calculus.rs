@@ -392,6 +392,6 @@ fn formulas_are_cut_off() {
     let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
     let mut model = compile("shared", &quote!(), &item);
     let declaration = parse(quote!(), item).expect("a declaration");
-    let text = piola_codegen::printer::formula::formula(&mut model.graph, &declaration, model.energy);
+    let text = piola_codegen::printer::formula(&mut model.graph, &declaration, model.energy);
     assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
 }

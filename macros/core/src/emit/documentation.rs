@@ -2,7 +2,7 @@
 //! operations each result takes.
 
 use crate::model::Model;
-use crate::printer::formula::{Formulas, formulas, formulas_by_invariants};
+use crate::printer::{Formulas, formulas, formulas_by_invariants};
 use crate::read::parse::Declaration;
 use crate::schedule::count::{LEGEND, table};
 

@@ -7,7 +7,7 @@ use super::doc;
 use super::writer::free_name;
 use crate::algebra::rational::Rational;
 use crate::algebra::young_poisson::{Determined, YoungPoisson};
-use crate::printer::formula::combination;
+use crate::printer::combination;
 use crate::read::parse::Declaration;
 
 /// `from_young_poisson`, with the parameters that are not determined in the order of the declaration.

@@ -5,7 +5,7 @@ use quote::ToTokens;
 use super::finding::{Finding, Remedy, Stressed, Vanishing, Violation};
 use super::source::Source;
 use crate::algebra::expr::{Graph, Id, Node};
-use crate::printer::source::{factor, source as print};
+use crate::printer::{rust, rust_factor};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::identifiers;
@@ -125,7 +125,7 @@ impl Explainer<'_, '_> {
     }
 
     fn print(&mut self, id: Id) -> String {
-        print(self.graph, self.source.declaration, id)
+        rust(self.graph, self.source.declaration, id)
     }
 
     fn stressed(&mut self, stressed: &Stressed) -> String {
@@ -166,9 +166,9 @@ impl Explainer<'_, '_> {
         let declaration = self.source.declaration;
         let term = if self.print(stress).starts_with('-') {
             let negated = self.graph.neg(stress);
-            format!("+ {}", factor(self.graph, declaration, negated))
+            format!("+ {}", rust_factor(self.graph, declaration, negated))
         } else {
-            format!("- {}", factor(self.graph, declaration, stress))
+            format!("- {}", rust_factor(self.graph, declaration, stress))
         };
         let limit = stressed.vanishing.and_then(|vanishing| self.limit(vanishing));
         let is_limited = limit.is_some();

@@ -11,7 +11,7 @@ use crate::algebra::expr::{Graph, Id};
 use crate::algebra::increment::substitute_rest;
 use crate::algebra::interpret::{Point, Value, evaluate};
 use crate::algebra::simplify::simplify;
-use crate::printer::source::source as print;
+use crate::printer::rust;
 use crate::read::parse::Declaration;
 use crate::read::resolve::isochoric;
 
@@ -74,7 +74,7 @@ fn legible(graph: &mut Graph, declaration: &Declaration, e: Id) -> Id {
     let left = simplify(graph, e);
     let expanded = expand(graph, left);
     let expanded = simplify(graph, expanded);
-    let [length, expanded_length] = [left, expanded].map(|e| print(graph, declaration, e).len());
+    let [length, expanded_length] = [left, expanded].map(|e| rust(graph, declaration, e).len());
     if expanded_length < length { expanded } else { left }
 }
 

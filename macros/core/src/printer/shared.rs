@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Printer, by_invariants, by_stretches, subscript};
+use super::{Notation, Printer, subscript};
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::read::parse::Declaration;
 
@@ -18,13 +18,13 @@ pub struct Formulas {
 /// Nodes as formulas of the stretches.
 #[must_use]
 pub fn formulas(graph: &mut Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
-    share(by_stretches(graph, declaration), roots)
+    share(Printer::by_stretches(graph, declaration, Notation::Formula), roots)
 }
 
 /// The same of nodes in which the three stretches stand for I1, I2 and J.
 #[must_use]
 pub fn formulas_by_invariants(graph: &Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
-    share(by_invariants(graph, declaration), roots)
+    share(Printer::by_invariants(graph, declaration), roots)
 }
 
 /// Formulas with no more characters are read as they are.
