@@ -8,7 +8,6 @@ pub mod divided;
 pub mod expand;
 pub mod expr;
 pub mod extension;
-pub mod hash;
 pub mod increment;
 pub mod interpret;
 pub mod invariants;

@@ -2,12 +2,13 @@
 
 use std::rc::Rc;
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::extension;
-use crate::algebra::hash::HashMap;
 use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
 use crate::algebra::invariants::{ByInvariants, by_invariants};
@@ -55,7 +56,7 @@ pub struct Model {
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
     /// What has been scheduled.
-    programs: HashMap<Vec<Id>, Rc<Program>>,
+    programs: FxHashMap<Vec<Id>, Rc<Program>>,
     collector: Collector,
 }
 
@@ -207,7 +208,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         by_parameters,
         from_young_poisson,
         samples,
-        programs: HashMap::default(),
+        programs: FxHashMap::default(),
         collector: Collector::default(),
     })
 }
@@ -231,7 +232,7 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
-    let mut lowered = HashMap::default();
+    let mut lowered = FxHashMap::default();
     let mut lower = |id| extension::lower(graph, id, &mut lowered);
     Variant {
         energy: lower(energy),

@@ -4,14 +4,15 @@
 //! over lists: everything else is constant. Entries are those of the sum around them, so an entry outside a sum is no
 //! variable of what stands inside one: see [`crate::algebra::by_parameters`].
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// Derivatives, each computed once.
 #[derive(Debug, Default)]
 pub struct Differentiator {
-    memo: HashMap<(Id, Id), Id>,
+    memo: FxHashMap<(Id, Id), Id>,
 }
 
 impl Differentiator {

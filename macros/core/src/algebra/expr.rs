@@ -7,7 +7,8 @@
 //!
 //! The graph knows no derivative: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
 
-use crate::algebra::hash::HashMap;
+use rustc_hash::FxHashMap;
+
 use crate::algebra::rational::Rational;
 pub use exponent::Exponent;
 
@@ -99,9 +100,9 @@ pub enum Extended {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    ids: HashMap<Node, Id>,
+    ids: FxHashMap<Node, Id>,
     /// What nodes become when their stretches are replaced: nodes never change, so neither does this.
-    substitutions: HashMap<(Id, [Id; 3]), Id>,
+    substitutions: FxHashMap<(Id, [Id; 3]), Id>,
     overflowed: bool,
 }
 

@@ -12,20 +12,21 @@
 //!
 //! Never is a function of J itself extended: F = 0 would become a stable minimum.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::{Purpose, rewrite, separate};
 
 /// The energy with its logarithms and real or negative powers of stretches extended.
 pub fn extend(graph: &mut Graph, energy: Id) -> Id {
     let separated = separate(graph, energy, Purpose::Extension);
-    rewrite(graph, separated, &mut HashMap::default(), &extend_node)
+    rewrite(graph, separated, &mut FxHashMap::default(), &extend_node)
 }
 
 /// The expression with its extended functions written out; `memo` keeps what has been written out of the same graph.
-pub fn lower(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Extended(function, order, i) => Some(polynomial(graph, function, order, i)),
         _ => None,
@@ -45,7 +46,7 @@ fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
                     Node::Stretch(i) if exponent.as_integer().is_none_or(|n| n < 0) => {
                         (graph.leaf(Node::Extended(Extended::Power(exponent), 0, i)), Exponent::ONE)
                     }
-                    _ => (rewrite(graph, base, &mut HashMap::default(), &extend_node), exponent),
+                    _ => (rewrite(graph, base, &mut FxHashMap::default(), &extend_node), exponent),
                 });
             }
             Some(graph.product(&product))

@@ -16,15 +16,16 @@
 //!
 //! [`quotient`]: crate::quotient
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// Differences from rest, each computed once.
 #[derive(Debug, Default)]
 pub struct Increments {
-    memo: HashMap<Id, Id>,
+    memo: FxHashMap<Id, Id>,
 }
 
 impl Increments {

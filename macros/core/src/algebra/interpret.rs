@@ -5,8 +5,9 @@
 //! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of [`crate::judge`], and tests, as an oracle
 //! for the emitted code.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 
 /// Values of everything an expression may name.
 #[derive(Clone, Debug, Default)]
@@ -33,11 +34,14 @@ pub struct Value {
 /// Evaluates a node at a point.
 #[must_use]
 pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
-    evaluate_with(graph, id, point, &mut HashMap::default())
+    evaluate_with(graph, id, point, &mut Memo::default())
 }
 
-/// The same for many nodes at one point: `memo` keeps what has been evaluated there.
-pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut HashMap<Id, Value>) -> Value {
+/// Values of nodes at one point.
+pub type Memo = FxHashMap<Id, Value>;
+
+/// Evaluates one of several nodes at a point: `memo` keeps the values of all nodes evaluated there.
+pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut Memo) -> Value {
     Interpreter { graph, point, entry: 0, memo }.value(id)
 }
 
@@ -45,7 +49,7 @@ struct Interpreter<'a> {
     graph: &'a Graph,
     point: &'a Point,
     entry: usize,
-    memo: &'a mut HashMap<Id, Value>,
+    memo: &'a mut Memo,
 }
 
 impl Interpreter<'_> {
@@ -106,7 +110,7 @@ impl Interpreter<'_> {
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
-                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::default());
+                    let (graph, point, memo) = (self.graph, self.point, &mut Memo::default());
                     let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;
                     sum.magnitude += magnitude;

@@ -21,11 +21,12 @@
 //! Equal stretches need no branch: the limit is what the formula gives. What is not odd in (x, y) has a pole at
 //! x + y = 0; there the numerator ψi + ψj does not cancel and the plain quotient is accurate.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::algebra::extension;
-use crate::algebra::hash::HashMap;
-use crate::algebra::interpret::{Point, Value, evaluate_with};
+use crate::algebra::interpret::{Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
 
 /// A reflection of two stretches.
@@ -51,9 +52,9 @@ pub struct Twist {
 pub struct Quotients<'a> {
     /// Points of the domain at which parities are decided.
     samples: &'a [Point],
-    memo: HashMap<(Id, Reflection), Id>,
+    memo: FxHashMap<(Id, Reflection), Id>,
     /// Values at each sample, by its index, as it is and with two stretches negated.
-    values: HashMap<(usize, Negated), HashMap<Id, Value>>,
+    values: FxHashMap<(usize, Negated), Memo>,
 }
 
 /// The pair of stretches whose signs are changed, if any.
@@ -66,7 +67,7 @@ impl<'a> Quotients<'a> {
     /// Decides parities at the given points, which must lie in the domain of the energy.
     #[must_use]
     pub fn new(samples: &'a [Point]) -> Self {
-        Self { samples, memo: HashMap::default(), values: HashMap::default() }
+        Self { samples, memo: FxHashMap::default(), values: FxHashMap::default() }
     }
 
     /// D⁻ij from ψi.
@@ -160,8 +161,8 @@ impl<'a> Quotients<'a> {
         let quotient = match rest[..] {
             [] => graph.integer(0),
             [(base, exponent)] => self.power_rule(graph, base, exponent, reflection),
-            [(base, exponent), ref others @ ..] => match take_out_crossed(graph, &rest, reflection) {
-                Some(Crossed { pair, quotient, others }) => {
+            [(base, exponent), ref others @ ..] => match take_out_slope_pair(graph, &rest, reflection) {
+                Some(SlopePair { pair, quotient, others }) => {
                     let g = graph.product(&others);
                     self.leibniz(graph, (pair, quotient), g, reflection)
                 }
@@ -380,7 +381,7 @@ fn multiply_pieces(graph: &mut Graph, factor: Id, quotient: Id) -> Id {
 }
 
 /// A crossed pair φ′(x) φ(y) of an extended power, taken out of a product.
-struct Crossed {
+struct SlopePair {
     pair: Id,
     quotient: Id,
     others: Vec<(Id, Exponent)>,
@@ -390,11 +391,11 @@ struct Crossed {
 ///
 /// The derivative of φ(λ1) φ(λ2) φ(λ3), which is what extends J^r, is made of them. By the product rule its quotient would
 /// subtract what is larger by a power of x/y.
-fn take_out_crossed(
+fn take_out_slope_pair(
     graph: &mut Graph,
     factors: &[(Id, Exponent)],
     reflection: Reflection,
-) -> Option<Crossed> {
+) -> Option<SlopePair> {
     let Reflection::Flip(i, j) = reflection else { return None };
     for &(slope, exponent) in factors.iter().filter(|factor| factor.1 == Exponent::ONE) {
         let Node::Extended(Extended::Power(r), 1, k) = *graph.node(slope) else { continue };
@@ -408,9 +409,9 @@ fn take_out_crossed(
         }
         let others =
             factors.iter().copied().filter(|factor| factor.0 != slope && factor.0 != value).collect();
-        let quotient = crossed_quotient(graph, r, i, j);
+        let quotient = slope_pair_quotient(graph, r, i, j);
         let quotient = graph.scale(quotient, Rational::integer(sign(reflection, k)));
-        return Some(Crossed { pair: graph.mul(slope, value), quotient, others });
+        return Some(SlopePair { pair: graph.mul(slope, value), quotient, others });
     }
     None
 }
@@ -419,7 +420,7 @@ fn take_out_crossed(
 ///
 /// The product rule gives it in two ways, with the values of either stretch. That of the smaller φ is right: stretches are
 /// ordered, x ≥ |y|, so it is y for r > 0 and x for r < 0.
-fn crossed_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
+fn slope_pair_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
     let extended =
         |graph: &mut Graph, order, k| graph.leaf(Node::Extended(Extended::Power(exponent), order, k));
     let [value, slope] = [0, 1].map(|order| extended_quotient(graph, Extended::Power(exponent), order, i, j));

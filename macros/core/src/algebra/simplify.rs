@@ -16,16 +16,17 @@
 //! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
 //! where I1 is tiny and the left side has no correct digit. The others save operations.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// The expression with the rules applied everywhere.
 pub fn simplify(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut HashMap::default())
+    rewrite(graph, e, &mut FxHashMap::default())
 }
 
-fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     if let Some(&done) = memo.get(&e) {
         return done;
     }

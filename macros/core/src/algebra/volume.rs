@@ -23,8 +23,9 @@
 //!
 //! An extension takes the factors apart instead: below ε it continues J^(−2/3) and leaves I1 as it is.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// What the separated expression is for.
@@ -39,7 +40,7 @@ pub enum Purpose {
 
 /// The expression with real powers and logarithms of products of stretches separated.
 pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
-    rewrite(graph, e, &mut HashMap::default(), &|graph, id| match graph.node(id).clone() {
+    rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
         Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, purpose),
         Node::Product(factors) => {
             let mut separated = Vec::new();
@@ -159,7 +160,7 @@ fn multiply(graph: &mut Graph, a: Exponent, b: Exponent) -> Exponent {
 pub fn rewrite(
     graph: &mut Graph,
     id: Id,
-    memo: &mut HashMap<Id, Id>,
+    memo: &mut FxHashMap<Id, Id>,
     rule: &impl Fn(&mut Graph, Id) -> Option<Id>,
 ) -> Id {
     if let Some(&done) = memo.get(&id) {

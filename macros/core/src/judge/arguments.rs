@@ -6,8 +6,7 @@ use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, vanishes};
 use super::source::{Source, at_rest};
 use super::volume::has_value;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
-use crate::algebra::interpret::{Point, Value, evaluate, evaluate_with};
+use crate::algebra::interpret::{Memo, Point, Value, evaluate, evaluate_with};
 use crate::read::resolve::isochoric;
 
 /// Paths away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and one, two and three
@@ -166,7 +165,7 @@ fn changes_sign(graph: &Graph, source: &Source<'_>, id: Id, point: &Point) -> bo
         for step in 1..=STEPS {
             let length = step as f64 / STEPS as f64 * std::f64::consts::LN_10;
             let point = Point { stretches: path.map(|exponent| (length * exponent).exp()), ..point.clone() };
-            let mut memo = HashMap::default();
+            let mut memo = Memo::default();
             let mut value = |id| evaluate_with(graph, id, &point, &mut memo);
             let is_inside = source.bounds.iter().all(|&bound| value(bound).value > 0.0);
             let Value { value, magnitude } = value(id);

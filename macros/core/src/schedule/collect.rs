@@ -7,16 +7,17 @@
 //! Only powers of stretches are taken out, and only of terms that are of degree zero without them: what is then added stays
 //! within the range of the numbers wherever parameters and logarithms do.
 
+use rustc_hash::FxHashMap;
+
 use super::degrees::Degrees;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// What expressions become, each found once for all programs of a graph.
 #[derive(Debug, Default)]
 pub struct Collector {
     pub(super) degrees: Degrees,
-    memo: HashMap<Id, Id>,
+    memo: FxHashMap<Id, Id>,
 }
 
 impl Collector {

@@ -9,8 +9,8 @@ use syn::Expr;
 
 use crate::algebra::expr::Length;
 use crate::read::parse::Declaration;
+use crate::schedule::program::{Op, Program, Statement};
 use crate::schedule::sorted::{Sorted, entry};
-use crate::schedule::{Op, Program, Statement};
 
 /// The counts of a declaration as a table in Markdown.
 #[must_use]

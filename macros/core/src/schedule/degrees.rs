@@ -1,7 +1,8 @@
 //! How expressions grow when all stretches are scaled by t: the exponent n of t^n.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 
 /// For t → 0 and for t → ∞.
 pub(super) type Degree = [f64; 2];
@@ -9,7 +10,7 @@ pub(super) type Degree = [f64; 2];
 /// Degrees of expressions, each found once.
 #[derive(Debug, Default)]
 pub(super) struct Degrees {
-    memo: HashMap<Id, Degree>,
+    memo: FxHashMap<Id, Degree>,
 }
 
 impl Degrees {

@@ -7,9 +7,10 @@
 //! Among factors that are equally good, the one is taken with which what has been multiplied is a part of the most products of
 //! the program: such a part is computed once for all of them.
 
+use rustc_hash::FxHashMap;
+
 use super::degrees::{Degree, Degrees, power, sum};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// A base with an exponent, one of those into which [`parts`] takes powers.
@@ -19,7 +20,7 @@ type Factor = (Id, Exponent);
 pub(super) struct Order<'d> {
     degrees: &'d mut Degrees,
     /// The factors of each product; beside the n-th of one kind the place of those products that have n or more of it.
-    products: HashMap<Id, Vec<(Factor, usize)>>,
+    products: FxHashMap<Id, Vec<(Factor, usize)>>,
     sets: Vec<Set>,
     /// All products.
     all: Set,
@@ -37,8 +38,8 @@ impl<'d> Order<'d> {
         };
         let found: Vec<_> = reachable.iter().filter_map(factors).collect();
         let words = found.len().div_ceil(64);
-        let (mut products, mut sets) = (HashMap::default(), Vec::new());
-        let mut places: HashMap<(Factor, usize), usize> = HashMap::default();
+        let (mut products, mut sets) = (FxHashMap::default(), Vec::new());
+        let mut places: FxHashMap<(Factor, usize), usize> = FxHashMap::default();
         for (product, (id, factors)) in found.into_iter().enumerate() {
             let mut placed: Vec<(Factor, usize)> = Vec::with_capacity(factors.len());
             for factor in factors {

@@ -13,8 +13,9 @@
 //!
 //! which saves a multiplication unless c s or c t is needed by another sum.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// A sum as a constant and terms with their coefficients.
@@ -25,7 +26,7 @@ pub(super) struct Parts {
     /// The longest first.
     sums: Vec<(Id, Linear)>,
     /// In how many sums a term has a coefficient of this magnitude.
-    multiples: HashMap<(Id, Rational), usize>,
+    multiples: FxHashMap<(Id, Rational), usize>,
 }
 
 impl Parts {
@@ -37,7 +38,7 @@ impl Parts {
         };
         let mut sums: Vec<_> = reachable.iter().filter_map(sum).collect();
         sums.sort_by_key(|(_, (_, terms))| std::cmp::Reverse(terms.len()));
-        let mut multiples = HashMap::default();
+        let mut multiples = FxHashMap::default();
         for &(term, c) in sums.iter().flat_map(|(_, (_, terms))| terms) {
             *multiples.entry((term, c.magnitude())).or_default() += 1;
         }

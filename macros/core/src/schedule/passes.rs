@@ -1,6 +1,6 @@
 //! What is done to a program once its operations are in order.
 
-use super::{Op, Program, Statement, Value};
+use super::program::{Op, Program, Statement, Value};
 
 /// a b + c, c − a b and a b − c in one operation where the product is used nowhere else; of a program with so many values.
 pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program {

@@ -1,16 +1,17 @@
 //! Which powers of each base are needed, and which one of them is computed.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::divided::LARGEST_ROOT;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// Which powers of each base are needed, to choose the one that is computed.
 pub(super) struct Powers {
     /// Common denominator of the simple fractional exponents of a base.
-    denominators: HashMap<Id, i128>,
+    denominators: FxHashMap<Id, i128>,
     /// The rational part of the exponent of the power that is computed.
-    representatives: HashMap<PowerClass, Rational>,
+    representatives: FxHashMap<PowerClass, Rational>,
 }
 
 /// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
@@ -18,7 +19,7 @@ pub(super) struct Powers {
 type PowerClass = (Id, Option<Id>, Rational);
 
 /// How a power is computed.
-pub(super) enum Way {
+pub(super) enum Evaluation {
     /// As a power of the root of this degree.
     Root(i128),
     /// From the real power whose exponent has this rational part.
@@ -28,8 +29,8 @@ pub(super) enum Way {
 impl Powers {
     /// Those that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
-        let mut denominators: HashMap<Id, i128> = HashMap::default();
-        let mut used: HashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = HashMap::default();
+        let mut denominators: FxHashMap<Id, i128> = FxHashMap::default();
+        let mut used: FxHashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = FxHashMap::default();
         for &id in reachable {
             match graph.node(id) {
                 Node::Product(factors) => {
@@ -62,16 +63,16 @@ impl Powers {
     }
 
     /// How `base^exponent` is computed.
-    pub(super) fn way(&self, base: Id, exponent: Exponent) -> Way {
+    pub(super) fn evaluation(&self, base: Id, exponent: Exponent) -> Evaluation {
         let Exponent { rational, .. } = exponent;
         if exponent.as_integer().is_some() {
-            Way::Root(1)
+            Evaluation::Root(1)
         } else if is_simple(exponent) {
             // Roots of one base share a common one unless that is of too high a degree.
             let common = self.denominators.get(&base).copied().filter(|&common| common <= LARGEST_ROOT);
-            Way::Root(common.unwrap_or(rational.denominator()))
+            Evaluation::Root(common.unwrap_or(rational.denominator()))
         } else {
-            Way::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
+            Evaluation::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
         }
     }
 }

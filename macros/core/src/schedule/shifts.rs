@@ -8,9 +8,10 @@
 //! multiplied once, not for every entry; and so is a whole power of a stretch itself. What is left in the sum is what other
 //! sums have computed already.
 
-use super::powers::{Powers, Way};
+use rustc_hash::FxHashMap;
+
+use super::powers::{Evaluation, Powers};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
 use crate::schedule::sorted::{Sorted, entry};
@@ -26,7 +27,7 @@ pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<
         let sum = graph.sum(length, rest);
         Some(times(graph, sum, &shifts))
     };
-    let mut memo = HashMap::default();
+    let mut memo = FxHashMap::default();
     roots.iter().map(|&root| rewrite(graph, root, &mut memo, &rule)).collect()
 }
 
@@ -46,11 +47,11 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                     left.push((rest, Exponent::ONE));
                     continue;
                 }
-                let shift = match powers.way(base, exponent) {
-                    Way::Real(computed) if !varies(graph, base) => {
+                let shift = match powers.evaluation(base, exponent) {
+                    Evaluation::Real(computed) if !varies(graph, base) => {
                         exponent.rational.checked_add(computed.negated())
                     }
-                    Way::Real(_) | Way::Root(_) => None,
+                    Evaluation::Real(_) | Evaluation::Root(_) => None,
                 };
                 match shift.and_then(Rational::as_integer) {
                     Some(n) if n != 0 && exponent.real.is_some() => {
