@@ -1,4 +1,5 @@
-//! From a [`Model`] to Rust: the type, its constructor, its documentation and its implementations.
+//! The expansion: from a [`Model`] to Rust, the type, its constructor, its documentation and its
+//! implementations.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -35,7 +36,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     quote!(#structure #constructor #material #declared #fittable)
 }
 
-/// What documentation and description say.
+/// The texts that documentation and description share.
 struct Texts {
     formula: String,
     domain: String,
@@ -75,7 +76,7 @@ fn condition_text(condition: &Expr) -> String {
         .to_owned()
 }
 
-/// What follows `impl`, and what follows the name.
+/// The generics after `impl`, and those after the name.
 fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     let names = &declaration.generics;
     if names.is_empty() {
@@ -85,7 +86,7 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-/// What allows names as papers have them, such as `K`, to the compiler's lint on their case.
+/// The attribute that allows names of papers, such as `K`, in spite of the lint on their case.
 fn naming(declaration: &Declaration) -> Option<TokenStream> {
     let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
     let mut names = parameters.chain(&declaration.stretches).map(ToString::to_string);

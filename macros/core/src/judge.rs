@@ -1,8 +1,9 @@
-//! Rules that an energy keeps for all parameters: it is isotropic, has a value wherever its domain reaches, and at rest it is
-//! free of stress and resists shear.
+//! Rules that an energy keeps for all parameters: it is isotropic, has a value wherever its domain reaches,
+//! and at rest it is free of stress and resists shear.
 //!
-//! They are decided by evaluation at random points with random parameters, relative to what rounding could hide: a normal form
-//! would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s; [`report`] puts them into words.
+//! They are decided by evaluation at random points with random parameters, relative to what rounding could
+//! hide: a normal form would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s;
+//! [`report`] puts them into words.
 
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Point, Value, evaluate};
@@ -61,7 +62,8 @@ pub(crate) fn values(
     findings.found
 }
 
-/// Checks that the words of the attribute fit the declaration. The domain of one with mistakes of form is not judged.
+/// Checks that the words of the attribute fit the declaration. The domain of one with mistakes of form is not
+/// judged.
 pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding> {
     let options = &source.declaration.options;
     let word = |name: &str| options.words.iter().find(|word| *word == name);

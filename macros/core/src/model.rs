@@ -1,4 +1,4 @@
-//! From a declaration to everything that is emitted: the table of contents of the compiler.
+//! The model of a material, everything that is emitted of it, and the table of contents of the compiler.
 
 use std::rc::Rc;
 
@@ -35,13 +35,13 @@ pub struct Model {
     pub graph: Graph,
     /// The energy as written.
     pub energy: Id,
-    /// Inside the domain.
+    /// The energy and its derivatives inside the domain.
     pub plain: Variant,
     /// ψ1, ψ2, ψ3 inside the domain by principal strains instead of stretches.
     pub at_strains: [Id; 3],
-    /// Continued beyond its volumes.
+    /// The energy and its derivatives continued beyond the volumes of the domain.
     pub extended: Option<Variant>,
-    /// By invariants, if ψ is a function of these alone.
+    /// The energy by invariants, if ψ is a function of these alone.
     pub invariants: Option<ByInvariants>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
@@ -55,13 +55,13 @@ pub struct Model {
     pub from_young_poisson: Option<YoungPoisson>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
-    /// What has been scheduled.
+    /// The programs scheduled so far.
     programs: FxHashMap<Vec<Id>, Rc<Program>>,
     collector: Collector,
 }
 
 impl Model {
-    /// The computation of the roots, ordered when it is asked for first.
+    /// The program of the roots, scheduled at the first call.
     pub fn program(&mut self, roots: &[Id]) -> Rc<Program> {
         if let Some(done) = self.programs.get(roots) {
             return done.clone();
@@ -71,8 +71,8 @@ impl Model {
         program
     }
 
-    /// The operations of each result of a material, by its name: inside the domain, and last the blocks of an energy
-    /// continued beyond it. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
+    /// The operations of each result of a material, by its name: inside the domain, and last the blocks of an
+    /// energy continued beyond it. Blocks make up a tangent: gradient, Hessian, flip and twist.
     #[must_use]
     pub fn counts(&mut self) -> Vec<(&'static str, Count)> {
         let Variant { energy, gradient, hessian, flip, twist, .. } = &self.plain;
@@ -108,14 +108,14 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// What a tangent is made of: gradient, Hessian, flip and twist.
+    /// The blocks of a tangent: gradient, Hessian, flip and twist.
     #[must_use]
     pub fn blocks(&self) -> Vec<Id> {
         [&self.gradient[..], &self.hessian, &self.flip, &self.twist].concat()
     }
 }
 
-/// Understands, checks, differentiates.
+/// The model of a declaration: resolved, checked and differentiated.
 ///
 /// # Errors
 /// All mistakes of meaning, each at its tokens.
@@ -125,7 +125,8 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     diagnostics.finish(model)
 }
 
-/// The same after mistakes of form: names are looked up in spite of these, and nothing further is checked.
+/// The model of a declaration that may have mistakes of form: then names are resolved, and nothing further is
+/// checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let options = &declaration.options;
     let is_well_formed = diagnostics.is_clean();
@@ -192,7 +193,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
     judge::report(&mut graph, &source, findings, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
-    // Moduli of a stressed rest state determine no response; those with functions are known to the constructor alone.
+    // Moduli of a stressed rest state determine no response; those with functions are known to the
+    // constructor alone.
     let are_known = !options.prestressed && !declaration.has_functions();
     let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     Some(Model {
@@ -213,7 +215,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     })
 }
 
-/// A parameter as a variable of derivatives: of a list, one entry.
+/// A parameter, or the entry of a list, as a variable of derivatives.
 fn variable((k, parameter): (usize, &Parameter)) -> Node {
     if parameter.length().is_some() { Node::Entry(k) } else { Node::Parameter(k) }
 }
@@ -244,7 +246,7 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     }
 }
 
-/// μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
+/// The small-strain moduli μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
 fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     let one = graph.integer(1);
     let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| graph.substitute(h, [one; 3]));

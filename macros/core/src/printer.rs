@@ -17,7 +17,7 @@ pub fn formula(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     Printer::by_stretches(graph, declaration, Notation::Formula).print(id, Context::Sum)
 }
 
-/// A node as the Rust of a declaration, such as `mu / 2.0 * (I1 - 3.0)`, with `…` for nodes that a declaration cannot write.
+/// A node as Rust, such as `mu / 2.0 * (I1 - 3.0)`, with `…` for nodes that a declaration cannot contain.
 #[must_use]
 pub fn rust(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     Printer::by_stretches(graph, declaration, Notation::Rust).print(id, Context::Sum)
@@ -37,7 +37,8 @@ pub fn combination(terms: &[(&str, Rational)], constant: Rational) -> String {
     Notation::Formula.sum(parts, constant).1
 }
 
-/// Nodes after which a text is cut off: a graph can be exponentially smaller than the formula that it stands for.
+/// Nodes after which a text is cut off: a graph can be exponentially smaller than the formula that it stands
+/// for.
 const LONGEST: usize = 400;
 
 /// The surroundings of a text, which decide on parentheses.
@@ -123,7 +124,7 @@ struct Printer<'a> {
     products: Vec<(&'static str, Id, [Factor; 2])>,
     /// Nodes that may still be printed.
     budget: Cell<usize>,
-    /// Nodes that stand under a name, and how often each has done so.
+    /// Nodes that are printed by a name, and how often each has been.
     named: HashMap<Id, String>,
     uses: RefCell<HashMap<Id, usize>>,
 }
@@ -329,8 +330,9 @@ impl<'a> Printer<'a> {
         parenthesise(text, !is_atom && context == Context::Power)
     }
 
-    /// Factors with a power of J in place of powers of the three stretches, which those of J become in the graph: of equal
-    /// ones, and of fractions that differ by whole numbers, λ₁^(4/3) λ₂^(−2/3) λ₃^(−2/3) being J^(−2/3) λ₁².
+    /// Factors with a power of J in place of powers of the three stretches, which those of J become in the
+    /// graph: of equal ones, and of fractions that differ by whole numbers, λ₁^(4/3) λ₂^(−2/3) λ₃^(−2/3)
+    /// being J^(−2/3) λ₁².
     fn with_volume(&self, factors: &[Factor]) -> Vec<Factor> {
         let mut factors = factors.to_vec();
         let Some((stretches, volume)) = self.volume else { return factors };

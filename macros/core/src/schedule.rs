@@ -1,11 +1,11 @@
-//! From an expression graph to straight-line operations and loops over lists.
+//! The order of operations: from an expression graph to straight-line programs with loops over lists.
 //!
-//! Operations are numbered by value: what is computed twice is computed once, and what does not change from one entry
-//! of a list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
-//! needs the result of another. What products and sums have in common is computed first, if the range of the numbers
-//! allows. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
-//! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
-//! base are made from one logarithm.
+//! Operations are numbered by value: each is computed once, and one that does not change from one entry of a
+//! list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
+//! needs the result of another. Common parts of products and sums are computed first, if they stay within the
+//! range of the number format. Of the powers b^(α+k) with one α, only one is a real power: the others follow
+//! by multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all
+//! powers of one base are made from one logarithm.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -30,8 +30,8 @@ mod program;
 mod shifts;
 pub(crate) mod sorted;
 
-/// Orders the computation of the roots and of nothing else. The collector keeps what it finds for the next program of the same
-/// graph.
+/// Orders the computation of the roots and of nothing else. The collector keeps its findings for the next
+/// program of the same graph.
 #[must_use]
 pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> Program {
     let powers = Powers::used_by(graph, &graph.reachable(roots));
@@ -40,7 +40,7 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
     let has_sums = reachable.iter().any(|&id| matches!(graph.node(id), Node::Sum(..)));
     if has_sums {
         roots = shifts::take_out(graph, &powers, &roots);
-        // Once more, for what has come out of sums over lists.
+        // Once more, for the factors that have come out of sums over lists.
         roots = collector.collect(graph, &roots);
         reachable = graph.reachable(&roots);
     }
@@ -77,7 +77,7 @@ struct Scheduler<'g> {
     open_loop: Option<OpenLoop>,
 }
 
-/// What depends on the current entry.
+/// Operations that depend on the current entry.
 #[derive(Default)]
 struct OpenLoop {
     body: Vec<(Value, Op)>,
@@ -255,8 +255,8 @@ impl Scheduler<'_> {
                 let bounded = self.push(Op::Max(sum, floor));
                 self.push(Op::Div(numerator, bounded))
             }
-            // Sums are computed before what needs them, and extended functions are written out before scheduling;
-            // NaN would not go unnoticed.
+            // Sums are computed before the operations that need them, and extended functions are written out
+            // before scheduling; NaN would be noticed.
             Node::Sum(..) | Node::Extended(..) => self.push(Op::Literal(f64::NAN.to_bits())),
         }
     }
@@ -264,7 +264,7 @@ impl Scheduler<'_> {
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
         let sum = self.parts.regrouped(constant, terms);
         let (constant, groups) = (sum.0, self.parts.groups(&sum));
-        // What is added comes first, what is subtracted next, the constant last.
+        // Added terms come first, subtracted ones next, the constant last.
         let (subtracted, added): (Vec<_>, Vec<_>) =
             groups.iter().partition(|group| group.iter().all(|(_, c)| c.is_negative()));
         let mut sum: Option<Value> = None;

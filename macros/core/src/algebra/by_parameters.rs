@@ -1,15 +1,16 @@
-//! Derivatives of the stress by the parameters, which a fit of these to measurements follows.
+//! Derivatives of the stress with respect to the parameters, for least-squares fits.
 //!
-//! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever these stand, and
-//! sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one variable, and b differentiated with
-//! whole sums inside it constant,
+//! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever
+//! these stand, and sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one
+//! variable, and b differentiated with whole sums inside it constant,
 //!
 //! ```text
 //! ∂e/∂m_q = Σ_T ∂e/∂T · ∂b/∂m (m_q, …)     over all sums T in e
 //! ```
 //!
-//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is asked. The factor
-//! on the left has none, so that an entry inside a sum is never mistaken for one outside.
+//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is
+//! asked. The factor on the left has no entry, so that an entry inside a sum is never mistaken for one
+//! outside.
 
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id, Node};
@@ -51,7 +52,7 @@ mod tests {
     use quote::quote;
 
     use crate::algebra::interpret::{Point, evaluate};
-    use crate::understand;
+    use crate::analyse;
 
     /// Entry `place` of every list in place of entry 0, which stands for all outside sums.
     fn with_first(point: &Point, place: usize) -> Point {
@@ -60,13 +61,14 @@ mod tests {
         point
     }
 
-    /// The slope of finite differences by each number: their error must fall as h², or be no more than rounding.
+    /// Compares with finite differences by each parameter: their error must fall as h², or be at most
+    /// rounding.
     #[track_caller]
     fn check(body: TokenStream, parameters: &[&[f64]], stretches: [f64; 3]) {
         let item = quote! {
             fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
         };
-        let (_, model) = understand(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
+        let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
         let point = Point {
             stretches,
             parameters: parameters.iter().map(|list| list.to_vec()).collect(),

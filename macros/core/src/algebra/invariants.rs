@@ -1,4 +1,4 @@
-//! Energies that are functions of I1, I2 and J alone, as such.
+//! Energies as functions of I1, I2 and J alone.
 //!
 //! Stress then needs no singular value decomposition:
 //!
@@ -6,8 +6,9 @@
 //! P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
 //! ```
 //!
-//! The declared expression is read once more with I1, I2 and J in the places of the three stretches of the graph, so that the
-//! same calculus differentiates it. An energy that names a stretch is not of this kind, whatever it may equal.
+//! The declared expression is read once more with I1, I2 and J in the places of the three stretches of the
+//! graph, so that the same calculus differentiates it. An energy that names a stretch is not of this kind,
+//! whatever it may equal.
 
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};

@@ -1,4 +1,4 @@
-//! Puts together what differentiation takes apart.
+//! Rules that join terms which differentiation separates.
 //!
 //! With a number c, a denominator β + s, β a number and s a sum without constant:
 //!
@@ -12,9 +12,9 @@
 //!
 //! the last for a parameter p.
 //!
-//! The first two remove cancellation: each left side subtracts what is nearly equal where s is small or large. They arise
-//! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
-//! where I1 is tiny and the left side has no correct digit. The others save operations.
+//! The first two remove cancellation: each left side subtracts nearly equal terms where s is small or large.
+//! They arise from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean
+//! solid near collapse, where I1 is tiny and the left side has no correct digit. The others save operations.
 
 use rustc_hash::FxHashMap;
 
@@ -56,7 +56,7 @@ fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {
             let s = graph.linear(Rational::ZERO, &sum);
             let beta_id = graph.constant(beta);
             let over_beta = coefficient.checked_mul(beta.checked_powi(-1)?)?;
-            // The coefficient of w, w itself, and what takes the place of both.
+            // The coefficient of w, w itself, and the term that replaces both.
             let w = graph.mul(fraction, denominator);
             let w_over_s = graph.div(w, s);
             let rules = [(over_beta.negated(), w, s), (coefficient.negated(), w_over_s, beta_id)];

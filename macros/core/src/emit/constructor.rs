@@ -1,5 +1,5 @@
-//! How a material comes to be: `new`, which checks its parameters, what finds some of them from a stiffness, what chooses the
-//! way of inversion, and what reads the parameters back.
+//! The inherent methods of a material: `new`, which checks its parameters, the constructor from a stiffness,
+//! the choice of an extension, and getters of the parameters.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};

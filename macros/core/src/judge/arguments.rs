@@ -1,5 +1,5 @@
-//! Denominators and the arguments of logarithms, roots and real powers: they must stay away from zero, at rest and wherever
-//! the domain reaches.
+//! Denominators and the arguments of logarithms, roots and real powers: they must stay away from zero, at
+//! rest and wherever the domain reaches.
 
 use super::finding::{Findings, Remedy, Vanishing, Violation};
 use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, vanishes};
@@ -9,8 +9,8 @@ use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::interpret::{Memo, Point, Value, evaluate, evaluate_with};
 use crate::read::resolve::isochoric;
 
-/// Paths away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and one, two and three
-/// stretches that grow or shrink together.
+/// Paths away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and one,
+/// two and three stretches that grow or shrink together.
 const PATHS: [[f64; 3]; 9] = [
     [1.0, -0.5, -0.5],
     [0.5, 0.5, -1.0],
@@ -26,7 +26,8 @@ const PATHS: [[f64; 3]; 9] = [
 /// Points of each path, the last of which is at a stretch of 10 or 1/10.
 const STEPS: usize = 8;
 
-/// Draws of the parameters: enough that limits such as one of I1, which is at least 3, are seen from both sides.
+/// Draws of the parameters: enough that limits such as one of I1, which is at least 3, are seen from both
+/// sides.
 const DRAWS: usize = 12;
 
 /// Attempts from one draw to the next, over more decades each, as long as all parameters are positive.
@@ -75,8 +76,8 @@ impl Argument {
     }
 }
 
-/// Finds powers that are not whole of expressions that vanish at rest: rounding gives these either sign nearby, and such powers
-/// have no value for a negative one.
+/// Finds powers that are not whole of expressions that vanish at rest: rounding gives these either sign
+/// nearby, and such powers have no value for a negative one.
 pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
     let source = findings.source;
     let vanishes =
@@ -158,7 +159,8 @@ fn is_positive(graph: &Graph, id: Id) -> bool {
     }
 }
 
-/// Whether an expression changes its sign on one of the [`PATHS`], with the parameters of the point, before the domain ends.
+/// Whether an expression changes its sign on one of the [`PATHS`], with the parameters of the point, before
+/// the domain ends.
 fn changes_sign(graph: &Graph, source: &Source<'_>, id: Id, point: &Point) -> bool {
     let sign = evaluate(graph, id, &at_rest(point)).value.signum();
     PATHS.into_iter().any(|path| {

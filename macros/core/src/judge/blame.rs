@@ -58,7 +58,8 @@ fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) 
     }
 }
 
-/// The operands of an operator, a method or a function, or the expression that a name or parentheses stand for.
+/// The operands of an operator, a method or a function, or the expression that a name or parentheses stand
+/// for.
 fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
     match expression {
         Expr::Unary(unary) => vec![&*unary.expr],

@@ -229,7 +229,8 @@ impl Explainer<'_, '_> {
         format!("`domain({})`", conditions.join(", "))
     }
 
-    /// The declared conditions on parameters, with the further one that an exponent is positive; such conditions have no sums.
+    /// The declared conditions on parameters, with the further one that an exponent is positive; such
+    /// conditions have no sums.
     fn admissible(&mut self, exponent: Id) -> Option<String> {
         let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
         if self.graph.reachable(&[exponent]).iter().any(is_sum) {

@@ -29,9 +29,11 @@ pub(crate) enum Violation {
     Stressed(Stressed),
     /// The energy has no value where J has this sign, −1 or 0.
     NoValue { sign: f64 },
-    /// A power or logarithm has no value where some stretches vanish, unless its exponent, if that is real, is positive.
+    /// A power or logarithm has no value where some stretches vanish, unless its exponent, if that is real,
+    /// is positive.
     NoValueCollapsed { power: Id, exponent: Option<Id>, vanishing: usize },
-    /// An argument vanishes inside the domain. `has_value`: the energy has a value for all volumes of its domain.
+    /// An argument vanishes inside the domain. `has_value`: the energy has a value for all volumes of its
+    /// domain.
     Vanishing { argument: Vanishing, has_value: bool },
     /// A condition excludes flat elements, such as one with these stretches, where an extension begins.
     FlatExcluded { stretches: [f64; 3] },
@@ -92,8 +94,9 @@ impl Violation {
 
 /// Collects findings about the parts of an energy.
 ///
-/// A part that breaks one rule often breaks others by the same token: the root of an expression that vanishes at rest has no
-/// finite stress there, and no value on one side of it. Such a part is reported once, by the first rule.
+/// A part that breaks one rule often breaks others by the same token: the root of an expression that vanishes
+/// at rest has no finite stress there, and no value on one side of it. Such a part is reported once, by the
+/// first rule.
 pub(crate) struct Findings<'a> {
     pub(crate) source: &'a Source<'a>,
     pub(crate) found: Vec<Finding>,

@@ -12,8 +12,8 @@ use crate::read::domain::Volume;
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
 
-/// Candidates tried for [`SAMPLES`] admissible points: enough for parameters that must be in order, and for decades of them
-/// up to 10⁹. Most are refused by the conditions alone, in microseconds.
+/// Candidates tried for [`SAMPLES`] admissible points: enough for parameters that must be in order, and for
+/// decades of them up to 10⁹. Most are refused by the conditions alone, in microseconds.
 pub(crate) const CANDIDATES: usize = 20_000;
 
 /// Candidates before this one have positive parameters.

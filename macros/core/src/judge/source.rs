@@ -30,8 +30,8 @@ impl Source<'_> {
         self.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0)
     }
 
-    /// Whether the parameters are admissible and give the energy a value at rest. At other stretches a missing value may be
-    /// the very mistake that is looked for.
+    /// Whether the parameters are admissible and give the energy a value at rest. At other stretches a
+    /// missing value may be the very mistake that is looked for.
     pub(crate) fn is_good_at_rest(&self, graph: &Graph, point: &Point) -> bool {
         let rest = at_rest(point);
         self.admissible.iter().all(|&id| evaluate(graph, id, &rest).value > 0.0)

@@ -1,4 +1,5 @@
-//! Volumes for which an energy must have a value: inverted, flat and collapsed elements, unless its domain excludes them.
+//! Volumes for which an energy must have a value: inverted, flat and collapsed elements, unless its domain
+//! excludes them.
 
 use super::arguments::Argument;
 use super::finding::{Findings, Violation};
@@ -11,16 +12,16 @@ use crate::read::domain::Volume;
 /// The stretches of elements that are collapsed to a sheet, a line and a point.
 const COLLAPSED: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
-/// Draws of the parameters, some of which are negative: an exponent 1 + β is below zero in a fifth of them, so that all of them
-/// miss it once in 10⁶ times.
+/// Draws of the parameters, some of which are negative: an exponent 1 + β is below zero in a fifth of them,
+/// so that all of them miss it once in 10⁶ times.
 const DRAWS: usize = 64;
 
 /// Finds volumes of the domain for which the energy has no value.
 pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
     let source = findings.source;
     if let Some(sign) = sign_without_value(graph, source, samples) {
-        // An energy undefined at J = 0 is undefined on collapsed elements too and has the same remedy: only the first is
-        // reported.
+        // An energy undefined at J = 0 is undefined on collapsed elements too and has the same remedy: only
+        // the first is reported.
         let breaks = |part| has_no_value(graph, source, part, sign, samples);
         if !findings.is_known(breaks) {
             findings.add(source.blamed_term(breaks), Violation::NoValue { sign });
@@ -70,7 +71,8 @@ fn has_no_value(graph: &Graph, source: &Source<'_>, part: Id, sign: f64, samples
     points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
 }
 
-/// A logarithm or power without a value in collapsed elements, such as one of I2 on a line, and how many stretches vanish there.
+/// A logarithm or power without a value in collapsed elements, such as one of I2 on a line, and how many
+/// stretches vanish there.
 fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, usize)> {
     // The domain of functions is not known here.
     if source.volume != Volume::Any || source.declaration.has_functions() {
@@ -100,8 +102,8 @@ fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, us
     })
 }
 
-/// Points with admissible parameters of either sign. The entries of a list are equal, so that a condition on their sum holds
-/// for each of them.
+/// Points with admissible parameters of either sign. The entries of a list are equal, so that a condition on
+/// their sum holds for each of them.
 fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
     let points = candidates(source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).map(|mut point| {
         for entries in &mut point.parameters {

@@ -1,4 +1,4 @@
-//! Which powers of each base are needed, and which one of them is computed.
+//! Powers of each base: which ones are needed, and which one of them is computed.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use crate::algebra::divided::LARGEST_ROOT;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
-/// Which powers of each base are needed, to choose the one that is computed.
+/// The powers of each base that are needed, to choose the one that is computed.
 pub(super) struct Powers {
     /// Common denominator of the simple fractional exponents of a base.
     denominators: FxHashMap<Id, i128>,
@@ -14,20 +14,20 @@ pub(super) struct Powers {
     representatives: FxHashMap<PowerClass, Rational>,
 }
 
-/// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
-/// fraction of its rational part.
+/// Powers that follow from each other by multiplication with the base: the base, the real part of the
+/// exponent, and the fraction of its rational part.
 type PowerClass = (Id, Option<Id>, Rational);
 
-/// How a power is computed.
+/// The way in which a power is computed.
 pub(super) enum Evaluation {
-    /// As a power of the root of this degree.
+    /// A power of the root of this degree.
     Root(i128),
-    /// From the real power whose exponent has this rational part.
+    /// A multiple of the real power whose exponent has this rational part.
     Real(Rational),
 }
 
 impl Powers {
-    /// Those that the nodes read.
+    /// The powers that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
         let mut denominators: FxHashMap<Id, i128> = FxHashMap::default();
         let mut used: FxHashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = FxHashMap::default();
@@ -62,7 +62,7 @@ impl Powers {
         Self { denominators, representatives }
     }
 
-    /// How `base^exponent` is computed.
+    /// The way in which `base^exponent` is computed.
     pub(super) fn evaluation(&self, base: Id, exponent: Exponent) -> Evaluation {
         let Exponent { rational, .. } = exponent;
         if exponent.as_integer().is_some() {

@@ -13,9 +13,9 @@ pub enum Op {
     Literal(u64),
     /// λ1, λ2 or λ3.
     Stretch(Stretch),
-    /// λ − 1 of one of them.
+    /// The strain λ − 1 of one of them.
     Strain(Stretch),
-    /// A number among the parameters.
+    /// A scalar parameter.
     Parameter(Parameter),
     /// The current entry of a list.
     Entry(Parameter),
@@ -47,27 +47,27 @@ pub enum Op {
     Ln(Value),
     /// Exponential function.
     Exp(Value),
-    /// The logarithm that all powers of a number are made from.
+    /// The logarithm from which all powers of a value are computed.
     Logarithm(Value),
-    /// From such a logarithm and the exponent.
+    /// A power from such a logarithm and the exponent.
     Power(Value, Value),
-    /// ln of a product of three.
+    /// The logarithm of a product of three values.
     LnProduct([Value; 3]),
     /// Derivative of the given order of a function that is a parameter.
     Function(Parameter, u8, Value),
     /// Divided difference of such a derivative.
     FunctionQuotient(Parameter, u8, Value, Value),
-    /// The larger of two.
+    /// The larger of two values.
     Max(Value, Value),
     /// min(first − second, 0).
     Below(Value, Value),
-    /// The second where the first is negative, else the third.
+    /// The second value where the first is negative, else the third.
     WhereNegative(Value, Value, Value),
     /// Fraction of the interval between the first two that lies above the third.
     ShareAbove(Value, Value, Value),
     /// Fraction of the interval between the first two that lies below the third.
     ShareBelow(Value, Value, Value),
-    /// What quotients of logarithms and powers of two numbers a, b share.
+    /// The common part of the divided differences of logarithms and powers of two values a, b.
     Pair {
         /// a, b.
         values: [Value; 2],
@@ -76,18 +76,18 @@ pub enum Op {
         /// The [`Logarithm`](Self::Logarithm)s of a and b.
         logarithms: [Value; 2],
     },
-    /// (ln a − ln b) / (a − b), from their pair.
+    /// The divided difference (ln a − ln b) / (a − b), from their pair.
     LnQuotient(Value),
-    /// (a^r − b^r) / (a − b).
+    /// The divided difference (a^r − b^r) / (a − b).
     PowerQuotient {
-        /// Of a and b.
+        /// The pair of a and b.
         pair: Value,
         /// a^r, b^r.
         powers: [Value; 2],
         /// r.
         exponent: Value,
     },
-    /// (eᵃ − eᵇ) / (a − b).
+    /// The divided difference (eᵃ − eᵇ) / (a − b).
     ExpQuotient {
         /// a, b.
         values: [Value; 2],
@@ -97,7 +97,7 @@ pub enum Op {
 }
 
 impl Op {
-    /// The values it reads.
+    /// The values that the operation reads.
     #[must_use]
     pub fn operands(mut self) -> Vec<Value> {
         let mut all = Vec::new();
@@ -105,7 +105,7 @@ impl Op {
         all
     }
 
-    /// Shows each value it reads, to be counted or replaced.
+    /// Calls a function for each value that the operation reads, to count or replace it.
     pub(super) fn each_operand(&mut self, mut show: impl FnMut(&mut Value)) {
         match self {
             Self::Literal(_)
@@ -161,11 +161,11 @@ impl Op {
 /// A step of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// Names the result of an operation.
+    /// The name of the result of an operation.
     Let(Value, Op),
-    /// Runs over the entries of the lists of one length.
+    /// A loop over the entries of the lists of one length.
     Loop {
-        /// Which length.
+        /// The length of the lists.
         length: Length,
         /// Operations for each entry.
         body: Vec<(Value, Op)>,
@@ -174,11 +174,11 @@ pub enum Statement {
     },
 }
 
-/// Operations in order, with the values that are asked for.
+/// Operations in order, with the values of the roots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// In the order of execution.
+    /// Statements in the order of execution.
     pub statements: Vec<Statement>,
-    /// One for each root.
+    /// One value for each root.
     pub outputs: Vec<Value>,
 }

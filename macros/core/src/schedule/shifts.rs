@@ -1,12 +1,12 @@
-//! Whole powers that every term of a sum over a list shares, taken out of it.
+//! Whole powers taken out of sums over lists, if every term shares them.
 //!
 //! ```text
 //! Σₚ μₚ (αₚ − 1) x^(αₚ−2) = x⁻¹ Σₚ (αₚ − 1) (μₚ x^(αₚ−1))
 //! ```
 //!
-//! Of the powers x^(αₚ+k) only one is computed; the others are it times a power of x, which is the same for all p and then is
-//! multiplied once, not for every entry; and so is a whole power of a stretch itself. What is left in the sum is what other
-//! sums have computed already.
+//! Only one of the powers x^(αₚ+k) is computed; each other one is that one times a power of x, which is the
+//! same for all p and then is multiplied once, not for every entry; and so is a whole power of a stretch
+//! itself. The terms that remain in the sum have been computed already for other sums.
 
 use rustc_hash::FxHashMap;
 
@@ -31,7 +31,7 @@ pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<
     roots.iter().map(|&root| rewrite(graph, root, &mut memo, &rule)).collect()
 }
 
-/// The shifts of all terms and what is left without them.
+/// The shifts of all terms and the expression without them.
 fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
     match graph.node(id).clone() {
         Node::Product(factors) => {
@@ -84,7 +84,7 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
     }
 }
 
-/// Whether it may differ from entry to entry: such a base stays in its sum.
+/// Whether a base may differ from entry to entry: such a base stays in its sum.
 fn varies(graph: &Graph, id: Id) -> bool {
     graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
 }

@@ -1,4 +1,5 @@
-//! Mistakes of the energy itself, whose words are understood: stress at rest, asymmetry, no value inside the domain.
+//! Mistakes of the energy itself, whose words are understood: stress at rest, asymmetry, no value inside the
+//! domain.
 
 use super::{GOOD, check, check_added, check_body, mistakes};
 
@@ -84,7 +85,7 @@ fn stress_at_rest_is_gathered() {
     says("", "A: f64, n: f64", energy, "2.0 * A * 3.0.powf(n) + A * n * 3.0.powf(n)");
 }
 
-/// An incompressible solid lacks a term; where the volume is spoken of, what is written is wrong.
+/// An incompressible solid lacks a term; in an energy with J, a term is mistyped.
 #[test]
 fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
     let says_so = |attribute: &str, energy: &str| {
@@ -128,7 +129,7 @@ fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
     check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
 }
 
-/// A term in `J - 1.0` is offered just where it does without another domain.
+/// A term in `J - 1.0` is offered only if it needs no other domain.
 #[test]
 fn what_is_printed_has_a_value_wherever_it_is_said_to() {
     let check = |arguments: &str, energy: &str, place: Option<&str>| {
@@ -162,7 +163,7 @@ fn what_is_printed_has_a_value_wherever_it_is_said_to() {
     check("domain(J != 0.0)", "mu * (I1 + J.powi(-2) / 2)", Some("the declared one"));
 }
 
-/// Beside rest, rounding leaves what vanishes there of either sign.
+/// Near rest, rounding gives an expression that vanishes there either sign.
 #[test]
 fn what_vanishes_at_rest_has_whole_powers() {
     for (factor, written, power) in [
@@ -199,12 +200,12 @@ fn what_vanishes_elsewhere_is_a_limit() {
         assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
         check(&domain, &energy(term), &[]);
     }
-    // Parameters that are admissible decide.
+    // The admissible parameters decide.
     let logarithm = "(1 + b * (I1b - 3)).ln()";
     let term = format!("mu * {logarithm}");
     check("domain(J > 0.0)", &energy(&term), &[]);
     check("domain(J > 0.0), admissible(b < 0.0)", &energy(&term), &[(logarithm, "inside the domain")]);
-    // What I1 leaves when volume is lost, I1b keeps.
+    // I1 leaves the bound when volume is lost; I1b stays above it.
     for term in
         ["mu * (I1 - 3 + b).powf(b)", "mu * (b + b * (I1 - 2).ln())", "mu * (I1 - 3 + b.powi(2)).sqrt()"]
     {
@@ -228,7 +229,7 @@ fn what_vanishes_elsewhere_is_a_limit() {
         message.contains("* J.ln()` with `domain(J > 0.0, 1.0 - (I1 - 3.0) / (m - 3.0) > 0.0)`"),
         "{message}"
     );
-    // It is the denominator that vanishes, and the whole term that has none.
+    // The denominator vanishes, and the whole term has no value.
     check(
         "",
         "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 * J) + mu / (2.0 - J) }",
@@ -293,7 +294,7 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
     }
 }
 
-/// Conditions that exclude what is flat are none of an energy that is continued from there.
+/// `extend` continues an energy from J = 0 and therefore excludes conditions that fail at J = 0.
 #[test]
 fn what_is_extended_has_room_for_flat_elements() {
     let energy =
@@ -326,7 +327,7 @@ fn the_asymmetric_term_is_named_where_it_is_short() {
     check_body(whole, &[(whole, "but this does: write")]);
 }
 
-/// Of different terms, or of one term and of one that is missing.
+/// Mistakes of different terms, or of one term and of a missing one.
 #[test]
 fn independent_mistakes_come_at_once() {
     let energy = |body: &str| {
@@ -357,7 +358,7 @@ fn independent_mistakes_come_at_once() {
         "fn E([l1, l2, l3]: [f64; 3], kappa: f64) -> f64 { kappa * J.ln().powi(2) }",
         &[(logarithm, inverted), (logarithm, "the shear modulus of this energy is zero at rest")],
     );
-    // What one says to declare holds what the other does.
+    // The domain that one message asks for includes that of the other.
     let limited = "mu * (1 - (I1 - 3) / m).ln()";
     let both = "domain(J > 0.0, 1.0 - (I1 - 3.0) / m > 0.0)";
     let energy = energy(&format!("{limited} + {logarithm}"));

@@ -1,9 +1,9 @@
-//! What papers write and a declaration writes in another way.
+//! Notation of papers that a declaration writes in another way.
 
 use super::tensors;
 use crate::read::spelling::plain;
 
-/// How a declaration writes what papers call by this name.
+/// The advice for a name that papers use.
 pub(super) fn name(name: &str) -> Option<&'static str> {
     Some(match plain(name).as_str() {
         "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
@@ -23,7 +23,7 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
     })
 }
 
-/// How a declaration writes what papers call by this function.
+/// The advice for a function that papers use.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     Some(match name {
         "pow" => "write `.powi(2)` or `.powf(alpha)`",
