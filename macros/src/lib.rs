@@ -4,37 +4,44 @@ use proc_macro::TokenStream;
 
 /// Declares an isotropic hyperelastic energy as a function of the principal stretches.
 ///
-/// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`, with a
-/// checked constructor `new(parameters…)`. Its first argument names the three stretches, the others are the
-/// parameters: numbers `f64`, lists `[f64; N]` or functions such as `piola::Spline`. The body is ordinary Rust:
+/// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`,
+/// with a checked constructor `new(parameters…)`. Its first argument names the three stretches, the others
+/// are the parameters: numbers `f64`, lists `[f64; N]` or functions such as `piola::Spline`. The body is
+/// ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
 /// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`;
 /// * `f(l1)` of a parameter that is a function;
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`;
-/// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1, `I2b` = J^(−4/3) I2.
+/// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1 and
+///   `I2b` = J^(−4/3) I2.
 ///
-/// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case. Where a crate's only Greek
-/// letters look like Latin ones, as β and α do, the compiler's `mixed_script_confusables` says so of the crate; calling the stretches
-/// `[λ1, λ2, λ3]` is enough for it.
+/// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
+/// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's
+/// `mixed_script_confusables` says so of the crate; calling the stretches `[λ1, λ2, λ3]` is enough for it.
 ///
-/// A logarithm, a denominator or a real power of what vanishes inside the domain is refused where that is seen along the usual
-/// deformations, and so is a real power of what vanishes at rest, such as `(I1b - 3.0).powf(n)`.
+/// A logarithm, a denominator or a real power of an expression that vanishes inside the domain is refused if
+/// a usual deformation shows it, and so is a real power of one that vanishes at rest: `(I1b - 3.0).powf(n)`.
 ///
 /// Arguments of the attribute, all optional:
 ///
-/// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent. `J != 0.0` leaves out flat material alone: what
-///   is inverted then has an energy as what is upright has, and no stress in the mirror image of rest where the energy is even in J;
-/// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: what `new` checks, beside finite numbers and a stable rest state;
-/// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these conditions;
-/// * `refuse("why")`: it cannot;
+/// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent. `J != 0.0` excludes flat
+///   elements alone: inverted ones then have an energy as upright ones have, and no stress in the mirror
+///   image of rest if the energy is even in J;
+/// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: conditions that `new` checks, beside finite numbers and a
+///   stable rest state;
+/// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these
+///   conditions;
+/// * `refuse("why")`: the energy cannot be continued;
 /// * `prestressed`: stress at rest is intended;
-/// * `fit`: it is `piola::material::Fittable` too, with the derivatives of its stress by its parameters.
+/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress by its parameters.
 ///
-/// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no other, the type
-/// also has `from_young_poisson(young, poisson, other parameters…)`, unless it is `prestressed` or a parameter is a function.
+/// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no
+/// other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is
+/// `prestressed` or a parameter is a function.
 ///
-/// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is used.
+/// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is
+/// used.
 #[proc_macro_attribute]
 pub fn material(arguments: TokenStream, item: TokenStream) -> TokenStream {
     piola_codegen::expand(arguments.into(), item.into()).into()

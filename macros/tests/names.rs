@@ -29,7 +29,7 @@ pub fn Solid<const N: usize>(
     Shape - C10 * (Jm * (1.0 - (I1 - 3.0) / Jm).ln() + 2.0 * J.ln()) + K / 2.0 * (J - 1.0).powi(2)
 }
 
-/// The same of one by invariants, with what follows from a pair of moduli.
+/// An energy by invariants, with a constructor from a pair of moduli.
 #[piola::material(domain(J > 0.0))]
 pub fn Pair(
     [L1, L2, L3]: [f64; 3],
@@ -41,7 +41,7 @@ pub fn Pair(
     G / 2.0 * (I1b - 3.0) + K__ / 2.0 * (J - 1.0).powi(2)
 }
 
-/// The same of one with a function.
+/// An energy with a function.
 #[piola::material]
 pub fn Curve(
     [l1, l2, l3]: [f64; 3],

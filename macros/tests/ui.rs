@@ -1,8 +1,9 @@
-//! What the compiler shows for mistaken declarations, `ui/*.rs`: their mistakes and nothing else, though each is used.
+//! Compiler output for mistaken declarations, `ui/*.rs`: their mistakes and nothing else, though each
+//! is used.
 //!
-//! `TRYBUILD=overwrite cargo test -p piola-macros` writes `ui/*.stderr` anew. How tokens are underlined is up to the compiler,
-//! so they are compared where it has the version that they were written by; that the messages are those of the macro is
-//! tested everywhere, by `piola-codegen`.
+//! `TRYBUILD=overwrite cargo test -p piola-macros` writes `ui/*.stderr` anew. How tokens are underlined is up
+//! to the compiler, so they are compared where it has the version that they were written by; that the
+//! messages are those of the macro is tested everywhere, by `piola-codegen`.
 
 use std::process::Command;
 

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use piola::Inversion;
 use piola::material::Description;
-use piola_codegen::algebra::hash::HashMap;
-use piola_codegen::algebra::interpret::{Point, evaluate, evaluate_with};
+use piola_codegen::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
 use piola_codegen::read::parse::{Declaration, parse};
 
@@ -85,7 +84,7 @@ impl Declared {
             _ => &self.model.plain,
         };
         let point = Point { stretches, ..self.point.clone() };
-        let mut memo = HashMap::default();
+        let mut memo = Memo::default();
         let mut terms = |id| evaluate_with(&self.model.graph, id, &point, &mut memo).magnitude;
         (variant.flip.map(&mut terms), variant.twist.map(&mut terms))
     }

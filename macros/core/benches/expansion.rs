@@ -1,6 +1,7 @@
-//! How long the compiler waits for each material of the catalogue: `cargo bench -p piola-codegen --bench expansion`.
+//! The time that each material of the catalogue adds to compilation:
+//! `cargo bench -p piola-codegen --bench expansion`.
 //!
-//! Whoever declares a material waits longer: by default Cargo builds procedural macros without optimisation. As they are then:
+//! By default Cargo builds procedural macros without optimisation, which then take longer:
 //! `cargo bench -p piola-codegen --bench expansion --profile dev --config profile.dev.opt-level=0`.
 
 use std::path::Path;
@@ -21,12 +22,12 @@ fn expansion(bencher: Bencher<'_, '_>, file: &str) {
     });
 }
 
-/// The sources of the catalogue, which this crate knows as text alone.
+/// The sources of the catalogue, which this crate reads as text.
 fn catalogue() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../materials/src"))
 }
 
-/// Those that declare a material.
+/// The files that declare a material.
 fn files() -> Vec<String> {
     let folder = std::fs::read_dir(catalogue()).expect("the catalogue");
     let mut files: Vec<_> = folder

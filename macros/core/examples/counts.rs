@@ -1,4 +1,4 @@
-//! Prints how many operations each result of the declarations in Rust source files takes.
+//! Prints the operations of each result of the declarations in Rust source files.
 //!
 //! ```text
 //! cargo run -p piola-codegen --example counts -- materials/src/ogden.rs materials/src/neo_hookean.rs
@@ -8,7 +8,7 @@
 
 use std::error::Error;
 
-use piola_codegen::schedule::count::{LEGEND, counts, table};
+use piola_codegen::schedule::count::{LEGEND, table};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("{LEGEND}.");
@@ -19,8 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Err(format!("{path}: no function has the attribute `material`").into());
         }
         for (arguments, item) in declarations {
-            let (declaration, mut model) = piola_codegen::understand(arguments, item)?;
-            println!("\n## {}\n\n{}", declaration.name, table(&declaration, &counts(&mut model)).trim_end());
+            let (declaration, mut model) = piola_codegen::analyse(arguments, item)?;
+            println!("\n## {}\n\n{}", declaration.name, table(&declaration, &model.counts()).trim_end());
         }
     }
     Ok(())

@@ -1,4 +1,6 @@
 //! Calculus on expression graphs: exact fractions, derivatives, quotients, continuation and normal forms.
+//!
+//! It knows no declaration and no Rust: neither `read` nor any later stage.
 
 pub mod by_parameters;
 pub mod diff;
@@ -6,7 +8,6 @@ pub mod divided;
 pub mod expand;
 pub mod expr;
 pub mod extension;
-pub mod hash;
 pub mod increment;
 pub mod interpret;
 pub mod invariants;

@@ -1,11 +1,12 @@
-//! From a [`Model`] to Rust: the type, its constructor, its documentation and its implementations.
+//! The expansion: from a [`Model`] to Rust, the type, its constructor, its documentation and its
+//! implementations.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, Ident};
 
 use crate::model::Model;
-use crate::printer::formula::formula;
+use crate::printer::formula;
 use crate::read::parse::{Declaration, Kind, documentation};
 use constructor::constructor;
 use declared::declared;
@@ -44,7 +45,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     }
 }
 
-/// What documentation and description say.
+/// The texts that documentation and description share.
 struct Texts {
     formula: String,
     domain: String,
@@ -84,7 +85,7 @@ fn condition_text(condition: &Expr) -> String {
         .to_owned()
 }
 
-/// What follows `impl`, and what follows the name.
+/// The generics after `impl`, and those after the name.
 fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     let names = &declaration.generics;
     if names.is_empty() {
@@ -101,7 +102,7 @@ fn value_parameter(declaration: &Declaration) -> Ident {
     names.into_iter().find(is_free).unwrap_or_else(|| format_ident!("ParameterValue"))
 }
 
-/// What allows names as papers have them, such as `K`, to the compiler's lint on their case.
+/// The attribute that allows names of papers, such as `K`, in spite of the lint on their case.
 fn naming(declaration: &Declaration) -> Option<TokenStream> {
     let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
     let mut names = parameters.chain(&declaration.stretches).map(ToString::to_string);

@@ -1,16 +1,26 @@
-//! From the tokens of an elastic energy to the tokens of everything a simulator needs of it.
+//! The compiler behind `#[piola::material]`: from the tokens of an elastic energy to Rust that evaluates it
+//! and its derivatives.
 //!
-//! `parse` reads the form of a declaration; `model` understands, checks and differentiates it; `emit` writes Rust. The
-//! energy travels as a hash-consed expression graph (`expr`), is differentiated once and twice (`diff`), divided into
-//! flip and twist quotients that never cancel (`quotient`), continued beyond its domain (`extension`), freed from
-//! implied cancellation (`simplify`), read once more by invariants where it can (`invariants`), differentiated by its parameters
-//! where that is asked for (`by_parameters`), and ordered into operations and loops (`schedule`).
+//! Its folders are its stages, and [`model`] is their table of contents:
 //!
-//! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes, meshes.
+//! 1. [`read`] parses a declaration and resolves its names into a hash-consed expression graph;
+//! 2. [`algebra`] differentiates the energy once and twice, divides it into flip and twist quotients that
+//!    never cancel, continues it beyond its domain, frees it from implied cancellation, and rewrites it by
+//!    invariants;
+//! 3. `judge` checks that the energy is isotropic, has a value wherever its domain reaches, and has no stress
+//!    at rest;
+//! 4. [`schedule`] orders expressions into operations and loops over lists;
+//! 5. [`emit`] writes them as Rust: the type, its constructor, its documentation and its implementations.
+//!
+//! Imports point from later stages to earlier ones. [`printer`] writes expressions as text, for messages and
+//! documentation.
+//!
+//! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes
+//! or meshes.
 
 pub mod algebra;
 pub mod emit;
-pub mod judge;
+mod judge;
 pub mod model;
 pub mod printer;
 pub mod read;
@@ -27,30 +37,30 @@ use read::parse::{self, Declaration};
 /// The expansion of `#[material(arguments)] item`.
 #[must_use]
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    match understand(arguments, item.clone()) {
+    match analyse(arguments, item.clone()) {
         Ok((declaration, model)) => emit::emit(&declaration, model),
         Err(mistakes) => emit::stub::inert(&mistakes, item),
     }
 }
 
-/// What `#[material(arguments)] item` means.
+/// The declaration `#[material(arguments)] item` with its energy, derived and checked.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
-pub fn understand(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
+pub fn analyse(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
     let mut diagnostics = Diagnostics::default();
-    let understood = parse::read(arguments, item, &mut diagnostics).and_then(|declaration| {
+    let analysed = parse::read(arguments, item, &mut diagnostics).and_then(|declaration| {
         let model = model::read(&declaration, &mut diagnostics)?;
         Some((declaration, model))
     });
-    diagnostics.finish(understood)
+    diagnostics.finish(analysed)
 }
 
-/// The declarations of a Rust source file and of the modules written out in it, each as the arguments of its attribute and its
-/// item.
+/// The declarations of a Rust source file and of the modules written out in it, each as the arguments of its
+/// attribute and its item.
 ///
 /// # Errors
-/// Where the text is not Rust.
+/// A syntax error if the text is not Rust.
 pub fn declarations(source: &str) -> syn::Result<Vec<(TokenStream, TokenStream)>> {
     let mut found = Vec::new();
     collect(syn::parse_file(source)?.items, &mut found);

@@ -1,17 +1,15 @@
-//! From a declaration to everything that is emitted: the table of contents of the compiler.
+//! The model of a material, everything that is emitted of it, and the table of contents of the compiler.
 
 use std::rc::Rc;
 
-use quote::ToTokens;
-use syn::{BinOp, Expr, Ident};
+use rustc_hash::FxHashMap;
 
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand;
-use crate::algebra::expr::{Graph, Id};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::extension;
-use crate::algebra::hash::HashMap;
-use crate::algebra::increment::{Increments, at_rest};
+use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
 use crate::algebra::invariants::{ByInvariants, by_invariants};
 use crate::algebra::quotient::Quotients;
@@ -19,10 +17,12 @@ use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 use crate::algebra::volume::{Purpose, separate};
 use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
-use crate::judge::{self, Written};
+use crate::judge::{self, Source};
 use crate::read::diagnostics::Diagnostics;
-use crate::read::parse::{Declaration, indexed_lists};
-use crate::read::resolve::Resolver;
+use crate::read::domain::Volume;
+use crate::read::parse::{Declaration, Parameter};
+use crate::read::resolve::{self, Resolver};
+use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
@@ -35,13 +35,13 @@ pub struct Model {
     pub graph: Graph,
     /// The energy as written.
     pub energy: Id,
-    /// Inside the domain.
+    /// The energy and its derivatives inside the domain.
     pub plain: Variant,
     /// ψ1, ψ2, ψ3 inside the domain by principal strains instead of stretches.
     pub at_strains: [Id; 3],
-    /// Continued beyond its volumes.
+    /// The energy and its derivatives continued beyond the volumes of the domain.
     pub extended: Option<Variant>,
-    /// By invariants, if ψ is a function of these alone.
+    /// The energy by invariants, if ψ is a function of these alone.
     pub invariants: Option<ByInvariants>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
@@ -55,13 +55,13 @@ pub struct Model {
     pub from_young_poisson: Option<YoungPoisson>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
-    /// What has been scheduled.
-    programs: HashMap<Vec<Id>, Rc<Program>>,
+    /// The programs scheduled so far.
+    programs: FxHashMap<Vec<Id>, Rc<Program>>,
     collector: Collector,
 }
 
 impl Model {
-    /// The computation of the roots, ordered when it is asked for first.
+    /// The program of the roots, scheduled at the first call.
     pub fn program(&mut self, roots: &[Id]) -> Rc<Program> {
         if let Some(done) = self.programs.get(roots) {
             return done.clone();
@@ -70,18 +70,24 @@ impl Model {
         self.programs.insert(roots.to_vec(), program.clone());
         program
     }
-}
 
-/// The volumes J for which an energy is defined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Volume {
-    /// All of them.
-    #[default]
-    Any,
-    /// J > 0.
-    Positive,
-    /// J ≠ 0.
-    Nonzero,
+    /// The operations of each result of a material, by its name: inside the domain, and last the blocks of an
+    /// energy continued beyond it. Blocks make up a tangent: gradient, Hessian, flip and twist.
+    #[must_use]
+    pub fn counts(&mut self) -> Vec<(&'static str, Count)> {
+        let Variant { energy, gradient, hessian, flip, twist, .. } = &self.plain;
+        let mut results = vec![
+            ("energy", vec![*energy]),
+            ("gradient", gradient.to_vec()),
+            ("energy, gradient and Hessian", [&[*energy], &gradient[..], hessian].concat()),
+            ("flip", flip.to_vec()),
+            ("twist", twist.to_vec()),
+            ("blocks", self.plain.blocks()),
+        ];
+        results.extend(self.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
+        let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&self.program(&roots)));
+        results.into_iter().map(count).collect()
+    }
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -102,14 +108,14 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// What a tangent is made of: gradient, Hessian, flip and twist.
+    /// The blocks of a tangent: gradient, Hessian, flip and twist.
     #[must_use]
     pub fn blocks(&self) -> Vec<Id> {
         [&self.gradient[..], &self.hessian, &self.flip, &self.twist].concat()
     }
 }
 
-/// Understands, checks, differentiates.
+/// The model of a declaration: resolved, checked and differentiated.
 ///
 /// # Errors
 /// All mistakes of meaning, each at its tokens.
@@ -119,61 +125,49 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     diagnostics.finish(model)
 }
 
-/// The same after mistakes of form: names are looked up in spite of these, and nothing further is checked.
+/// The model of a declaration that may have mistakes of form: then names are resolved, and nothing further is
+/// checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let options = &declaration.options;
     let is_well_formed = diagnostics.is_clean();
     let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let energy = resolver.energy();
-    let bounds: Vec<_> = bounds(declaration).filter_map(|condition| resolver.bound(condition)).collect();
+    let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
     let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
-    let admissible: Vec<_> =
-        conditions.filter_map(|condition| resolver.condition(condition, index(condition))).collect();
+    let admissible: Vec<_> = conditions.filter_map(|condition| resolver.condition(condition)).collect();
     let nodes = resolver.into_nodes();
-    let volume = options.domain.iter().find_map(volume_condition).unwrap_or_default();
-    // A domain that is misspelt may be one of these.
-    if is_well_formed && options.extend.is_some() && volume == Volume::Any {
-        diagnostics.error(
-            options.words.iter().find(|word| *word == "extend"),
-            "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`",
-        );
-    }
-    if options.fit && declaration.has_functions() {
-        diagnostics.error(
-            options.words.iter().find(|word| *word == "fit"),
-            "`fit` derives the stress by parameters that are numbers, and a function is none: remove `fit`, or write numbers in its \
-             place",
-        );
-    }
+    let volume = declaration.volume();
+    let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
+    // A misspelt domain may be the one that `extend` needs.
+    judge::report(&mut graph, &source, judge::options(&source, is_well_formed), diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
-    let positive = volume == Volume::Positive;
-    let written = Written { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
-    let samples = judge::samples(&mut graph, &written, diagnostics);
-    if !samples.is_empty() {
-        judge::isotropy(&mut graph, &written, &samples, diagnostics);
-    }
+    let samples = judge::samples(&mut graph, &source);
+    let samples =
+        samples.map_err(|finding| judge::report(&mut graph, &source, [finding], diagnostics)).ok()?;
+    let asymmetry = judge::isotropy(&graph, &source, &samples);
+    judge::report(&mut graph, &source, asymmetry, diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
 
+    let positive = volume == Volume::Positive;
     let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
     let bounds = bounds.iter().copied().map(&mut in_range).collect();
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
-    judge::fractions(&graph, &written, diagnostics);
-    let is_well_at_rest = diagnostics.is_clean()
-        && judge::values(&mut graph, &written, plain.gradient[0], &samples, diagnostics);
-    if options.extend.is_some() {
-        judge::flat(&graph, &written, &samples, diagnostics);
+    let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
+    if findings.is_empty() {
+        findings = judge::values(&mut graph, &source, plain.gradient[0], &samples);
     }
+    findings.extend(judge::flat(&graph, &source, &samples));
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
         if options.prestressed {
-            let stress = at_rest(&mut graph, derivative);
+            let stress = substitute_rest(&mut graph, derivative);
             graph.add(stress, increment)
         } else {
             increment
@@ -184,15 +178,25 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         derive(&mut graph, extended, &samples, false)
     });
     let moduli = moduli(&mut graph, &plain);
-    // What takes the stress at rest away may resist shear.
-    if !options.prestressed && is_well_at_rest {
-        judge::stiffness(&graph, &written, moduli, &samples, diagnostics);
+    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
+    if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
+        findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
     }
-    let invariants = by_invariants(declaration, &mut graph);
-    let by_parameters = options.fit.then(|| by_parameters(&mut graph, declaration, plain.gradient));
-    judge::fractions(&graph, &written, diagnostics);
+    let invariants = resolve::by_invariants(declaration, &mut graph)
+        .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
+    let by_parameters = options.fit.then(|| {
+        let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
+        by_parameters(&mut graph, &variables, plain.gradient)
+    });
+    if findings.is_empty() {
+        findings.extend(judge::fractions(&graph, &source));
+    }
+    judge::report(&mut graph, &source, findings, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
-    let from_young_poisson = young_poisson(&graph, declaration, moduli);
+    // Moduli of a stressed rest state determine no response; those with functions are known to the
+    // constructor alone.
+    let are_known = !options.prestressed && !declaration.has_functions();
+    let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     Some(Model {
         graph,
         energy,
@@ -206,14 +210,14 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         by_parameters,
         from_young_poisson,
         samples,
-        programs: HashMap::default(),
+        programs: FxHashMap::default(),
         collector: Collector::default(),
     })
 }
 
-/// The conditions of the domain but those on the sign of the last stretch.
-pub(crate) fn bounds(declaration: &Declaration) -> impl Iterator<Item = &Expr> {
-    declaration.options.domain.iter().filter(|condition| volume_condition(condition).is_none())
+/// A parameter, or the entry of a list, as a variable of derivatives.
+fn variable((k, parameter): (usize, &Parameter)) -> Node {
+    if parameter.length().is_some() { Node::Entry(k) } else { Node::Parameter(k) }
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
@@ -230,7 +234,7 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
-    let mut lowered = HashMap::default();
+    let mut lowered = FxHashMap::default();
     let mut lower = |id| extension::lower(graph, id, &mut lowered);
     Variant {
         energy: lower(energy),
@@ -242,7 +246,7 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     }
 }
 
-/// μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
+/// The small-strain moduli μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
 fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     let one = graph.integer(1);
     let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| graph.substitute(h, [one; 3]));
@@ -250,36 +254,4 @@ fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
     let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
     let shear = graph.scale(difference, half);
     [shear, mixed].map(|modulus| simplify(graph, modulus))
-}
-
-/// `J > 0.0` or `J != 0.0`, the conditions that are spelled out for the sign of the last stretch.
-pub(crate) fn volume_condition(condition: &Expr) -> Option<Volume> {
-    let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
-    let is_zero = |e: &Expr| {
-        matches!(e, Expr::Lit(lit) if match &lit.lit {
-            syn::Lit::Float(number) => number.base10_parse::<f64>().is_ok_and(|value| value == 0.0),
-            syn::Lit::Int(number) => number.base10_parse::<u64>().is_ok_and(|value| value == 0),
-            _ => false,
-        })
-    };
-    let Expr::Binary(binary) = condition else { return None };
-    let (forward, backward) =
-        (is_j(&binary.left) && is_zero(&binary.right), is_zero(&binary.left) && is_j(&binary.right));
-    match binary.op {
-        BinOp::Gt(_) if forward => Some(Volume::Positive),
-        BinOp::Lt(_) if backward => Some(Volume::Positive),
-        BinOp::Ne(_) if forward || backward => Some(Volume::Nonzero),
-        _ => None,
-    }
-}
-
-/// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
-#[must_use]
-pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
-    indexed_lists(condition.to_token_stream()).into_iter().next()
-}
-
-/// What stands for all entries in a condition on them.
-fn index(condition: &Expr) -> Option<Ident> {
-    indexed_list(condition).map(|(_, index)| index)
 }

@@ -1,7 +1,8 @@
-//! The reading of a declaration: from its tokens to a [`Declaration`](parse::Declaration), and from the syntax of its energy
-//! to an expression graph.
+//! The reading of a declaration: from its tokens to a [`Declaration`](parse::Declaration), and from the
+//! syntax of its energy to an expression graph.
 
 pub mod diagnostics;
+pub mod domain;
 pub(crate) mod literals;
 pub mod parse;
 pub mod resolve;

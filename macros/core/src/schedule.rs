@@ -1,21 +1,23 @@
-//! From an expression graph to straight-line operations and loops over lists.
+//! The order of operations: from an expression graph to straight-line programs with loops over lists.
 //!
-//! Operations are numbered by value: what is computed twice is computed once, and what does not change from one entry
-//! of a list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
-//! needs the result of another. What products and sums have in common is computed first, if the range of the numbers
-//! allows. Of the powers b^(α+k) with one α, only one is a real power: the others follow by
-//! multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all powers of one
-//! base are made from one logarithm.
+//! Operations are numbered by value: each is computed once, and one that does not change from one entry of a
+//! list to the next is computed before the loop. All sums over lists of one length share one loop, unless one
+//! needs the result of another. Common parts of products and sums are computed first, if they stay within the
+//! range of the number format. Of the powers b^(α+k) with one α, only one is a real power: the others follow
+//! by multiplication with b, so that N terms of an Ogden energy need 3N real powers for everything, and all
+//! powers of one base are made from one logarithm.
 
-use crate::algebra::expr::{Exponent, Graph, Id, Length, Node, Parameter, Stretch};
-use crate::algebra::hash::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::algebra::expr::{Exponent, Graph, Id, Length, Node};
 use crate::algebra::rational::Rational;
 use crate::schedule::sorted::{Sorted, entry};
 pub use collect::Collector;
 use order::Order;
 use parts::Parts;
 use passes::{fuse_multiply_add, renumber};
-use powers::{Powers, Way};
+use powers::{Evaluation, Powers};
+pub use program::{Op, Program, Statement, Value};
 
 mod collect;
 pub mod count;
@@ -24,192 +26,12 @@ mod order;
 mod parts;
 mod passes;
 mod powers;
+mod program;
 mod shifts;
 pub(crate) mod sorted;
 
-/// The result of an operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Value(pub usize);
-
-/// One operation on values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Op {
-    /// The bits of an `f64`.
-    Literal(u64),
-    /// λ1, λ2 or λ3.
-    Stretch(Stretch),
-    /// λ − 1 of one of them.
-    Strain(Stretch),
-    /// A number among the parameters.
-    Parameter(Parameter),
-    /// The current entry of a list.
-    Entry(Parameter),
-    /// The threshold ε of the extension.
-    Epsilon,
-    /// Smallest denominator of a quotient at a pole.
-    PoleFloor,
-    /// −a.
-    Neg(Value),
-    /// First + second.
-    Add(Value, Value),
-    /// First − second.
-    Sub(Value, Value),
-    /// First · second.
-    Mul(Value, Value),
-    /// First / second.
-    Div(Value, Value),
-    /// First · second + third.
-    MulAdd(Value, Value, Value),
-    /// Third − first · second.
-    NegMulAdd(Value, Value, Value),
-    /// First · second − third.
-    MulSub(Value, Value, Value),
-    /// Square root.
-    Sqrt(Value),
-    /// Cube root.
-    Cbrt(Value),
-    /// Natural logarithm.
-    Ln(Value),
-    /// Exponential function.
-    Exp(Value),
-    /// The logarithm that all powers of a number are made from.
-    Logarithm(Value),
-    /// From such a logarithm and the exponent.
-    Power(Value, Value),
-    /// ln of a product of three.
-    LnProduct([Value; 3]),
-    /// Derivative of the given order of a function that is a parameter.
-    Function(Parameter, u8, Value),
-    /// Divided difference of such a derivative.
-    FunctionQuotient(Parameter, u8, Value, Value),
-    /// The larger of two.
-    Max(Value, Value),
-    /// min(first − second, 0).
-    Below(Value, Value),
-    /// The second where the first is negative, else the third.
-    WhereNegative(Value, Value, Value),
-    /// Fraction of the interval between the first two that lies above the third.
-    ShareAbove(Value, Value, Value),
-    /// Fraction of the interval between the first two that lies below the third.
-    ShareBelow(Value, Value, Value),
-    /// What quotients of logarithms and powers of two numbers a, b share.
-    Pair {
-        /// a, b.
-        values: [Value; 2],
-        /// 1/a, 1/b.
-        reciprocals: [Value; 2],
-        /// The [`Logarithm`](Self::Logarithm)s of a and b.
-        logarithms: [Value; 2],
-    },
-    /// (ln a − ln b) / (a − b), from their pair.
-    LnQuotient(Value),
-    /// (a^r − b^r) / (a − b).
-    PowerQuotient {
-        /// Of a and b.
-        pair: Value,
-        /// a^r, b^r.
-        powers: [Value; 2],
-        /// r.
-        exponent: Value,
-    },
-    /// (eᵃ − eᵇ) / (a − b).
-    ExpQuotient {
-        /// a, b.
-        values: [Value; 2],
-        /// eᵃ, eᵇ.
-        exponentials: [Value; 2],
-    },
-}
-
-impl Op {
-    /// The values it reads.
-    #[must_use]
-    pub fn operands(mut self) -> Vec<Value> {
-        let mut all = Vec::new();
-        self.each_operand(|value| all.push(*value));
-        all
-    }
-
-    /// Shows each value it reads, to be counted or replaced.
-    fn each_operand(&mut self, mut show: impl FnMut(&mut Value)) {
-        match self {
-            Self::Literal(_)
-            | Self::Stretch(_)
-            | Self::Strain(_)
-            | Self::Parameter(_)
-            | Self::Entry(_)
-            | Self::Epsilon
-            | Self::PoleFloor => {}
-            Self::Neg(a)
-            | Self::Sqrt(a)
-            | Self::Cbrt(a)
-            | Self::Ln(a)
-            | Self::Logarithm(a)
-            | Self::Exp(a)
-            | Self::LnQuotient(a)
-            | Self::Function(.., a) => show(a),
-            Self::Add(a, b)
-            | Self::Sub(a, b)
-            | Self::Mul(a, b)
-            | Self::Div(a, b)
-            | Self::Power(a, b)
-            | Self::Max(a, b)
-            | Self::Below(a, b)
-            | Self::FunctionQuotient(.., a, b) => {
-                show(a);
-                show(b);
-            }
-            Self::LnProduct([a, b, c])
-            | Self::MulAdd(a, b, c)
-            | Self::NegMulAdd(a, b, c)
-            | Self::MulSub(a, b, c)
-            | Self::WhereNegative(a, b, c)
-            | Self::ShareAbove(a, b, c)
-            | Self::ShareBelow(a, b, c) => {
-                show(a);
-                show(b);
-                show(c);
-            }
-            Self::Pair { values, reciprocals, logarithms } => {
-                [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
-            }
-            Self::PowerQuotient { pair, powers: [a, b], exponent } => {
-                [pair, a, b, exponent].into_iter().for_each(show);
-            }
-            Self::ExpQuotient { values, exponentials } => {
-                [values, exponentials].into_iter().flatten().for_each(show);
-            }
-        }
-    }
-}
-
-/// A step of a program.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Statement {
-    /// Names the result of an operation.
-    Let(Value, Op),
-    /// Runs over the entries of the lists of one length.
-    Loop {
-        /// Which length.
-        length: Length,
-        /// Operations for each entry.
-        body: Vec<(Value, Op)>,
-        /// Totals with the value that is added for each entry.
-        totals: Vec<(Value, Value)>,
-    },
-}
-
-/// Operations in order, with the values that are asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Program {
-    /// In the order of execution.
-    pub statements: Vec<Statement>,
-    /// One for each root.
-    pub outputs: Vec<Value>,
-}
-
-/// Orders the computation of the roots and of nothing else. The collector keeps what it finds for the next program of the same
-/// graph.
+/// Orders the computation of the roots and of nothing else. The collector keeps its findings for the next
+/// program of the same graph.
 #[must_use]
 pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> Program {
     let powers = Powers::used_by(graph, &graph.reachable(roots));
@@ -218,7 +40,7 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
     let has_sums = reachable.iter().any(|&id| matches!(graph.node(id), Node::Sum(..)));
     if has_sums {
         roots = shifts::take_out(graph, &powers, &roots);
-        // Once more, for what has come out of sums over lists.
+        // Once more, for the factors that have come out of sums over lists.
         roots = collector.collect(graph, &roots);
         reachable = graph.reachable(&roots);
     }
@@ -231,8 +53,8 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
         parts,
         count: 0,
         statements: Vec::new(),
-        numbers: HashMap::default(),
-        values: HashMap::default(),
+        numbers: FxHashMap::default(),
+        values: FxHashMap::default(),
         open_loop: None,
     };
     if has_sums {
@@ -250,24 +72,24 @@ struct Scheduler<'g> {
     parts: Parts,
     count: usize,
     statements: Vec<Statement>,
-    numbers: HashMap<Op, Value>,
-    values: HashMap<Id, Value>,
+    numbers: FxHashMap<Op, Value>,
+    values: FxHashMap<Id, Value>,
     open_loop: Option<OpenLoop>,
 }
 
-/// What depends on the current entry.
+/// Operations that depend on the current entry.
 #[derive(Default)]
 struct OpenLoop {
     body: Vec<(Value, Op)>,
-    varying: HashSet<Value>,
-    numbers: HashMap<Op, Value>,
-    values: HashMap<Id, Value>,
+    varying: FxHashSet<Value>,
+    numbers: FxHashMap<Op, Value>,
+    values: FxHashMap<Id, Value>,
 }
 
 impl Scheduler<'_> {
     /// Sums first, in the order in which they need each other, those of one length together.
     fn loops(&mut self, reachable: &[Id]) {
-        let mut depth: HashMap<Id, usize> = HashMap::default();
+        let mut depth: FxHashMap<Id, usize> = FxHashMap::default();
         let mut sums: Sorted<(usize, Length), Vec<(Id, Id)>> = Sorted::new();
         for &id in reachable {
             let inner = self.graph.children(id).iter().map(|child| depth[child]).max().unwrap_or(0);
@@ -433,8 +255,8 @@ impl Scheduler<'_> {
                 let bounded = self.push(Op::Max(sum, floor));
                 self.push(Op::Div(numerator, bounded))
             }
-            // Sums are computed before what needs them, and extended functions are written out before scheduling;
-            // NaN would not go unnoticed.
+            // Sums are computed before the operations that need them, and extended functions are written out
+            // before scheduling; NaN would be noticed.
             Node::Sum(..) | Node::Extended(..) => self.push(Op::Literal(f64::NAN.to_bits())),
         }
     }
@@ -442,7 +264,7 @@ impl Scheduler<'_> {
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
         let sum = self.parts.regrouped(constant, terms);
         let (constant, groups) = (sum.0, self.parts.groups(&sum));
-        // What is added comes first, what is subtracted next, the constant last.
+        // Added terms come first, subtracted ones next, the constant last.
         let (subtracted, added): (Vec<_>, Vec<_>) =
             groups.iter().partition(|group| group.iter().all(|(_, c)| c.is_negative()));
         let mut sum: Option<Value> = None;
@@ -499,8 +321,8 @@ impl Scheduler<'_> {
         }
         let value = self.value(base);
         let Exponent { real, rational } = exponent;
-        match self.powers.way(base, exponent) {
-            Way::Real(representative) => {
+        match self.powers.evaluation(base, exponent) {
+            Evaluation::Real(representative) => {
                 let computed = self.exponent(Exponent { real, rational: representative });
                 let power = self.real_power(value, computed);
                 let shift = rational.checked_add(representative.negated()).and_then(Rational::as_integer);
@@ -512,7 +334,7 @@ impl Scheduler<'_> {
                     }
                 }
             }
-            Way::Root(degree) => {
+            Evaluation::Root(degree) => {
                 let root = match degree {
                     1 => value,
                     2 => self.push(Op::Sqrt(value)),

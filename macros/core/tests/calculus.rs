@@ -1,4 +1,5 @@
-//! The calculus against the definitions it replaces, in the interpreter: no shared code but the expression graph.
+//! The calculus against the definitions it replaces, in the interpreter: no shared code but the expression
+//! graph.
 
 use piola_codegen::algebra::expr::{Graph, Id};
 use piola_codegen::algebra::interpret::{Point, evaluate};
@@ -8,8 +9,8 @@ use piola_codegen::schedule::{Op, Statement};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Energies whose parts meet every rule: invariants, isochoric forms, logarithms, exponentials, roots, real powers,
-/// products of functions of single stretches.
+/// Energies whose parts meet every rule: invariants, isochoric forms, logarithms, exponentials, roots, real
+/// powers, products of functions of single stretches.
 fn energies() -> Vec<(&'static str, bool, TokenStream, TokenStream)> {
     vec![
         (
@@ -129,7 +130,8 @@ impl Judge<'_> {
         evaluate(self.graph, id, point).value
     }
 
-    /// Relative to all parts of the tangent, tolerance 1e-11: a hundred roundings amplified by gaps no less than 0.05.
+    /// Relative to all parts of the tangent, tolerance 1e-11: a hundred roundings amplified by gaps no less
+    /// than 0.05.
     #[track_caller]
     fn check(&self, what: &str, value: f64, expected: f64, point: &Point) {
         let scale: f64 = self.variant.hessian.iter().map(|&h| self.value(h, point).abs()).sum();
@@ -280,8 +282,8 @@ fn ogden_needs_three_powers_for_each_term_and_energy_alone_no_quotient() {
     assert_eq!(count(&all), (3, 3));
 }
 
-/// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and no power of a
-/// mirrored I1b.
+/// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and
+/// no power of a mirrored I1b.
 #[test]
 fn twists_of_isochoric_powers_need_one_power() {
     let item = quote! {
@@ -312,7 +314,7 @@ fn moduli_follow_from_the_energy() {
     }
 }
 
-/// Far outside its domain an exponential overflows, which says nothing of its parity: the pole must stay.
+/// Far outside its domain an exponential overflows, which does not reveal its parity: the pole must stay.
 #[test]
 fn overflow_is_no_parity() {
     let arguments = quote!(domain(J > 0.0), extend, prestressed);
@@ -392,6 +394,6 @@ fn formulas_are_cut_off() {
     let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
     let mut model = compile("shared", &quote!(), &item);
     let declaration = parse(quote!(), item).expect("a declaration");
-    let text = piola_codegen::printer::formula::formula(&mut model.graph, &declaration, model.energy);
+    let text = piola_codegen::printer::formula(&mut model.graph, &declaration, model.energy);
     assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
 }

@@ -1,18 +1,20 @@
-//! How many operations derivatives take, against those of a computer algebra system.
+//! Operations of derivatives, compared with those of a computer algebra system.
 
+use piola_codegen::analyse;
 use piola_codegen::model::Variant;
 use piola_codegen::schedule::count::{Count, Kind};
-use piola_codegen::understand;
 
-/// Operations and real powers of ψ with its three first and six second derivatives, where lists have three entries.
+/// Operations and real powers of ψ with its three first and six second derivatives, where lists have three
+/// entries.
 ///
-/// An operation is what sympy counts as one: + − × ÷, a change of sign, a function, a power, however it is computed. Ours
-/// are what is emitted, so a real power is one and so is the logarithm that all powers of one base share.
+/// An operation is what sympy counts as one: + − × ÷, a change of sign, a function, a power, however it is
+/// computed. Ours are what is emitted, so a real power is one and so is the logarithm that all powers of one
+/// base share.
 #[track_caller]
 fn check(declaration: &str, operations: usize, powers: usize) {
     let (arguments, item) = declaration.split_once(';').expect("arguments; item");
     let (arguments, item) = (arguments.parse().expect("tokens"), item.parse().expect("tokens"));
-    let (_, mut model) = understand(arguments, item).expect("an energy without mistakes");
+    let (_, mut model) = analyse(arguments, item).expect("an energy without mistakes");
     let Variant { energy, gradient, hessian, .. } = &model.plain;
     let roots = [&[*energy], &gradient[..], hessian].concat();
     let count = Count::of(&model.program(&roots));
@@ -47,8 +49,8 @@ fn hencky_takes_fewer_operations_than_its_formulas() {
     );
 }
 
-/// sympy: 171 with its `basic` optimisations, 190 without. The formula has J^(−2/3) and I1 apart; ours multiplies the one into
-/// the three terms of the other, for neither overflows where their product does not.
+/// sympy: 171 with its `basic` optimisations, 190 without. The formula has J^(−2/3) and I1 apart; ours
+/// multiplies the one into the three terms of the other, for neither overflows where their product does not.
 #[test]
 fn isochoric_gent_takes_fewer_operations_than_its_formulas() {
     check(

@@ -1,5 +1,5 @@
-//! What the compiler writes of the catalogue, as committed: whole expansions, the formulas that rustdoc shows, and how many
-//! operations each result takes.
+//! Output of the compiler for the catalogue, as committed: whole expansions, the formulas that rustdoc shows,
+//! and how many operations each result takes.
 //!
 //! `PIOLA_BLESS=1 cargo test -p piola-codegen --test goldens` writes the files anew.
 
@@ -7,15 +7,15 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use piola_codegen::schedule::count::{LEGEND, counts, table};
-use piola_codegen::{declarations, expand, understand};
+use piola_codegen::schedule::count::{LEGEND, table};
+use piola_codegen::{analyse, declarations, expand};
 use proc_macro2::TokenStream;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The sources of the catalogue, which this crate knows as text alone.
+/// The sources of the catalogue, which this crate reads as text.
 fn catalogue() -> PathBuf {
     root().join("../../materials/src")
 }
@@ -47,7 +47,7 @@ fn check(name: &str, actual: &str) {
     }
 }
 
-/// Of the only declaration of a file of the catalogue.
+/// Compares the expansion of the only declaration of a file of the catalogue.
 #[track_caller]
 fn check_expansion(material: &str) {
     let source =
@@ -60,7 +60,7 @@ fn expansion(arguments: TokenStream, item: TokenStream) -> String {
     prettyplease::unparse(&syn::parse2(expand(arguments, item)).expect("an expansion is Rust"))
 }
 
-/// All of the catalogue, in the order of their files.
+/// All declarations of the catalogue, in the order of their files.
 fn all() -> impl Iterator<Item = (TokenStream, TokenStream)> {
     let folder = fs::read_dir(catalogue()).expect("the catalogue");
     let mut paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
@@ -90,8 +90,8 @@ fn an_energy_with_a_bound_expands_as_committed() {
 fn results_take_the_operations_committed() {
     let mut text = format!("# Operations of the catalogue\n\n{LEGEND}.\n");
     for (arguments, item) in all() {
-        let (declaration, mut model) = understand(arguments, item).expect("an energy without mistakes");
-        let table = table(&declaration, &counts(&mut model));
+        let (declaration, mut model) = analyse(arguments, item).expect("an energy without mistakes");
+        let table = table(&declaration, &model.counts());
         write!(text, "\n## {}\n\n{table}", declaration.name).expect("text");
     }
     check("counts.md", &text);

@@ -16,7 +16,8 @@ fn declarations() -> Vec<(TokenStream, TokenStream)> {
     found
 }
 
-/// The tokens that `keeps` by their number, counted from `next` on; a group is one token, and so is each inside it.
+/// The tokens whose numbers, counted from `next` on, `keeps` accepts. A group is one token, and so is each
+/// inside it.
 fn thinned(tokens: TokenStream, next: &mut usize, keeps: &impl Fn(usize) -> bool) -> TokenStream {
     let mut kept = Vec::new();
     for token in tokens {
@@ -42,7 +43,7 @@ fn count(tokens: &TokenStream) -> usize {
     count
 }
 
-/// What is left of both streams, as if the item followed the arguments.
+/// The remaining tokens of both streams, as if the item followed the arguments.
 fn expand(arguments: &TokenStream, item: &TokenStream, keeps: impl Fn(usize) -> bool) {
     let mut next = 0;
     let arguments = thinned(arguments.clone(), &mut next, &keeps);

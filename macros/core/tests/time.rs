@@ -1,12 +1,12 @@
-//! How long an expansion takes: nobody should notice that a type is declared by a macro.
+//! The time of an expansion: a type declared by a macro must not noticeably slow compilation.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use piola_codegen::{declarations, expand};
 
-/// With or without optimisation. Without, the slowest take nearly as long on a processor that nothing else uses: see the bench
-/// `expansion`.
+/// With or without optimisation. Without, the slowest take nearly as long on a processor that nothing else
+/// uses: see the bench `expansion`.
 const LONGEST: Duration = Duration::from_millis(50);
 
 /// An expansion that something else on the machine slows down is repeated.

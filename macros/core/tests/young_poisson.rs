@@ -1,15 +1,15 @@
-//! Which energies are determined by Young's modulus and Poisson's ratio.
+//! Energies that Young's modulus and Poisson's ratio determine.
 
 use std::fs;
 use std::path::Path;
 
 use piola_codegen::algebra::young_poisson::Determined;
+use piola_codegen::analyse;
 use piola_codegen::declarations;
-use piola_codegen::understand;
 use proc_macro2::TokenStream;
 
-/// Those with `from_young_poisson`. Of the others, some have one modulus, some more than two parameters in their moduli, and
-/// in some, as Gent's, an exponent or limit enters too.
+/// The energies with `from_young_poisson`. Of the others, some have one modulus, some more than two
+/// parameters in their moduli, and in some, as Gent's, an exponent or limit enters too.
 const DETERMINED: [&str; 13] = [
     "CiarletNeoHookean",
     "ExponentiatedHencky",
@@ -33,7 +33,7 @@ fn the_catalogue_has_these() {
     for file in fs::read_dir(&folder).expect("the catalogue's sources") {
         let source = fs::read_to_string(file.expect("a file").path()).expect("a source");
         for (arguments, item) in declarations(&source).expect("Rust") {
-            let (declaration, model) = understand(arguments, item).expect("a material");
+            let (declaration, model) = analyse(arguments, item).expect("a material");
             if model.from_young_poisson.is_some() {
                 found.push(declaration.name.to_string());
             }
@@ -48,7 +48,7 @@ fn the_catalogue_has_these() {
 fn check(arguments: &str, body: &str, expected: &[(usize, [&str; 3])]) {
     let item = format!("fn E([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {{ {body} }}");
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    let (_, model) = understand(tokens(arguments), tokens(&item)).expect("a material");
+    let (_, model) = analyse(tokens(arguments), tokens(&item)).expect("a material");
     let solved = |one: Determined| (one.parameter, [one.mu, one.lambda, one.constant].map(|c| c.to_string()));
     let found: Vec<_> = model.from_young_poisson.into_iter().flat_map(|both| both.0.map(solved)).collect();
     let expected: Vec<_> = expected.iter().map(|&(k, c)| (k, c.map(str::to_owned))).collect();
@@ -87,6 +87,6 @@ fn what_is_not_two_linear_equations_is_left_alone() {
         "domain(J > 0.0)",
         "a * b * (I1 - 3.0 - 2.0 * J.ln()) + b * (J - 1.0).powi(2) + n * (J - 1.0).powi(4)",
     );
-    // The response of a stressed rest state is another.
+    // A stressed rest state has another response.
     check("prestressed", "a * I1 + b * J * J + n * (J - 1.0).powi(4)");
 }

@@ -10,7 +10,7 @@
 //! It has few dependencies, so that instructions are counted without building the judges.
 
 use piola::batch::TileMaterial;
-use piola::lanes::Element;
+use piola::lanes::Scalar;
 use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
 
 mod arrays;
@@ -44,7 +44,7 @@ pub const LAMBDA: f64 = 1.5;
 /// Ogden's shear part has the three terms of his rubber. No energy is faster or slower for its parameters, unless a filter
 /// finds nothing to do.
 #[must_use]
-pub fn materials<E: Element>() -> [(&'static str, Box<dyn TileMaterial<E>>); 3] {
+pub fn materials<E: Scalar>() -> [(&'static str, Box<dyn TileMaterial<E>>); 3] {
     [
         ("StVenantKirchhoff", Box::new(StVenantKirchhoff::new(MU, LAMBDA).expect("admissible parameters"))),
         ("NeoHookean", Box::new(NeoHookean::new(MU, LAMBDA).expect("admissible parameters"))),

@@ -1,43 +1,39 @@
-//! Derivatives of the stress by the parameters, which a fit of these to measurements follows.
+//! Derivatives of the stress with respect to the parameters, for least-squares fits.
 //!
-//! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever these stand, and
-//! sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one variable, and b differentiated with
-//! whole sums inside it constant,
+//! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever
+//! these stand, and sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one
+//! variable, and b differentiated with whole sums inside it constant,
 //!
 //! ```text
 //! ∂e/∂m_q = Σ_T ∂e/∂T · ∂b/∂m (m_q, …)     over all sums T in e
 //! ```
 //!
-//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is asked. The factor
-//! on the left has none, so that an entry inside a sum is never mistaken for one outside.
+//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is
+//! asked. The factor on the left has no entry, so that an entry inside a sum is never mistaken for one
+//! outside.
 
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::simplify::simplify;
-use crate::read::parse::{Declaration, Kind};
 
-/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each parameter p, from ψ1, ψ2, ψ3; of a list for its entry q.
-pub fn by_parameters(graph: &mut Graph, declaration: &Declaration, gradient: [Id; 3]) -> Vec<[Id; 3]> {
+/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each variable p, a parameter or the entry of a list, from ψ1, ψ2, ψ3.
+pub fn by_parameters(graph: &mut Graph, variables: &[Node], gradient: [Id; 3]) -> Vec<[Id; 3]> {
     let mut d = Differentiator::default();
-    let mut all = Vec::new();
-    for (k, parameter) in declaration.parameters.iter().enumerate() {
-        all.push(gradient.map(|stress| {
-            let derivative = match parameter.kind {
-                Kind::List(_) => by_entry(&mut d, graph, stress, k),
-                Kind::Number | Kind::Function(_) => {
-                    let number = graph.leaf(Node::Parameter(k));
-                    d.derivative(graph, stress, number)
-                }
+    let mut by_variable = |variable: &Node| {
+        gradient.map(|stress| {
+            let variable_id = graph.leaf(variable.clone());
+            let derivative = match variable {
+                Node::Entry(_) => by_entry(&mut d, graph, stress, variable_id),
+                _ => d.derivative(graph, stress, variable_id),
             };
             simplify(graph, derivative)
-        }));
-    }
-    all
+        })
+    };
+    variables.iter().map(&mut by_variable).collect()
 }
 
 /// ∂e/∂m_q of a list m.
-fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, list: usize) -> Id {
-    let entry = graph.leaf(Node::Entry(list));
+fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, entry: Id) -> Id {
     let mut terms = Vec::new();
     for sum in graph.reachable(&[e]) {
         let Node::Sum(_, body) = *graph.node(sum) else { continue };
@@ -56,7 +52,7 @@ mod tests {
     use quote::quote;
 
     use crate::algebra::interpret::{Point, evaluate};
-    use crate::understand;
+    use crate::analyse;
 
     /// Entry `place` of every list in place of entry 0, which stands for all outside sums.
     fn with_first(point: &Point, place: usize) -> Point {
@@ -65,13 +61,14 @@ mod tests {
         point
     }
 
-    /// The slope of finite differences by each number: their error must fall as h², or be no more than rounding.
+    /// Compares with finite differences by each parameter: their error must fall as h², or be at most
+    /// rounding.
     #[track_caller]
     fn check(body: TokenStream, parameters: &[&[f64]], stretches: [f64; 3]) {
         let item = quote! {
             fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
         };
-        let (_, model) = understand(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
+        let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
         let point = Point {
             stretches,
             parameters: parameters.iter().map(|list| list.to_vec()).collect(),

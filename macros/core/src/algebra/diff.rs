@@ -1,21 +1,22 @@
 //! Partial derivatives.
 //!
-//! The variable is any node that is not made of others, a stretch, a parameter or the current entry of a list, or a whole sum
-//! over lists: everything else is constant. Entries are those of the sum around them, so an entry outside a sum is no
-//! variable of what stands inside one: see [`crate::algebra::by_parameters`].
+//! The variable is a stretch, a parameter, the current entry of a list, or a whole sum over lists: everything
+//! else is constant. An entry belongs to the sum around it, so one outside a sum is not a variable of the
+//! expressions inside one: see [`crate::algebra::by_parameters`].
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// Derivatives, each computed once.
 #[derive(Debug, Default)]
 pub struct Differentiator {
-    memo: HashMap<(Id, Id), Id>,
+    memo: FxHashMap<(Id, Id), Id>,
 }
 
 impl Differentiator {
-    /// ∂e/∂v.
+    /// The derivative ∂e/∂v.
     pub fn derivative(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
         if let Some(&done) = self.memo.get(&(e, v)) {
             return done;
@@ -25,7 +26,7 @@ impl Differentiator {
         result
     }
 
-    /// ∂e/∂λi.
+    /// The derivative ∂e/∂λi.
     pub fn by_stretch(&mut self, graph: &mut Graph, e: Id, i: Stretch) -> Id {
         let stretch = graph.stretch(i);
         self.derivative(graph, e, stretch)
@@ -38,8 +39,8 @@ impl Differentiator {
                     terms.into_iter().map(|(term, c)| (self.derivative(graph, term, v), c)).collect();
                 graph.linear(Rational::ZERO, &terms)
             }
-            // (Π bᵢ^eᵢ)′ = Σ (eᵢ bᵢ^(eᵢ−1) bᵢ′ + bᵢ^eᵢ ln bᵢ eᵢ′) Π bⱼ^eⱼ. For other than whole exponents bᵢ^eᵢ is kept and
-            // divided by bᵢ, which cancels against bᵢ′ where that is a product.
+            // (Π bᵢ^eᵢ)′ = Σ (eᵢ bᵢ^(eᵢ−1) bᵢ′ + bᵢ^eᵢ ln bᵢ eᵢ′) Π bⱼ^eⱼ. Unless its exponent is whole,
+            // bᵢ^eᵢ is kept and divided by bᵢ, which cancels against bᵢ′ where that is a product.
             Node::Product(factors) => {
                 let mut terms = Vec::new();
                 for (k, &(base, exponent)) in factors.iter().enumerate() {
@@ -79,7 +80,7 @@ impl Differentiator {
                 let outer = graph.leaf(Node::Function(f, order + 1, a));
                 graph.mul(outer, inner)
             }
-            // An entry in the body is another than one outside.
+            // An entry in the body differs from one outside.
             Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
             Node::Sum(length, body) => {
                 let inner = self.derivative(graph, body, v);
@@ -88,7 +89,7 @@ impl Differentiator {
             Node::Extended(function, order, i) => match *graph.node(v) {
                 Node::Stretch(j) if i == j => graph.leaf(Node::Extended(function, order + 1, i)),
                 Node::Stretch(_) => graph.integer(0),
-                // Extended powers are not differentiated by their exponents; NaN would not go unnoticed.
+                // Extended powers are never differentiated by their exponents; NaN would be noticed.
                 _ if matches!(function, Extended::Power(Exponent { real: Some(_), .. })) => {
                     graph.leaf(Node::Float(f64::NAN.to_bits()))
                 }
@@ -99,7 +100,8 @@ impl Differentiator {
             | Node::Entry(_)
             | Node::Float(_)
             | Node::Epsilon
-            // What follows only arises after differentiation, in quotients, increments and lowered extensions.
+            // The nodes below only arise after differentiation, in quotients, increments and lowered
+            // extensions.
             | Node::Strain(_)
             | Node::Above(_)
             | Node::Below(_)
@@ -115,7 +117,7 @@ impl Differentiator {
     }
 }
 
-/// ln b as the factor of b^r. Where b vanishes, as I1 − 3 does at rest, b^r ln b is 0 for r > 0, not 0 · (−∞).
+/// The factor ln b of b^r. Where b vanishes, as I1 − 3 does at rest, b^r ln b is 0 for r > 0, not 0 · (−∞).
 fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
     if !may_vanish(graph, base) {
         return graph.ln(base);
@@ -126,7 +128,7 @@ fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
     graph.ln(positive)
 }
 
-/// Whether a base of real powers, which is nowhere negative, may be zero inside a domain: what is no sum is not.
+/// Whether a base of real powers, which is never negative, may be zero inside a domain: only sums may.
 fn may_vanish(graph: &Graph, base: Id) -> bool {
     match graph.node(base) {
         Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),
@@ -142,7 +144,7 @@ mod tests {
     use crate::algebra::interpret::{Point, Value, evaluate};
     use crate::algebra::testing::expressions;
 
-    /// The slope of finite differences: their error must fall as h².
+    /// Compares with finite differences: their error must fall as h².
     #[test]
     fn every_rule_is_the_slope_of_its_function() {
         for (name, mut graph, e) in expressions() {

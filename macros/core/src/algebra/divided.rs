@@ -1,16 +1,16 @@
 //! Divided differences φ[a, b] = (φ(a) − φ(b))/(a − b) of powers, without cancellation.
 //!
-//! Those of whole powers and of simple fractions are sums and products of powers; that of a real power is a node of its
-//! own, as are those of ln and exp, for which the runtime has kernels.
+//! Divided differences of whole powers and of simple fractions are sums and products of powers; that of a
+//! real power is a node of its own, as are those of ln and exp, for which the runtime has kernels.
 
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
-/// The largest q for which x^(p/q) is computed as the p-th power of a q-th root. The root's rounding error comes p-fold in
-/// the power, so that a real power is more accurate for larger ones.
+/// The largest q for which x^(p/q) is computed as the p-th power of a q-th root. The rounding error of the
+/// root enters the power p-fold, so that for larger p a real power is more accurate.
 pub const LARGEST_ROOT: i128 = 6;
 
-/// (a^r − b^r)/(a − b).
+/// The divided difference (a^r − b^r)/(a − b).
 pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id {
     let Exponent { real, rational } = exponent;
     if real.is_some() || rational.denominator() > LARGEST_ROOT {
@@ -49,7 +49,8 @@ pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id
     }
 }
 
-/// (a⁻ⁿ − b⁻ⁿ)/(a − b) = −p q (pⁿ − qⁿ)/(p − q) with p = 1/a, q = 1/b, whose terms are of the size of the result.
+/// (a⁻ⁿ − b⁻ⁿ)/(a − b) = −p q (pⁿ − qⁿ)/(p − q) with p = 1/a, q = 1/b, whose terms are of the size of the
+/// result.
 fn reciprocal_quotient(graph: &mut Graph, a: Id, b: Id, n: i64) -> Id {
     let (p, q) = (graph.powi(a, -1), graph.powi(b, -1));
     let positive = power_quotient(graph, p, q, Exponent::integer(n));

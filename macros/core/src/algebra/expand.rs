@@ -1,7 +1,7 @@
-//! Multiplies out: parentheses of sums in products and whole powers, and what a Σₚ does not run over.
+//! Multiplication of sums in products and whole powers, and of factors that a Σₚ does not run over.
 //!
-//! Expressions keep the shape in which they are written, since that is how they lose no digits. The moduli at rest hold no stretch any
-//! more, and what differentiation leaves of them reads best as a sum of products:
+//! Expressions keep the shape in which they are written, because that loses no digits. The moduli at rest
+//! contain no stretch, and read best as a sum of products:
 //!
 //! ```text
 //! 1/2 (4 c10 + 4 c01) = 2 c10 + 2 c01
@@ -23,7 +23,7 @@ const HIGHEST_POWER: i64 = 8;
 /// A product and its coefficient.
 type Term = (Id, Rational);
 
-/// The expression multiplied out, or as it is where that becomes too long or leaves the range of fractions.
+/// The expression multiplied out, or unchanged if the result is too long or leaves the range of fractions.
 pub fn expand(graph: &mut Graph, e: Id) -> Id {
     let earlier = graph.overflowed();
     let expanded = terms(graph, e).map(|terms| graph.linear(Rational::ZERO, &terms));
@@ -33,7 +33,7 @@ pub fn expand(graph: &mut Graph, e: Id) -> Id {
     }
 }
 
-/// The terms of the sum that an expression is.
+/// An expression as the terms of a sum.
 fn terms(graph: &mut Graph, e: Id) -> Option<Vec<Term>> {
     let one = (graph.integer(1), Rational::ONE);
     let mut all = Vec::new();
@@ -67,7 +67,7 @@ fn terms(graph: &mut Graph, e: Id) -> Option<Vec<Term>> {
     (all.len() <= MOST_TERMS).then_some(all)
 }
 
-/// Whole powers of sums are multiplied out, all others are kept.
+/// A power as the terms of a sum: whole powers of sums are multiplied out, all others are kept.
 fn power(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Term>> {
     let sum = terms(graph, base)?;
     match exponent.as_integer() {
@@ -89,7 +89,7 @@ fn power(graph: &mut Graph, base: Id, exponent: Exponent) -> Option<Vec<Term>> {
     }
 }
 
-/// b^(e + k) = b^k b^e with a whole number k and 0 ≤ e < 1, a parameter apart: e and b^k.
+/// The parts e and b^k of b^(e + k) = b^k b^e, with a whole number k and 0 ≤ e < 1, parameters apart.
 fn without_whole_part(number: Rational, exponent: Exponent) -> Option<(Exponent, Rational)> {
     let Exponent { real, rational } = exponent;
     let whole = i64::try_from(rational.numerator().div_euclid(rational.denominator())).ok()?;

@@ -1,13 +1,14 @@
 //! The expression graph: every subexpression once, in a normal form that makes equal things identical.
 //!
-//! A sum is one node with rational coefficients, a product is one node with exponents, and equal nodes have equal
-//! [`Id`]s. So common subexpressions are shared by construction, "is this symmetric?" is a comparison of two numbers,
-//! and x·x⁻¹ never survives. Products are not multiplied out, and sums with a coefficient other than ±1 stay what they
-//! are, so an energy keeps the shape in which it was written.
+//! A sum is one node with rational coefficients, a product is one node with exponents, and equal nodes have
+//! equal [`Id`]s. So common subexpressions are shared by construction, "is this symmetric?" is a comparison
+//! of two numbers, and x·x⁻¹ never survives. Products are not multiplied out, and sums with a coefficient
+//! other than ±1 stay what they are, so an energy keeps the shape in which it was written.
 //!
 //! The graph knows no derivative: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
 
-use crate::algebra::hash::HashMap;
+use rustc_hash::FxHashMap;
+
 use crate::algebra::rational::Rational;
 pub use exponent::Exponent;
 
@@ -16,7 +17,7 @@ mod products;
 mod sums;
 mod traversal;
 
-/// A node of a [`Graph`].
+/// The number of a node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
 
@@ -41,9 +42,9 @@ pub enum Node {
     Float(u64),
     /// constant + Σ coefficient · term. No term is itself such a sum with coefficient ±1.
     Linear {
-        /// Added to the terms.
+        /// The constant.
         constant: Rational,
-        /// In the order of their ids, coefficients not zero.
+        /// Terms with their coefficients, which are not zero, in the order of their ids.
         terms: Vec<(Id, Rational)>,
     },
     /// Π base^exponent, in the order of the bases; rational coefficients live in `Linear`.
@@ -69,7 +70,7 @@ pub enum Node {
     ShareAbove(Stretch, Stretch),
     /// Fraction of the interval between two stretches that lies below ε.
     ShareBelow(Stretch, Stretch),
-    /// The second where the first is negative, else the third.
+    /// The second operand where the first is negative, else the third.
     WhereNegative(Id, Id, Id),
     /// (ln a − ln b) / (a − b).
     LnQuotient(Id, Id),
@@ -95,13 +96,13 @@ pub enum Extended {
     Power(Exponent),
 }
 
-/// All nodes, each once.
+/// An expression graph: all nodes, each once.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    ids: HashMap<Node, Id>,
-    /// What nodes become when their stretches are replaced: nodes never change, so neither does this.
-    substitutions: HashMap<(Id, [Id; 3]), Id>,
+    ids: FxHashMap<Node, Id>,
+    /// Nodes with their stretches replaced.
+    substitutions: FxHashMap<(Id, [Id; 3]), Id>,
     overflowed: bool,
 }
 
@@ -118,13 +119,13 @@ impl Graph {
         self.overflowed
     }
 
-    /// The same, and from here on only of what follows.
+    /// Whether a rational number has left 128 bits since the last call.
     pub fn take_overflow(&mut self) -> bool {
         std::mem::take(&mut self.overflowed)
     }
 
-    /// The id of a node that is in normal form by its nature: anything but sums and products. Quotients know no order of
-    /// their two arguments.
+    /// The id of a node other than a sum or a product, which need a normal form. The two arguments of a
+    /// quotient are put in order.
     pub fn leaf(&mut self, mut node: Node) -> Id {
         if let Node::LnQuotient(a, b)
         | Node::ExpQuotient(a, b)
@@ -173,22 +174,22 @@ impl Graph {
         self.as_constant(id).is_some_and(Rational::is_zero)
     }
 
-    /// ln a.
+    /// The logarithm ln a.
     pub fn ln(&mut self, a: Id) -> Id {
         if self.as_constant(a) == Some(Rational::ONE) { self.integer(0) } else { self.leaf(Node::Ln(a)) }
     }
 
-    /// eᵃ.
+    /// The exponential eᵃ.
     pub fn exp(&mut self, a: Id) -> Id {
         if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Exp(a)) }
     }
 
-    /// Σ over lists of the given length.
+    /// A sum over lists of the given length.
     pub fn sum(&mut self, length: Length, body: Id) -> Id {
         if self.is_zero(body) { body } else { self.leaf(Node::Sum(length, body)) }
     }
 
-    /// The result of exact arithmetic; where it has left 128 bits, that is remembered.
+    /// The result of exact arithmetic; an overflow of 128 bits is remembered.
     fn exact(&mut self, value: Option<Rational>) -> Rational {
         value.unwrap_or_else(|| {
             self.overflowed = true;
@@ -263,7 +264,7 @@ mod tests {
             let power = g.power(x, thirds(n));
             assert_eq!(g.power(minus, thirds(n)), g.neg(power));
         }
-        // Other roots of what may be negative are as they are written.
+        // Other roots of expressions that may be negative stay as they are written.
         let fifths = Exponent::rational(Rational::new(2, 5).unwrap());
         assert_ne!(g.power(minus, fifths), g.power(x, fifths));
     }

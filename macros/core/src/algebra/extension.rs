@@ -1,31 +1,33 @@
-//! Energies beyond their domain: ln λ and real or negative powers of a stretch continue below ε as polynomials.
+//! Energies beyond their domain: ln λ and real or negative powers of a stretch continue below ε as
+//! polynomials.
 //!
-//! The rewriting happens before differentiation: ln J becomes Σ ln λi and J^r becomes Π λi^r, then each φ(λ) becomes
-//! [`Node::Extended`]. With w = max(λ, ε) and d = λ − w, which is zero above ε and exact below,
+//! The rewriting happens before differentiation: ln J becomes Σ ln λi and J^r becomes Π λi^r, then each φ(λ)
+//! becomes [`Node::Extended`]. With w = max(λ, ε) and d = λ − w, which is zero above ε and exact below,
 //!
 //! ```text
 //! φ(w) + φ′(w) d + ½ φ″(w) d²     and its derivatives     φ′(w) + φ″(w) d,     φ″(w)
 //! ```
 //!
-//! are the function and its polynomial in one formula without a branch: [`lower`] puts it in place of `Extended` when
-//! all derivatives and quotients have been taken.
+//! are the function and its polynomial in one formula without a branch: [`lower`] puts it in place of
+//! `Extended` when all derivatives and quotients have been taken.
 //!
-//! Never is a function of J itself extended: F = 0 would become a stable minimum.
+//! A function of J itself is never extended: F = 0 would become a stable minimum.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::{Purpose, rewrite, separate};
 
 /// The energy with its logarithms and real or negative powers of stretches extended.
 pub fn extend(graph: &mut Graph, energy: Id) -> Id {
     let separated = separate(graph, energy, Purpose::Extension);
-    rewrite(graph, separated, &mut HashMap::default(), &extend_node)
+    rewrite(graph, separated, &mut FxHashMap::default(), &extend_node)
 }
 
-/// The expression with its extended functions written out; `memo` keeps what has been written out of the same graph.
-pub fn lower(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+/// The expression with its extended functions written out; `memo` keeps the results for the same graph.
+pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Extended(function, order, i) => Some(polynomial(graph, function, order, i)),
         _ => None,
@@ -45,7 +47,7 @@ fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
                     Node::Stretch(i) if exponent.as_integer().is_none_or(|n| n < 0) => {
                         (graph.leaf(Node::Extended(Extended::Power(exponent), 0, i)), Exponent::ONE)
                     }
-                    _ => (rewrite(graph, base, &mut HashMap::default(), &extend_node), exponent),
+                    _ => (rewrite(graph, base, &mut FxHashMap::default(), &extend_node), exponent),
                 });
             }
             Some(graph.product(&product))
@@ -68,7 +70,7 @@ fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> I
     sum
 }
 
-/// φ, φ′, φ″ … at any argument.
+/// The value of φ, φ′, φ″ … at any argument.
 pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
     match (function, order) {
         (Extended::Ln, 0) => graph.ln(at),
@@ -102,13 +104,13 @@ pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: 
     }
 }
 
-/// ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
+/// The k-th derivative of the logarithm, ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
 fn ln_coefficient(order: u8) -> Rational {
     let factorial: i64 = (1..i64::from(order)).product();
     Rational::integer(if order.is_multiple_of(2) { -factorial } else { factorial })
 }
 
-/// r (r − 1) … (r − k + 1).
+/// The falling factorial r (r − 1) … (r − k + 1).
 fn falling(graph: &mut Graph, exponent: Exponent, order: u8) -> Id {
     let r = graph.exponent_value(exponent);
     let factors: Vec<_> = (0..i64::from(order))

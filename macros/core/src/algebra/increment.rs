@@ -9,26 +9,28 @@
 //! | f g   | Δf g + f₁ Δg                              |
 //! | φ(f)  | φ[f, f₁] Δf, φ\[a, b\] as in [`quotient`] |
 //!
-//! and zero for what knows no stretch. No rule subtracts, so each term of Δψi is as accurate, relative to itself, as the
-//! strains are. At a rest state free of stress ψi is Δψi: the constants that cancel there have dropped out.
+//! and zero for expressions without stretches. No rule subtracts, so each term of Δψi is as accurate,
+//! relative to itself, as the strains are. At a rest state free of stress ψi is Δψi: the constants that
+//! cancel there have dropped out.
 //!
 //! It is the sum over k of sk times the quotient of e in λk and 1, with the stretches before k already at 1.
 //!
-//! [`quotient`]: crate::quotient
+//! [`quotient`]: crate::algebra::quotient
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// Differences from rest, each computed once.
 #[derive(Debug, Default)]
 pub struct Increments {
-    memo: HashMap<Id, Id>,
+    memo: FxHashMap<Id, Id>,
 }
 
 impl Increments {
-    /// Δe of an expression as it is differentiated, before extensions are written out.
+    /// The difference Δe of an expression before its extensions are written out.
     pub fn increment(&mut self, graph: &mut Graph, e: Id) -> Id {
         if let Some(&done) = self.memo.get(&e) {
             return done;
@@ -57,7 +59,7 @@ impl Increments {
                 self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
             }
             Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
-            // Nothing else arises from differentiation inside the domain; NaN would not go unnoticed.
+            // No other nodes arise from differentiation inside the domain; NaN would be noticed.
             _ => graph.leaf(Node::Float(f64::NAN.to_bits())),
         }
     }
@@ -71,7 +73,7 @@ impl Increments {
             [(base, exponent), ref others @ ..] => {
                 let (f, g) = (graph.power(base, exponent), graph.product(others));
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
-                let f_at_rest = at_rest(graph, f);
+                let f_at_rest = substitute_rest(graph, f);
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)
             }
@@ -83,14 +85,14 @@ impl Increments {
         if graph.is_zero(inner) {
             return inner;
         }
-        let b = at_rest(graph, a);
+        let b = substitute_rest(graph, a);
         let outer = outer(graph, a, b);
         graph.mul(outer, inner)
     }
 }
 
-/// e₁.
-pub fn at_rest(graph: &mut Graph, e: Id) -> Id {
+/// The value e₁ at rest.
+pub fn substitute_rest(graph: &mut Graph, e: Id) -> Id {
     let one = graph.integer(1);
     graph.substitute(e, [one; 3])
 }
@@ -101,7 +103,7 @@ mod tests {
     use crate::algebra::interpret::{Point, Value, evaluate};
     use crate::algebra::testing::expressions;
 
-    /// Against e(λ) − e(1, 1, 1) where nothing cancels.
+    /// Compares with e(λ) − e(1, 1, 1) where nothing cancels.
     #[test]
     fn every_rule_gives_the_difference_from_rest() {
         for (name, mut graph, e) in expressions() {

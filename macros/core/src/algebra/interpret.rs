@@ -1,14 +1,15 @@
-//! Evaluates expressions as they are defined, without schedule or emission.
+//! Evaluation of expressions as they are defined, without schedule or emission.
 //!
-//! What a parameter that is a function computes is not known here: another function stands for it.
+//! The values of a parameter that is a function are not known here: another function stands for it.
 //!
-//! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of [`crate::judge`], and tests, as an oracle
-//! for the emitted code.
+//! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of [`crate::judge`], and
+//! tests, as an oracle for the emitted code.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 
-/// Values of everything an expression may name.
+/// A point: values of everything that an expression may name.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
     /// λ1, λ2, λ3.
@@ -21,23 +22,27 @@ pub struct Point {
     pub epsilon: f64,
 }
 
-/// A value together with what rounding could have hidden.
+/// A value with the magnitude that bounds its rounding error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
     /// The value.
     pub value: f64,
-    /// The value with every subtraction replaced by an addition of magnitudes: rounding errors are a few u of it.
+    /// The value with every subtraction replaced by an addition of magnitudes: rounding errors are a few u of
+    /// it.
     pub magnitude: f64,
 }
 
 /// Evaluates a node at a point.
 #[must_use]
 pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
-    evaluate_with(graph, id, point, &mut HashMap::default())
+    evaluate_with(graph, id, point, &mut Memo::default())
 }
 
-/// The same for many nodes at one point: `memo` keeps what has been evaluated there.
-pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut HashMap<Id, Value>) -> Value {
+/// Values of nodes at one point.
+pub type Memo = FxHashMap<Id, Value>;
+
+/// Evaluates one of several nodes at a point: `memo` keeps the values of all nodes evaluated there.
+pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut Memo) -> Value {
     Interpreter { graph, point, entry: 0, memo }.value(id)
 }
 
@@ -45,7 +50,7 @@ struct Interpreter<'a> {
     graph: &'a Graph,
     point: &'a Point,
     entry: usize,
-    memo: &'a mut HashMap<Id, Value>,
+    memo: &'a mut Memo,
 }
 
 impl Interpreter<'_> {
@@ -106,7 +111,7 @@ impl Interpreter<'_> {
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
-                    let (graph, point, memo) = (self.graph, self.point, &mut HashMap::default());
+                    let (graph, point, memo) = (self.graph, self.point, &mut Memo::default());
                     let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;
                     sum.magnitude += magnitude;
@@ -164,19 +169,19 @@ impl Interpreter<'_> {
 
     fn power(&mut self, base: Id, exponent: Exponent) -> Value {
         let Value { value, magnitude } = self.value(base);
-        // Whole positive powers are products of what may have cancelled; for others, a relative error of the base is
-        // multiplied by the exponent.
+        // Whole positive powers are products of bases that may have cancelled; for others, a relative error
+        // of the base is multiplied by the exponent.
         if let Some(n @ 0..) = exponent.as_integer() {
             return Value { value: value.powi(n as i32), magnitude: magnitude.powi(n as i32) };
         }
         let r = self.exponent(exponent);
         let power = match exponent {
-            // By its real cube root a negative number has such powers: J^(−2/3) is even in each stretch.
+            // A negative number has such powers by its real cube root: J^(−2/3) is even in each stretch.
             exponent if exponent.is_of_cube_root() => value.cbrt().powi(exponent.rational.numerator() as i32),
             _ if r.fract() == 0.0 => value.powi(r as i32),
             _ => value.powf(r),
         };
-        // What has cancelled altogether has no relative error.
+        // A base that has cancelled altogether has no relative error.
         if value == 0.0 {
             return Value { value: power, magnitude: magnitude.powf(r) };
         }
@@ -198,14 +203,16 @@ impl Interpreter<'_> {
     }
 }
 
-/// Derivative of what stands for a function that is a parameter: neither even nor odd, and another one for each.
+/// Derivative of the function that stands for a parameter: neither even nor odd, and different for each
+/// parameter.
 fn stand_in(parameter: usize, order: u8, x: f64) -> f64 {
     const FREQUENCY: f64 = 1.3;
     let phase = 0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2;
     FREQUENCY.powi(i32::from(order)) * (FREQUENCY * x + phase).sin()
 }
 
-/// Plain difference quotient where it does not cancel, else the derivative at the midpoint: good to (gap/scale)².
+/// The difference quotient where it does not cancel, else the derivative at the midpoint: accurate to
+/// (gap/scale)².
 fn quotient(a: f64, b: f64, function: impl Fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> f64 {
     if (a - b).abs() > 1e-5 * (a.abs() + b.abs()) {
         (function(a) - function(b)) / (a - b)

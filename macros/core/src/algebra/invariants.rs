@@ -1,4 +1,4 @@
-//! Energies that are functions of I1, I2 and J alone, as such.
+//! Energies as functions of I1, I2 and J alone.
 //!
 //! Stress then needs no singular value decomposition:
 //!
@@ -6,16 +6,13 @@
 //! P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
 //! ```
 //!
-//! The declared expression is read once more with I1, I2 and J in the places of the three stretches of the graph, so that the
-//! same calculus differentiates it. An energy that names a stretch is not of this kind, whatever it may equal.
+//! The declared expression is read once more with I1, I2 and J in the places of the three stretches of the
+//! graph, so that the same calculus differentiates it. An energy that names a stretch is not of this kind,
+//! whatever it may equal.
 
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::simplify::simplify;
-use crate::model::bounds;
-use crate::read::diagnostics::Diagnostics;
-use crate::read::parse::Declaration;
-use crate::read::resolve::Resolver;
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
 #[derive(Clone, Debug)]
@@ -28,19 +25,12 @@ pub struct ByInvariants {
     pub bounds: Vec<Id>,
 }
 
-/// The energy and its domain by invariants, unless a stretch is named. The declaration must be free of mistakes.
-pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<ByInvariants> {
-    let mut mistakes = Diagnostics::default();
-    let mut resolver = Resolver::of_invariants(declaration, graph, &mut mistakes);
-    let energy = resolver.energy();
-    let bounds = bounds(declaration).filter_map(|condition| resolver.bound(condition)).collect();
-    if !mistakes.is_clean() {
-        return None;
-    }
+/// The derivatives of an energy of I1, I2, J, with the bounds of its domain.
+pub fn by_invariants(graph: &mut Graph, energy: Id, bounds: Vec<Id>) -> ByInvariants {
     let mut d = Differentiator::default();
     let gradient = [0, 1, 2].map(|k| {
         let derivative = d.by_stretch(graph, energy, k);
         simplify(graph, derivative)
     });
-    Some(ByInvariants { energy, gradient, bounds })
+    ByInvariants { energy, gradient, bounds }
 }

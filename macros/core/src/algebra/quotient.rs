@@ -7,25 +7,26 @@
 //! twist  (ψi + ψj)/(x + y) = (g − τg)/(x − τx),   τ: x → −y, y → −x, for the part of g that is odd in (x, y)
 //! ```
 //!
-//! For a reflection R let De = (e − Re)/(x − Rx). Like a derivative, D is computed from the structure of e, and nothing
-//! is ever divided by the gap x − Rx:
+//! For a reflection R let De = (e − Re)/(x − Rx). Like a derivative, D is computed from the structure of e,
+//! and nothing is ever divided by the gap x − Rx:
 //!
 //! | e        | De                                                           |
 //! |----------|--------------------------------------------------------------|
 //! | Re = e   | 0, and a factor s with Rs = s comes out: D(sf) = s Df        |
 //! | x, y, z  | 1, −1 (σ) or 1 (τ), 0                                        |
 //! | f + g    | Df + Dg                                                      |
-//! | f g      | Df g + Rf Dg, after taking out what is symmetric, such as xy |
+//! | f g      | Df g + Rf Dg, after taking out symmetric factors like xy    |
 //! | φ(f)     | φ[f, Rf] Df with the divided difference φ[a, b]              |
 //!
-//! Equal stretches need no branch: the limit is what the formula gives. What is not odd in (x, y) has a pole at
-//! x + y = 0; there the numerator ψi + ψj does not cancel and the plain quotient is accurate.
+//! Equal stretches need no branch: the limit is what the formula gives. A part that is not odd in (x, y) has
+//! a pole at x + y = 0; there the numerator ψi + ψj does not cancel and the plain quotient is accurate.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::algebra::extension;
-use crate::algebra::hash::HashMap;
-use crate::algebra::interpret::{Point, Value, evaluate_with};
+use crate::algebra::interpret::{Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
 
 /// A reflection of two stretches.
@@ -51,9 +52,9 @@ pub struct Twist {
 pub struct Quotients<'a> {
     /// Points of the domain at which parities are decided.
     samples: &'a [Point],
-    memo: HashMap<(Id, Reflection), Id>,
+    memo: FxHashMap<(Id, Reflection), Id>,
     /// Values at each sample, by its index, as it is and with two stretches negated.
-    values: HashMap<(usize, Negated), HashMap<Id, Value>>,
+    values: FxHashMap<(usize, Negated), Memo>,
 }
 
 /// The pair of stretches whose signs are changed, if any.
@@ -66,15 +67,15 @@ impl<'a> Quotients<'a> {
     /// Decides parities at the given points, which must lie in the domain of the energy.
     #[must_use]
     pub fn new(samples: &'a [Point]) -> Self {
-        Self { samples, memo: HashMap::default(), values: HashMap::default() }
+        Self { samples, memo: FxHashMap::default(), values: FxHashMap::default() }
     }
 
-    /// D⁻ij from ψi.
+    /// The flip quotient D⁻ij from ψi.
     pub fn flip(&mut self, graph: &mut Graph, gradient: Id, i: Stretch, j: Stretch) -> Id {
         self.quotient(graph, gradient, Reflection::Flip(i, j))
     }
 
-    /// D⁺ij from ψi. With `positive`, stretches are known to be positive and a pole is out of reach.
+    /// The twist quotient D⁺ij from ψi. With `positive`, all stretches are positive and there is no pole.
     pub fn twist(
         &mut self,
         graph: &mut Graph,
@@ -97,7 +98,7 @@ impl<'a> Quotients<'a> {
         Twist { value: graph.add(removable, plain), has_pole: !positive }
     }
 
-    /// De.
+    /// The quotient De.
     pub fn quotient(&mut self, graph: &mut Graph, e: Id, reflection: Reflection) -> Id {
         if let Some(&done) = self.memo.get(&(e, reflection)) {
             return done;
@@ -160,8 +161,8 @@ impl<'a> Quotients<'a> {
         let quotient = match rest[..] {
             [] => graph.integer(0),
             [(base, exponent)] => self.power_rule(graph, base, exponent, reflection),
-            [(base, exponent), ref others @ ..] => match take_out_crossed(graph, &rest, reflection) {
-                Some(Crossed { pair, quotient, others }) => {
+            [(base, exponent), ref others @ ..] => match take_out_slope_pair(graph, &rest, reflection) {
+                Some(SlopePair { pair, quotient, others }) => {
                     let g = graph.product(&others);
                     self.leibniz(graph, (pair, quotient), g, reflection)
                 }
@@ -175,7 +176,7 @@ impl<'a> Quotients<'a> {
         graph.mul(symmetric, quotient)
     }
 
-    /// D(fg) = Df g + Rf Dg.
+    /// The product rule D(fg) = Df g + Rf Dg.
     fn leibniz(&mut self, graph: &mut Graph, (f, df): (Id, Id), g: Id, reflection: Reflection) -> Id {
         let dg = self.quotient(graph, g, reflection);
         let mirrored = reflect(graph, f, reflection);
@@ -187,7 +188,8 @@ impl<'a> Quotients<'a> {
         self.chain_rule(graph, base, reflection, |graph, a, b| power_quotient(graph, a, b, exponent))
     }
 
-    /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not. With `positive`, there is no pole.
+    /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not. With `positive`,
+    /// there is no pole.
     fn split(&mut self, graph: &mut Graph, e: Id, i: Stretch, j: Stretch, positive: bool) -> (Id, Id) {
         let zero = graph.integer(0);
         match self.parity(graph, e, i, j) {
@@ -207,7 +209,7 @@ impl<'a> Quotients<'a> {
             }
             Node::Sum(length, body) => {
                 let (odd, rest) = self.split(graph, body, i, j, positive);
-                // Where there is no pole, the sums that the gradient needs anyway.
+                // Without a pole, the sums that the gradient needs anyway.
                 if positive && !graph.is_zero(rest) {
                     return (zero, e);
                 }
@@ -239,8 +241,8 @@ impl<'a> Quotients<'a> {
         }
     }
 
-    /// Decided numerically, relative to what rounding could hide: a normal form would miss identities. The body of a
-    /// sum is judged for its first entry, which stands for all.
+    /// The parity of an expression, decided numerically, relative to what rounding could hide: a normal form
+    /// would miss identities. The body of a sum is evaluated for its first entry, which stands for all.
     fn parity(&mut self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
         // Three orders of magnitude above rounding errors, eleven below a term that is really there.
         const NOISE: f64 = 1e-12;
@@ -252,8 +254,8 @@ impl<'a> Quotients<'a> {
             let here = evaluate_with(graph, e, point, self.values.entry((k, None)).or_default());
             let there = evaluate_with(graph, e, &mirrored, self.values.entry((k, Some((i, j)))).or_default());
             let noise = NOISE * (here.magnitude + there.magnitude);
-            // Written so that NaN, as from a real power of a negative number, is neither; nor is what overflows, as
-            // the exponential of an extended function may at a negative stretch.
+            // Written so that NaN, as from a real power of a negative number, is neither odd nor even; nor is
+            // a value that overflows, as the exponential of an extended function may at a negative stretch.
             odd &= noise.is_finite() && (here.value + there.value).abs() <= noise;
             even &= noise.is_finite() && (here.value - there.value).abs() <= noise;
         }
@@ -274,7 +276,7 @@ enum Parity {
     None,
 }
 
-/// Re.
+/// The reflected expression Re.
 pub fn reflect(graph: &mut Graph, e: Id, reflection: Reflection) -> Id {
     let mut stretches = [0, 1, 2].map(|k| graph.stretch(k));
     match reflection {
@@ -293,7 +295,8 @@ fn sign(reflection: Reflection, k: Stretch) -> i64 {
     }
 }
 
-/// Separates s, with Rs = s, from what is left: symmetric factors, common powers of x and y, mirror pairs f·Rf.
+/// Separates a factor s with Rs = s from the others: symmetric factors, common powers of x and y, mirror
+/// pairs f·Rf.
 fn take_out_symmetric(
     graph: &mut Graph,
     factors: &[(Id, Exponent)],
@@ -334,13 +337,14 @@ fn take_out_symmetric(
     (graph.product(&symmetric), rest)
 }
 
-/// Divided difference of an extended function between λi and λj: exact, as the mean of its pieces' divided differences
-/// over the fractions of the interval above and below ε.
+/// Divided difference of an extended function between λi and λj: exact, as the mean of its pieces' divided
+/// differences over the fractions of the interval above and below ε.
 fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretch, j: Stretch) -> Id {
     let [wi, wj] = [i, j].map(|k| graph.leaf(Node::Above(k)));
     let above = extension::derivative_quotient(graph, function, order, wi, wj);
     let epsilon = graph.leaf(Node::Epsilon);
-    // The polynomial T = φ + φ′d + ½φ″d², φ and its derivatives at ε, has T[d, e] = φ′ + ½φ″(d + e), T′[d, e] = φ″.
+    // The polynomial T = φ + φ′d + ½φ″d², φ and its derivatives at ε, has T[d, e] = φ′ + ½φ″(d + e), T′[d, e]
+    // = φ″.
     let below = match order {
         0 => {
             let [di, dj] = [i, j].map(|k| graph.leaf(Node::Below(k)));
@@ -360,8 +364,9 @@ fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretc
     graph.add(above, below)
 }
 
-/// A factor times a quotient. That of an extended function is a sum over the pieces above and below ε, which the factor
-/// goes into: λ times a piece in λ⁻² stays in range where the piece does not.
+/// A factor times a quotient. The quotient of an extended function is a sum over the pieces above and below
+/// ε, each of which is multiplied by the factor: λ times a piece in λ⁻² stays in range where the piece does
+/// not.
 fn multiply_pieces(graph: &mut Graph, factor: Id, quotient: Id) -> Id {
     let Node::Linear { constant, terms } = graph.node(quotient).clone() else {
         return graph.mul(factor, quotient);
@@ -379,22 +384,22 @@ fn multiply_pieces(graph: &mut Graph, factor: Id, quotient: Id) -> Id {
     graph.linear(Rational::ZERO, &terms)
 }
 
-/// A crossed pair φ′(x) φ(y) of an extended power, taken out of a product.
-struct Crossed {
+/// A pair φ′(x) φ(y) of an extended power φ, taken out of a product.
+struct SlopePair {
     pair: Id,
     quotient: Id,
     others: Vec<(Id, Exponent)>,
 }
 
-/// Finds a crossed pair among the factors.
+/// Finds a pair φ′(x) φ(y) among the factors.
 ///
-/// The derivative of φ(λ1) φ(λ2) φ(λ3), which is what extends J^r, is made of them. By the product rule its quotient would
-/// subtract what is larger by a power of x/y.
-fn take_out_crossed(
+/// Such pairs make up the derivative of φ(λ1) φ(λ2) φ(λ3), the extension of J^r. By the product rule the
+/// quotient would subtract terms that are larger by a power of x/y.
+fn take_out_slope_pair(
     graph: &mut Graph,
     factors: &[(Id, Exponent)],
     reflection: Reflection,
-) -> Option<Crossed> {
+) -> Option<SlopePair> {
     let Reflection::Flip(i, j) = reflection else { return None };
     for &(slope, exponent) in factors.iter().filter(|factor| factor.1 == Exponent::ONE) {
         let Node::Extended(Extended::Power(r), 1, k) = *graph.node(slope) else { continue };
@@ -408,18 +413,18 @@ fn take_out_crossed(
         }
         let others =
             factors.iter().copied().filter(|factor| factor.0 != slope && factor.0 != value).collect();
-        let quotient = crossed_quotient(graph, r, i, j);
+        let quotient = slope_pair_quotient(graph, r, i, j);
         let quotient = graph.scale(quotient, Rational::integer(sign(reflection, k)));
-        return Some(Crossed { pair: graph.mul(slope, value), quotient, others });
+        return Some(SlopePair { pair: graph.mul(slope, value), quotient, others });
     }
     None
 }
 
-/// (φ′(x) φ(y) − φ′(y) φ(x))/(x − y) for x = λi, y = λj and an extended power φ(λ) = λ^r.
+/// The quotient (φ′(x) φ(y) − φ′(y) φ(x))/(x − y) for x = λi, y = λj and an extended power φ(λ) = λ^r.
 ///
-/// The product rule gives it in two ways, with the values of either stretch. That of the smaller φ is right: stretches are
-/// ordered, x ≥ |y|, so it is y for r > 0 and x for r < 0.
-fn crossed_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
+/// The product rule gives it in two ways, with the values at either stretch. The one with the smaller φ is
+/// accurate: stretches are ordered, x ≥ |y|, so it is the one at y for r > 0 and at x for r < 0.
+fn slope_pair_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
     let extended =
         |graph: &mut Graph, order, k| graph.leaf(Node::Extended(Extended::Power(exponent), order, k));
     let [value, slope] = [0, 1].map(|order| extended_quotient(graph, Extended::Power(exponent), order, i, j));
@@ -436,7 +441,7 @@ fn crossed_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretc
     graph.leaf(Node::WhereNegative(r, negative, positive))
 }
 
-/// Stands where the calculus has no answer; never reached from an energy, and loud if it were.
+/// NaN for nodes without a rule, which no energy leads to: it would be noticed.
 fn undefined(graph: &mut Graph) -> Id {
     graph.leaf(Node::Float(f64::NAN.to_bits()))
 }

@@ -10,9 +10,9 @@ pub struct Rational {
 }
 
 impl Rational {
-    /// 0.
+    /// The fraction 0.
     pub const ZERO: Self = Self::integer(0);
-    /// 1.
+    /// The fraction 1.
     pub const ONE: Self = Self::integer(1);
 
     /// A whole number.
@@ -21,7 +21,7 @@ impl Rational {
         Self { numerator: value as i128, denominator: 1 }
     }
 
-    /// A fraction; `None` where the denominator is zero or the numbers leave 128 bits.
+    /// A fraction; `None` if the denominator is zero or a part leaves 128 bits.
     #[must_use]
     pub fn new(numerator: i128, denominator: i128) -> Option<Self> {
         if denominator == 0 || numerator == i128::MIN || denominator == i128::MIN {
@@ -66,13 +66,13 @@ impl Rational {
         self.denominator
     }
 
-    /// The nearest `f64` where both parts fit 53 bits, else within two units in the last place.
+    /// The nearest `f64` if both parts fit 53 bits, else one within two units in the last place.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Sum.
+    /// The sum, unless it leaves 128 bits.
     #[must_use]
     pub fn checked_add(self, other: Self) -> Option<Self> {
         let left = self.numerator.checked_mul(other.denominator)?;
@@ -80,7 +80,7 @@ impl Rational {
         Self::new(left.checked_add(right)?, self.denominator.checked_mul(other.denominator)?)
     }
 
-    /// Product.
+    /// The product, unless it leaves 128 bits.
     #[must_use]
     pub fn checked_mul(self, other: Self) -> Option<Self> {
         Self::new(
@@ -98,13 +98,13 @@ impl Rational {
         if exponent < 0 { Self::new(denominator, numerator) } else { Self::new(numerator, denominator) }
     }
 
-    /// −self.
+    /// The negative of the fraction.
     #[must_use]
     pub fn negated(self) -> Self {
         Self { numerator: -self.numerator, ..self }
     }
 
-    /// |self|.
+    /// The absolute value of the fraction.
     #[must_use]
     pub fn magnitude(self) -> Self {
         if self.is_negative() { self.negated() } else { self }

@@ -1,4 +1,4 @@
-//! Puts together what differentiation takes apart.
+//! Rules that join terms which differentiation separates.
 //!
 //! With a number c, a denominator β + s, β a number and s a sum without constant:
 //!
@@ -12,20 +12,21 @@
 //!
 //! the last for a parameter p.
 //!
-//! The first two remove cancellation: each left side subtracts what is nearly equal where s is small or large. They arise
-//! from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean solid near collapse,
-//! where I1 is tiny and the left side has no correct digit. The others save operations.
+//! The first two remove cancellation: each left side subtracts nearly equal terms where s is small or large.
+//! They arise from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean
+//! solid near collapse, where I1 is tiny and the left side has no correct digit. The others save operations.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// The expression with the rules applied everywhere.
 pub fn simplify(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut HashMap::default())
+    rewrite(graph, e, &mut FxHashMap::default())
 }
 
-fn rewrite(graph: &mut Graph, e: Id, memo: &mut HashMap<Id, Id>) -> Id {
+fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     if let Some(&done) = memo.get(&e) {
         return done;
     }
@@ -55,7 +56,7 @@ fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {
             let s = graph.linear(Rational::ZERO, &sum);
             let beta_id = graph.constant(beta);
             let over_beta = coefficient.checked_mul(beta.checked_powi(-1)?)?;
-            // The coefficient of w, w itself, and what takes the place of both.
+            // The coefficient of w, w itself, and the term that replaces both.
             let w = graph.mul(fraction, denominator);
             let w_over_s = graph.div(w, s);
             let rules = [(over_beta.negated(), w, s), (coefficient.negated(), w_over_s, beta_id)];

@@ -1,4 +1,4 @@
-//! Expressions on which a calculus is tried: one for each of its rules.
+//! Expressions for tests of the calculus: one for each of its rules.
 
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
@@ -36,7 +36,7 @@ const EXPRESSIONS: [(&str, Build); 7] = [
     }),
 ];
 
-/// What each is called, and itself in a graph of its own.
+/// The name of each expression, and the expression in a graph of its own.
 pub(crate) fn expressions() -> impl Iterator<Item = (&'static str, Graph, Id)> {
     EXPRESSIONS.into_iter().map(|(name, build)| {
         let mut graph = Graph::default();

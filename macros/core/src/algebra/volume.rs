@@ -1,21 +1,23 @@
 //! Logarithms and powers of the volume J, and of other products of stretches, by the stretches themselves.
 //!
-//! J leaves the range of a number format long before the stretches do: at stretches of 10¹³ in `f32`. J^r need not, nor
-//! need its derivatives J^r/λi, so
+//! J leaves the range of a floating-point format long before the stretches do: at stretches of 10¹³ in `f32`.
+//! J^r and its derivatives J^r/λi need not, so
 //!
 //! ```text
 //! (Π λi^e)^r = Π λi^(e r)        ln Π λi^e = Σ e ln λi
 //! ```
 //!
-//! for positive stretches. Differentiating λi^r lowers its exponent instead of dividing the whole by λi afterwards. And as
-//! J^(−2/3) overflows where I1 underflows, though their product I1b is 3, real powers are multiplied into sums of products:
+//! for positive stretches. Differentiating λi^r lowers its exponent instead of dividing the whole by λi
+//! afterwards. And as J^(−2/3) overflows where I1 underflows, though their product I1b is 3, real powers are
+//! multiplied into sums of products:
 //!
 //! ```text
 //! J^(−2/3) I1 = λ1^(4/3) (λ2λ3)^(−2/3) + λ2^(4/3) (λ3λ1)^(−2/3) + λ3^(4/3) (λ1λ2)^(−2/3)
 //! ```
 //!
-//! Each term of such a sum is a power of an isochoric stretch, and stays one where the exponent is a parameter: a real power
-//! costs more than all else in an energy, and two of each stretch would be needed otherwise.
+//! Each term of such a sum is a power of an isochoric stretch, and stays one where the exponent is a
+//! parameter: a real power costs more than all else in an energy, and two of each stretch would be needed
+//! otherwise.
 //!
 //! ```text
 //! J^(−α/3) λ1^α = (λ1^(2/3) λ2^(−1/3) λ3^(−1/3))^α
@@ -23,23 +25,24 @@
 //!
 //! An extension takes the factors apart instead: below ε it continues J^(−2/3) and leaves I1 as it is.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::expr::{Exponent, Graph, Id, Node, Stretch};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
-/// What the separated expression is for.
+/// The use of a separated expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// To be computed for positive stretches: real powers go into sums, and ln J stays, to be computed by a single logarithm
-    /// wherever J is in range.
+    /// Evaluation for positive stretches: real powers go into sums, and ln J stays, which is computed by a
+    /// single logarithm wherever J is in range.
     Evaluation,
-    /// To be extended: a product of sums and of functions of single stretches.
+    /// Extension: a product of sums and of functions of single stretches.
     Extension,
 }
 
 /// The expression with real powers and logarithms of products of stretches separated.
 pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
-    rewrite(graph, e, &mut HashMap::default(), &|graph, id| match graph.node(id).clone() {
+    rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
         Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, purpose),
         Node::Product(factors) => {
             let mut separated = Vec::new();
@@ -81,7 +84,8 @@ fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], purpose: Purpo
     Some(graph.sum_of(&terms))
 }
 
-/// Multiplies real powers of stretches into a sum of products of stretches, if there are both among the factors.
+/// Multiplies real powers of stretches into a sum of products of stretches, if there are both among the
+/// factors.
 fn multiply_in(graph: &mut Graph, factors: &mut Vec<(Id, Exponent)>) {
     let is_power = |graph: &Graph, base| matches!(graph.node(base), Node::Stretch(_));
     if !factors.iter().any(|&(base, exponent)| is_power(graph, base) && exponent.as_integer().is_none()) {
@@ -107,7 +111,8 @@ fn multiply_in(graph: &mut Graph, factors: &mut Vec<(Id, Exponent)>) {
     *factors = others;
 }
 
-/// The product, in which real powers of the three stretches are one of an isochoric stretch J^(−1/3) λi if they can be.
+/// The product with the real powers of the three stretches as one power of an isochoric stretch J^(−1/3) λi,
+/// if possible.
 fn product_of_isochoric(graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
     let product = graph.product(factors);
     let (_, factors) = graph.factors(product);
@@ -155,11 +160,11 @@ fn multiply(graph: &mut Graph, a: Exponent, b: Exponent) -> Exponent {
     graph.exponent(product)
 }
 
-/// The expression with the rule applied from the top down: what a rule answers is not looked into.
+/// The expression with a rule applied from the top down. The results of the rule are not rewritten again.
 pub fn rewrite(
     graph: &mut Graph,
     id: Id,
-    memo: &mut HashMap<Id, Id>,
+    memo: &mut FxHashMap<Id, Id>,
     rule: &impl Fn(&mut Graph, Id) -> Option<Id>,
 ) -> Id {
     if let Some(&done) = memo.get(&id) {

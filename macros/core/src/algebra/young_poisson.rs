@@ -1,7 +1,7 @@
-//! Which parameters follow from Young's modulus and Poisson's ratio.
+//! Parameters that follow from Young's modulus and Poisson's ratio.
 //!
-//! These two are the small-strain moduli μ and λ, and an energy has a constructor from them if μ and λ are affine in exactly two
-//! numbers among its parameters, with a determinant that is not zero, and depend on no other parameter:
+//! These two determine the small-strain moduli μ and λ. An energy has a constructor from them if μ and λ are
+//! affine in exactly two scalar parameters, with a nonzero determinant, and depend on no other parameter:
 //!
 //! ```text
 //! μ = a₁ p₁ + a₂ p₂ + a₀,   λ = b₁ p₁ + b₂ p₂ + b₀
@@ -9,7 +9,6 @@
 
 use crate::algebra::expr::{Graph, Id, Node, Parameter};
 use crate::algebra::rational::Rational;
-use crate::read::parse::Declaration;
 
 /// The two parameters, in the order of the declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,13 +17,13 @@ pub struct YoungPoisson(pub [Determined; 2]);
 /// A parameter that is mu μ + lambda λ + constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Determined {
-    /// Which one.
+    /// The index of the parameter.
     pub parameter: Parameter,
     /// The coefficient of the shear modulus.
     pub mu: Rational,
     /// The coefficient of the first Lamé parameter.
     pub lambda: Rational,
-    /// What is added, Pa.
+    /// The constant, Pa.
     pub constant: Rational,
 }
 
@@ -36,12 +35,8 @@ impl YoungPoisson {
     }
 }
 
-/// The parameters that follow from μ and λ, if they do. Moduli of a stressed rest state determine no response, and those with
-/// functions in them are known to the constructor alone.
-pub fn young_poisson(graph: &Graph, declaration: &Declaration, moduli: [Id; 2]) -> Option<YoungPoisson> {
-    if declaration.options.prestressed || declaration.has_functions() {
-        return None;
-    }
+/// The parameters that follow from the small-strain moduli μ and λ, if exactly two do.
+pub fn young_poisson(graph: &Graph, moduli: [Id; 2]) -> Option<YoungPoisson> {
     let [p, q] = <[Parameter; 2]>::try_from(entering(graph, moduli)?).ok()?;
     let [shear, lame] = moduli.map(|modulus| affine(graph, modulus, [p, q]));
     let ((a, shear), (b, lame)) = (shear?, lame?);
@@ -58,7 +53,7 @@ pub fn young_poisson(graph: &Graph, declaration: &Declaration, moduli: [Id; 2]) 
     Some(YoungPoisson([determined(p, b[1], a[1].negated())?, determined(q, b[0].negated(), a[0])?]))
 }
 
-/// The parameters that enter the moduli in the order of the declaration; `None` where one is a list.
+/// The parameters that enter the moduli in the order of the declaration; `None` if one is a list.
 fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<Parameter>> {
     let mut found = Vec::new();
     for id in graph.reachable(&moduli) {
@@ -72,7 +67,7 @@ fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<Parameter>> {
     Some(found)
 }
 
-/// The coefficients of both parameters and what is added, where that is all.
+/// The coefficients of both parameters and the constant, if the modulus is affine in them.
 fn affine(graph: &Graph, modulus: Id, [p, q]: [Parameter; 2]) -> Option<([Rational; 2], Rational)> {
     match graph.node(modulus) {
         Node::Parameter(k) => {

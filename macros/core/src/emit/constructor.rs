@@ -1,5 +1,5 @@
-//! How a material comes to be: `new`, which checks its parameters, what finds some of them from a stiffness, what chooses the
-//! way of inversion, and what reads the parameters back.
+//! The inherent methods of a material: `new`, which checks its parameters, the constructor from a stiffness,
+//! the choice of an extension, and getters of the parameters.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -7,9 +7,9 @@ use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
-use crate::model::{Model, indexed_list};
+use crate::model::Model;
 use crate::read::literals::typed;
-use crate::read::parse::{Declaration, Parameter, identifiers};
+use crate::read::parse::{Declaration, Parameter, identifiers, indexed_list};
 
 /// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {

@@ -1,14 +1,14 @@
-//! What rustdoc shows of a material: ψ and its derivatives as formulas, its parameters, domain and moduli, and how many
-//! operations each result takes.
+//! The documentation of a material: ψ and its derivatives as formulas, its parameters, domain and moduli, and
+//! the operations of each result.
 
 use crate::model::Model;
-use crate::printer::formula::{Formulas, formulas, formulas_by_invariants};
+use crate::printer::{Formulas, formulas, formulas_by_invariants};
 use crate::read::parse::Declaration;
-use crate::schedule::count::{LEGEND, counts, table};
+use crate::schedule::count::{LEGEND, table};
 
 use super::{Texts, condition_text};
 
-/// The documentation of the type, after what its declaration says.
+/// The documentation of the type, below that of its declaration.
 pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
     let Texts { formula, moduli: [shear, lame], .. } = texts;
     let sections = [
@@ -44,7 +44,7 @@ fn domain(declaration: &Declaration, texts: &Texts) -> String {
     if has_conditions { format!("`{}`.", texts.domain) } else { format!("{}.", texts.domain) }
 }
 
-/// What the material does outside its domain.
+/// The behaviour outside the domain.
 fn outside(declaration: &Declaration) -> String {
     let options = &declaration.options;
     match (&options.extend, &options.refuse) {
@@ -86,22 +86,22 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
     text
 }
 
-/// What the word `fit` gives.
+/// The effect of the word `fit`.
 fn by_parameters(declaration: &Declaration) -> String {
     let text = "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.";
     if declaration.options.fit { text.to_owned() } else { String::new() }
 }
 
-/// Parts first, then the formulas that they are parts of.
+/// Formulas, their shared parts first.
 fn block(names: &[&str], Formulas { parts, formulas }: &Formulas) -> String {
     let parts = parts.iter().map(|(name, text)| format!("{name} = {text}\n"));
     let formulas = names.iter().zip(formulas).map(|(name, text)| format!("{name} = {text}\n"));
     format!("```text\n{}```", parts.chain(formulas).collect::<String>())
 }
 
-/// What each result costs.
+/// The operations of each result.
 fn operations(declaration: &Declaration, model: &mut Model) -> String {
-    let table = table(declaration, &counts(model));
+    let table = table(declaration, &model.counts());
     format!("**Operations**, of each result by itself:\n\n{table}\n{LEGEND}.")
 }
 
@@ -118,7 +118,7 @@ mod tests {
             }
         };
         let (declaration, mut model) =
-            crate::understand(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item).unwrap();
+            crate::analyse(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item).unwrap();
         let texts = super::Texts::of(&declaration, &mut model);
         let documentation = super::documentation(&declaration, &mut model, &texts);
         let lines: Vec<_> = documentation.lines().collect();

@@ -4,7 +4,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::writer::Writer;
-use crate::model::{Model, Volume};
+use crate::model::Model;
+use crate::read::domain::Volume;
 
 /// The constant that says so and the methods, if the energy is one of invariants.
 pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {

@@ -8,7 +8,8 @@ use super::invariants;
 use super::writer::Writer;
 use super::{generics, naming, value_parameter};
 use crate::algebra::expr::Id;
-use crate::model::{Model, Variant, Volume};
+use crate::model::{Model, Variant};
+use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Kind};
 
 /// `impl Material`, and `impl Graded` where all parameters are numbers.

@@ -263,7 +263,7 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
 
 /// How each value is written where it is used.
 #[derive(Default)]
-struct Names(crate::algebra::hash::HashMap<Value, TokenStream>);
+struct Names(rustc_hash::FxHashMap<Value, TokenStream>);
 
 impl Names {
     fn get(&self, value: Value) -> Option<&TokenStream> {

@@ -7,7 +7,7 @@ use super::doc;
 use super::writer::free_name;
 use crate::algebra::rational::Rational;
 use crate::algebra::young_poisson::{Determined, YoungPoisson};
-use crate::printer::formula::combination;
+use crate::printer::combination;
 use crate::read::parse::Declaration;
 
 /// `from_young_poisson`, with the parameters that are not determined in the order of the declaration.
@@ -77,7 +77,7 @@ fn value(determined: &Determined) -> TokenStream {
     quote!(#(#terms)+*)
 }
 
-/// A fraction: exact where it is a number of type `f64`, else rounded once.
+/// A fraction as an `f64`: exact if possible, else rounded once.
 fn number(value: Rational) -> TokenStream {
     let magnitude = Literal::f64_unsuffixed(value.to_f64().abs());
     if value.is_negative() { quote!((-#magnitude)) } else { quote!(#magnitude) }

@@ -1,4 +1,4 @@
-//! Collects mistakes, so that all of them are reported at once.
+//! Diagnostics: mistakes are collected, so that all of them are reported at once.
 
 use std::fmt::Display;
 
@@ -20,7 +20,7 @@ impl Diagnostics {
         result.map_err(|error| self.push(error)).ok()
     }
 
-    /// Whether there are none so far.
+    /// Whether there are no mistakes so far.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.0.is_none()

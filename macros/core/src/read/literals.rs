@@ -1,19 +1,19 @@
-//! The numbers of a condition on parameters, as Rust wants them.
+//! Number literals of a condition on parameters, with the types that Rust wants.
 //!
-//! A condition is emitted as it is written. In an energy all numbers are real and their types need not be said; in Rust
-//! `3.0.sqrt()` has none, `mu > 0` compares with a whole number, and `mu.powi(2.0)` does not take one.
+//! A condition is emitted as it is written. In an energy all numbers are real and need no types; in Rust the
+//! type of `3.0.sqrt()` is unknown, `mu > 0` compares with an integer, and `mu.powi(2.0)` is an error.
 
 use proc_macro2::{Delimiter, Group, Literal, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Expr, Lit, UnOp};
 
-/// The same with every number an `f64`, but whole ones as exponents of `powi`, where each is a number with or without a
-/// sign.
+/// A condition with every literal an `f64`, except that exponents of `powi`, literals with or without a sign,
+/// are integers.
 pub(crate) fn typed(condition: &Expr) -> TokenStream {
     rewrite(condition.to_token_stream(), real)
 }
 
-/// Whether an exponent of `powi` is such a number.
+/// Whether an exponent of `powi` is a literal with or without a sign.
 pub(crate) fn is_number(exponent: &Expr) -> bool {
     match exponent {
         Expr::Lit(_) => true,

@@ -1,7 +1,7 @@
-//! From tokens to a [`Declaration`]: the form of the item, not yet the meaning of its body.
+//! The parser: from tokens to a [`Declaration`], the form of the item without the meaning of its body.
 //!
-//! A declaration is an ordinary Rust function from stretches and parameters to the energy density, so rustfmt and
-//! editors treat it as one:
+//! A declaration is an ordinary Rust function from stretches and parameters to the energy density, so rustfmt
+//! and editors treat it as one:
 //!
 //! ```text
 //! #[material(domain(J > 0.0), admissible(mu > 0.0), extend)]
@@ -10,6 +10,7 @@
 //! ```
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::ToTokens;
 use syn::{Attribute, Expr, Ident, Type, Visibility};
 
 use crate::algebra::expr::Length;
@@ -35,15 +36,15 @@ pub struct Declaration {
     pub generics: Vec<Ident>,
     /// Names of the three stretches.
     pub stretches: [Ident; 3],
-    /// In the order of the declaration.
+    /// Parameters in the order of the declaration.
     pub parameters: Vec<Parameter>,
     /// Lengths of lists: an integer literal or a constant generic.
     pub lengths: Vec<Expr>,
-    /// Names whose own declaration is a mistake: what the body does with them is no further one.
+    /// Names whose own declaration is a mistake: their uses in the body are not reported again.
     pub mistaken: Vec<Ident>,
     /// The energy.
     pub body: syn::Block,
-    /// What the attribute says.
+    /// The arguments of the attribute.
     pub options: Options,
 }
 
@@ -55,11 +56,11 @@ pub struct Parameter {
     pub doc: String,
     /// The documentation as written.
     pub attributes: Vec<Attribute>,
-    /// What it is.
+    /// A number, a list or a function.
     pub kind: Kind,
 }
 
-/// What a parameter is.
+/// The kind of a parameter.
 pub enum Kind {
     /// A number.
     Number,
@@ -79,7 +80,7 @@ impl Parameter {
         }
     }
 
-    /// Whether it is a function.
+    /// Whether the parameter is a function.
     #[must_use]
     pub fn is_function(&self) -> bool {
         matches!(self.kind, Kind::Function(_))
@@ -100,14 +101,14 @@ impl Declaration {
         }
     }
 
-    /// Whether some parameter is a function, of which nothing is known before it is given.
+    /// Whether some parameter is a function, about which nothing is known here.
     #[must_use]
     pub fn has_functions(&self) -> bool {
         self.parameters.iter().any(Parameter::is_function)
     }
 }
 
-/// Words with a meaning in every energy.
+/// Names with a meaning in every energy.
 pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
 
 /// Reads the attribute's arguments and its item.
@@ -120,7 +121,8 @@ pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declarati
     diagnostics.finish(declaration)
 }
 
-/// The same with the mistakes set apart: what is left of the declaration may have further ones in its meaning.
+/// Reads the attribute's arguments and its item, and adds mistakes to the diagnostics: the rest of the
+/// declaration may have further ones in its meaning.
 pub fn read(arguments: TokenStream, item: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
     let options = Options::read(arguments, diagnostics);
     let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
@@ -153,6 +155,11 @@ pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
         _ => Vec::new(),
     });
     names.flatten().collect()
+}
+
+/// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
+pub(crate) fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
+    indexed_lists(condition.to_token_stream()).into_iter().next()
 }
 
 /// All names with an index that is a name, as in `mu[p]`, in order.

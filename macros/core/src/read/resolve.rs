@@ -1,4 +1,4 @@
-//! From the syntax of an energy to its expression graph: names get their meaning.
+//! The resolver: from the syntax of an energy, whose names get their meaning, to an expression graph.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,7 +8,7 @@ use syn::{BinOp, Expr, Ident, Lit, Pat, Stmt, UnOp};
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::diagnostics::Diagnostics;
-use crate::read::parse::{Declaration, identifiers, is_f64};
+use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
 use crate::read::spelling::taken;
 use sums::Index;
 
@@ -18,52 +18,69 @@ mod paper_notation;
 mod sums;
 mod tensors;
 
-/// Gives names their meaning in one declaration.
+/// A resolver of the names of one declaration.
 pub struct Resolver<'a> {
     declaration: &'a Declaration,
     graph: &'a mut Graph,
     diagnostics: &'a mut Diagnostics,
-    /// What names may stand for.
+    /// The names that may be used.
     scope: Scope,
     /// let-bindings in scope.
     bindings: HashMap<String, Id>,
     /// Names of all let-bindings so far.
     bound: HashSet<String>,
-    /// The index of the sum around.
+    /// The index of the enclosing sum.
     index: Option<Index>,
-    /// Names that were read, or that a mistake has been reported of.
+    /// Names that were used or reported.
     used: HashSet<String>,
     /// Names whose own declaration is a mistake.
     mistaken: HashSet<String>,
     nodes: Nodes,
 }
 
-/// NaN, which is no literal.
+/// The node of a mistake: NaN, which no literal is.
 const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 
-/// What to say of a closure or a function of the body's own.
+/// The message about a closure or a function inside the body.
 const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts by \
      `let`, also in a sum: `sum(|p| { let s = …; … })`";
 
-/// What an expression is a function of.
+/// The energy and the bounds of its domain with I1, I2, J in the places of the three stretches, unless a
+/// stretch is named. The declaration must be free of mistakes.
+pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>)> {
+    let mut diagnostics = Diagnostics::default();
+    let mut resolver =
+        Resolver { scope: Scope::Invariants, ..Resolver::new(declaration, graph, &mut diagnostics) };
+    let energy = resolver.energy();
+    let bounds = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
+    diagnostics.is_clean().then_some((energy, bounds))
+}
+
+/// The energy with I1b, I2b in the places of I1, I2. The declaration must be free of mistakes.
+pub fn isochoric(declaration: &Declaration, graph: &mut Graph) -> Id {
+    let mut diagnostics = Diagnostics::default();
+    Resolver { scope: Scope::Isochoric, ..Resolver::new(declaration, graph, &mut diagnostics) }.energy()
+}
+
+/// The variables of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Scope {
     /// λ1, λ2, λ3 and the parameters.
     Stretches,
-    /// The same, with I1b and I2b wherever I1 and I2 are written.
+    /// λ1, λ2, λ3 and the parameters, with I1b and I2b wherever I1 and I2 are written.
     Isochoric,
     /// I1, I2, J and the parameters.
     Invariants,
-    /// The parameters alone, in a condition that is emitted as it is written, numbers apart.
+    /// The parameters alone, in a condition that is emitted as it is written except for its literals.
     Parameters,
 }
 
-/// The node of each expression of a declaration, which is found by where it lies: declarations do not move.
+/// The node of each expression of a declaration, found by its address: declarations do not move.
 #[derive(Debug, Default)]
 pub struct Nodes(HashMap<*const Expr, Id>);
 
 impl Nodes {
-    /// What an expression of the declaration stands for.
+    /// The node of an expression of the declaration.
     #[must_use]
     pub fn of(&self, expression: &Expr) -> Option<Id> {
         self.0.get(&std::ptr::from_ref(expression)).copied()
@@ -71,7 +88,7 @@ impl Nodes {
 }
 
 impl<'a> Resolver<'a> {
-    /// For the body and the conditions of one declaration.
+    /// A resolver for the body and the conditions of one declaration.
     pub fn new(declaration: &'a Declaration, graph: &'a mut Graph, diagnostics: &'a mut Diagnostics) -> Self {
         for i in 0..3 {
             graph.stretch(i);
@@ -90,25 +107,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The same with I1, I2, J in the places of the three stretches, whose names are mistakes.
-    pub fn of_invariants(
-        declaration: &'a Declaration,
-        graph: &'a mut Graph,
-        diagnostics: &'a mut Diagnostics,
-    ) -> Self {
-        Self { scope: Scope::Invariants, ..Self::new(declaration, graph, diagnostics) }
-    }
-
-    /// The same with I1b, I2b in the places of I1, I2.
-    pub fn of_isochoric(
-        declaration: &'a Declaration,
-        graph: &'a mut Graph,
-        diagnostics: &'a mut Diagnostics,
-    ) -> Self {
-        Self { scope: Scope::Isochoric, ..Self::new(declaration, graph, diagnostics) }
-    }
-
-    /// The nodes of everything understood.
+    /// The nodes of all resolved expressions.
     #[must_use]
     pub fn into_nodes(self) -> Nodes {
         self.nodes
@@ -140,11 +139,11 @@ impl<'a> Resolver<'a> {
         difference
     }
 
-    /// The same of a comparison of parameters. One of entries `mu[p]` is summed: enough to steer samples, which use equal
-    /// signs for all entries.
-    pub fn condition(&mut self, comparison: &Expr, index: Option<Ident>) -> Option<Id> {
+    /// The difference that a comparison of parameters wants positive. One of entries `mu[p]` is summed:
+    /// enough to steer samples, which use equal signs for all entries.
+    pub fn condition(&mut self, comparison: &Expr) -> Option<Id> {
         let outer = std::mem::replace(&mut self.scope, Scope::Parameters);
-        self.index = index.map(Index::new);
+        self.index = indexed_list(comparison).map(|(_, index)| Index::new(index));
         let difference = self.difference(comparison);
         self.scope = outer;
         match self.index.take() {
@@ -230,8 +229,8 @@ impl<'a> Resolver<'a> {
     }
 
     fn expression(&mut self, expression: &Expr) -> Id {
-        let mut id = self.understand(expression);
-        // The innermost expression that does so reports it, and its value is another one.
+        let mut id = self.resolve(expression);
+        // The innermost expression that overflows reports it and is marked as a mistake.
         if self.graph.take_overflow() {
             id = self.mistake(expression, "the exact fraction here leaves 128 bits: use smaller numbers");
         }
@@ -239,7 +238,7 @@ impl<'a> Resolver<'a> {
         id
     }
 
-    fn understand(&mut self, expression: &Expr) -> Id {
+    fn resolve(&mut self, expression: &Expr) -> Id {
         match expression {
             Expr::Lit(literal) => self.literal(&literal.lit),
             Expr::Path(path) => match path.path.get_ident() {
@@ -322,11 +321,11 @@ impl<'a> Resolver<'a> {
             _ if is_numeric_type(suffix) => {
                 return self.mistake(literal, "numbers of an energy are `f64`: remove the suffix");
             }
-            // Papers write products so.
+            // Papers write products in this way.
             name => {
                 self.used.insert(name.to_owned());
                 let message =
-                    format!("`{digits}{name}` is no number: write `{digits} * {name}` for a product");
+                    format!("`{digits}{name}` is not a number: write `{digits} * {name}` for a product");
                 return self.mistake(literal, &message);
             }
         }
@@ -344,12 +343,12 @@ impl<'a> Resolver<'a> {
         self.unknown()
     }
 
-    /// What stands for a mistake: a number that no literal is, so that nothing cancels it and no rule on numbers applies.
+    /// The node of a mistake: NaN, so that nothing cancels it and no rule for numbers applies.
     fn unknown(&mut self) -> Id {
         self.graph.leaf(UNKNOWN)
     }
 
-    /// Whether a value is or depends on what a mistake stands for.
+    /// Whether a value depends on a mistake.
     fn is_unknown(&self, value: Id) -> bool {
         self.graph.reachable(&[value]).into_iter().any(|id| *self.graph.node(id) == UNKNOWN)
     }
@@ -359,14 +358,15 @@ impl<'a> Resolver<'a> {
         self.diagnostics.error(tokens, message);
     }
 
-    /// What is not understood for a mistake beside it is no further one.
+    /// Marks the names in a construct that was already rejected as used, so that they are not reported again
+    /// as unused.
     fn excuse_names(&mut self, tokens: impl ToTokens) {
         let names = identifiers(tokens.into_token_stream());
         self.used.extend(names.iter().map(Ident::to_string));
     }
 }
 
-/// Whether a suffix is one that numbers of Rust have.
+/// Whether a suffix is the name of a numeric type.
 fn is_numeric_type(suffix: &str) -> bool {
     const BITS: [&str; 6] = ["8", "16", "32", "64", "128", "size"];
     suffix.strip_prefix(['i', 'u']).is_some_and(|bits| BITS.contains(&bits))

@@ -1,8 +1,8 @@
-//! Names in messages: the one that somebody may have meant, lists of them, names given twice.
+//! Names in messages: the likely correction of a misspelt one, lists of names, names given twice.
 
 use std::fmt::Display;
 
-/// The known name within a third of the letters, if there is one.
+/// The known name that differs least, in at most a third of the letters.
 pub(crate) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     known
         .into_iter()
@@ -13,17 +13,22 @@ pub(crate) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// Names as they stand in a message: each in backticks, commas between them.
+/// A list of names for a message: each in backticks, commas between them.
 pub(crate) fn list(names: &[impl Display]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// What to say of a name given to a second thing.
+/// A name without underscores, which papers write as indices.
+pub(crate) fn plain(name: impl ToString) -> String {
+    name.to_string().replace('_', "")
+}
+
+/// The message about a name that is given twice.
 pub(crate) fn taken(name: &impl Display) -> String {
     format!("the name `{name}` is taken already: choose another one")
 }
 
-/// Insertions, deletions and replacements from one to the other; letters of either case are equal.
+/// The number of insertions, deletions and replacements between two names, without regard to case.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,22 +1,23 @@
-//! Common factors before the sums of what they multiply.
+//! Common factors taken out of sums.
 //!
 //! ```text
 //! 2μ/x² − 2μ ln x/x² + λ/x² − λ ln J/x² = (2μ − 2μ ln x + λ − λ ln J)/x²
 //! ```
 //!
-//! Only powers of stretches are taken out, and only of terms that are of degree zero without them: what is then added stays
-//! within the range of the numbers wherever parameters and logarithms do.
+//! Only powers of stretches are taken out, and only of terms that are of degree zero without them: the
+//! remaining sum then stays within the range of the number format wherever parameters and logarithms do.
+
+use rustc_hash::FxHashMap;
 
 use super::degrees::Degrees;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
-/// What expressions become, each found once for all programs of a graph.
+/// Expressions with common factors taken out, each found once for all programs of a graph.
 #[derive(Debug, Default)]
 pub struct Collector {
     pub(super) degrees: Degrees,
-    memo: HashMap<Id, Id>,
+    memo: FxHashMap<Id, Id>,
 }
 
 impl Collector {
@@ -65,7 +66,7 @@ fn collected(graph: &mut Graph, degrees: &mut Degrees, constant: Rational, terms
     graph.linear(constant, &terms)
 }
 
-/// A sum of sums as one.
+/// A sum of sums as a single sum.
 fn flat(graph: &mut Graph, terms: &[(Id, Rational)]) -> Id {
     let mut constant = Rational::ZERO;
     let mut all: Vec<(Id, Rational)> = Vec::new();

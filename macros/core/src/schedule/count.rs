@@ -1,35 +1,17 @@
-//! How many operations a program takes.
+//! Counts of the operations of a program.
 //!
-//! A fused multiplication and addition counts as both, so that numbers compare with those of a formula. Powers of one base
-//! share a logarithm, which counts once beside them; so does what the divided differences of two numbers share. Literals,
-//! parameters and stretches cost nothing. A total over a list takes one addition for each entry.
+//! A fused multiplication and addition counts as both, so that counts compare with those of a formula. Powers
+//! of one base share a logarithm, which counts once beside them; so does the common part of divided
+//! differences. Literals, parameters and stretches cost nothing. A total over a list takes one addition for
+//! each entry.
 
 use quote::ToTokens;
 use syn::Expr;
 
 use crate::algebra::expr::Length;
-use crate::model::{Model, Variant};
 use crate::read::parse::Declaration;
+use crate::schedule::program::{Op, Program, Statement};
 use crate::schedule::sorted::{Sorted, entry};
-use crate::schedule::{Op, Program, Statement};
-
-/// The operations that each result of a material takes by itself, by its name: inside the domain, and last the blocks of an
-/// energy continued beyond that. Blocks are what a tangent is made of: gradient, Hessian, flip and twist.
-#[must_use]
-pub fn counts(model: &mut Model) -> Vec<(&'static str, Count)> {
-    let Variant { energy, gradient, hessian, flip, twist, .. } = &model.plain;
-    let mut results = vec![
-        ("energy", vec![*energy]),
-        ("gradient", gradient.to_vec()),
-        ("energy, gradient and Hessian", [&[*energy], &gradient[..], hessian].concat()),
-        ("flip", flip.to_vec()),
-        ("twist", twist.to_vec()),
-        ("blocks", model.plain.blocks()),
-    ];
-    results.extend(model.extended.as_ref().map(|extended| ("blocks, continued", extended.blocks())));
-    let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&model.program(&roots)));
-    results.into_iter().map(count).collect()
-}
 
 /// The counts of a declaration as a table in Markdown.
 #[must_use]
@@ -42,27 +24,27 @@ pub fn table(declaration: &Declaration, counts: &[(&str, Count)]) -> String {
 /// Operations of about the same cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// Also subtraction, change of sign, maximum, selection.
+    /// Addition, subtraction, change of sign, maximum or selection.
     Addition,
-    /// Of two numbers.
+    /// Multiplication of two values.
     Multiplication,
-    /// Also a reciprocal.
+    /// Division or reciprocal.
     Division,
     /// Square or cube root.
     Root,
-    /// Also one that powers are made from.
+    /// Logarithm, also one from which powers are computed.
     Logarithm,
-    /// To the base e.
+    /// Exponential to the base e.
     Exponential,
-    /// With a real exponent.
+    /// Power with a real exponent.
     Power,
-    /// A divided difference, or what those of two numbers share.
+    /// Divided difference, or the common part of those of two values.
     Quotient,
     /// Call of a function that is a parameter.
     Function,
 }
 
-/// Those that cost more than an addition, as they are written beside a number of operations.
+/// Operations that cost more than an addition, with their signs in a summary.
 const COSTLY: [(Kind, &str); 7] = [
     (Kind::Division, "÷"),
     (Kind::Root, "√"),
@@ -73,7 +55,7 @@ const COSTLY: [(Kind, &str); 7] = [
     (Kind::Function, "f"),
 ];
 
-/// What numbers of operations mean, for whoever reads them.
+/// An explanation of the counts for their readers.
 pub const LEGEND: &str = "A fused multiplication and addition counts as two operations, a loop over lists of length N as N \
      times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a \
      multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters";
@@ -83,7 +65,7 @@ pub const LEGEND: &str = "A fused multiplication and addition counts as two oper
 pub struct Count(Sorted<(Kind, Option<Length>), usize>);
 
 impl Count {
-    /// Of everything that a program does.
+    /// The count of a whole program.
     #[must_use]
     pub fn of(program: &Program) -> Self {
         let mut count = Self::default();
@@ -107,14 +89,14 @@ impl Count {
         }
     }
 
-    /// Those of the kinds asked for, for lists of the lengths given.
+    /// The number of operations of the given kinds, for lists of the given lengths.
     #[must_use]
     pub fn number(&self, lengths: &[usize], is_asked: impl Fn(Kind) -> bool) -> usize {
         let times = |length: Option<Length>| length.map_or(1, |length| lengths[length]);
         self.0.iter().filter(|((kind, _), _)| is_asked(*kind)).map(|((_, l), n)| n * times(*l)).sum()
     }
 
-    /// All of them and those that are costly, such as `12 + 31 N (1 ÷, 1 ln, 3 N pow)`.
+    /// The number of all operations and of the costly ones, such as `12 + 31 N (1 ÷, 1 ln, 3 N pow)`.
     fn summary(&self, declaration: &Declaration) -> String {
         let all = self.text(declaration, |_| true);
         let costly = COSTLY.into_iter().filter_map(|(kind, sign)| {
@@ -125,7 +107,7 @@ impl Count {
         if costly.is_empty() { all } else { format!("{all} ({})", costly.join(", ")) }
     }
 
-    /// Those of the kinds asked for, such as `12 + 31 N`.
+    /// The number of operations of the given kinds, such as `12 + 31 N`.
     fn text(&self, declaration: &Declaration, is_asked: impl Fn(Kind) -> bool) -> String {
         let mut once = 0;
         let mut each: Sorted<Length, usize> = Sorted::new();
@@ -150,7 +132,7 @@ fn term(number: usize, length: &Expr) -> String {
     }
 }
 
-/// What an operation counts as.
+/// The kinds that an operation counts as.
 fn kinds(op: &Op) -> &'static [Kind] {
     match op {
         Op::Literal(_) | Op::Stretch(_) | Op::Strain(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => {

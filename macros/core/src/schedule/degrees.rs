@@ -1,19 +1,20 @@
-//! How expressions grow when all stretches are scaled by t: the exponent n of t^n.
+//! Degrees of expressions: the exponent n of the growth t^n when all stretches are scaled by t.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 
-/// For t → 0 and for t → ∞.
+/// The degree for t → 0 and for t → ∞.
 pub(super) type Degree = [f64; 2];
 
 /// Degrees of expressions, each found once.
 #[derive(Debug, Default)]
 pub(super) struct Degrees {
-    memo: HashMap<Id, Degree>,
+    memo: FxHashMap<Id, Degree>,
 }
 
 impl Degrees {
-    /// Of a node.
+    /// The degree of a node.
     pub(super) fn of(&mut self, graph: &Graph, id: Id) -> Degree {
         if let Some(&done) = self.memo.get(&id) {
             return done;
@@ -50,13 +51,13 @@ impl Degrees {
             }
             // max(λ, ε) and powers of it.
             Node::Above(_) => [0.0, 1.0],
-            // Logarithms, exponentials, parameters, and what of a stretch is bounded.
+            // Logarithms, exponentials, parameters, and bounded functions of a stretch.
             _ => [0.0; 2],
         }
     }
 }
 
-/// A real exponent is unknown here and counts by its rational part.
+/// The degree of a power. A real exponent is unknown here and counts by its rational part.
 pub(super) fn power(degrees: Degree, exponent: Exponent) -> Degree {
     degrees.map(|degree| degree * exponent.rational.to_f64())
 }

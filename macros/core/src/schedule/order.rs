@@ -1,35 +1,38 @@
-//! In which order the factors of a product are multiplied: such that no part of it leaves the range of the numbers when the
-//! product does not.
+//! The order in which the factors of a product are multiplied: such that no partial product leaves the range
+//! of the number format when the product does not.
 //!
-//! A product of high degree leaves the range soonest, so factors are taken such that the degree of what has been multiplied
-//! stays near zero. With I1 y^(−2/3) z^(−2/3) x^(−8/3), of degree −2, the powers of stretches alone would be of degree −4.
+//! A product of high degree leaves the range soonest, so factors are taken such that the degree of the
+//! partial product stays near zero. With I1 y^(−2/3) z^(−2/3) x^(−8/3), of degree −2, the powers of stretches
+//! alone would be of degree −4.
 //!
-//! Among factors that are equally good, the one is taken with which what has been multiplied is a part of the most products of
-//! the program: such a part is computed once for all of them.
+//! Ties go to the factor whose partial product occurs in the most other products, because it is computed once
+//! for all of them.
+
+use rustc_hash::FxHashMap;
 
 use super::degrees::{Degree, Degrees, power, sum};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// A base with an exponent, one of those into which [`parts`] takes powers.
 type Factor = (Id, Exponent);
 
-/// What decides on the order: degrees, and the products of a program.
+/// Data that decide on the order: degrees, and the products of a program.
 pub(super) struct Order<'d> {
     degrees: &'d mut Degrees,
-    /// The factors of each product; beside the n-th of one kind the place of those products that have n or more of it.
-    products: HashMap<Id, Vec<(Factor, usize)>>,
+    /// The factors of each product, the n-th of one kind with the index of the set of products that have n or
+    /// more of it.
+    products: FxHashMap<Id, Vec<(Factor, usize)>>,
     sets: Vec<Set>,
     /// All products.
     all: Set,
 }
 
-/// Products of a program, each by a bit.
+/// A set of products of a program, a bit for each.
 type Set = Vec<u64>;
 
 impl<'d> Order<'d> {
-    /// For products among these nodes.
+    /// The order for the products among these nodes.
     pub(super) fn of(graph: &Graph, degrees: &'d mut Degrees, reachable: &[Id]) -> Self {
         let factors = |&id: &Id| match graph.node(id) {
             Node::Product(factors) => Some((id, apart(factors))),
@@ -37,8 +40,8 @@ impl<'d> Order<'d> {
         };
         let found: Vec<_> = reachable.iter().filter_map(factors).collect();
         let words = found.len().div_ceil(64);
-        let (mut products, mut sets) = (HashMap::default(), Vec::new());
-        let mut places: HashMap<(Factor, usize), usize> = HashMap::default();
+        let (mut products, mut sets) = (FxHashMap::default(), Vec::new());
+        let mut places: FxHashMap<(Factor, usize), usize> = FxHashMap::default();
         for (product, (id, factors)) in found.into_iter().enumerate() {
             let mut placed: Vec<(Factor, usize)> = Vec::with_capacity(factors.len());
             for factor in factors {
@@ -64,12 +67,12 @@ impl<'d> Order<'d> {
         }
         let mut order: Vec<Factor> = Vec::with_capacity(left.len());
         let mut total = [0.0; 2];
-        // The products of which what has been multiplied is a part.
+        // The products that contain the partial product.
         let mut alike = self.all.clone();
         while !left.is_empty() {
             let size = |[low, high]: Degree| (total[0] + low).abs() + (total[1] + high).abs();
             let smallest = degrees.iter().copied().map(size).fold(f64::INFINITY, f64::min);
-            // The first of the most shared of the smallest.
+            // Of the factors with the smallest size, the first of the most shared.
             let mut best: Option<(usize, u32)> = None;
             for (k, &(factor, place)) in left.iter().enumerate() {
                 if size(degrees[k]) > smallest || left[..k].iter().any(|other| other.0 == factor) {
@@ -81,7 +84,7 @@ impl<'d> Order<'d> {
                     best = Some((k, number));
                 }
             }
-            // A degree that is no number is as good as any.
+            // If a degree is NaN, the first factor is taken.
             let (k, _) = best.unwrap_or_default();
             let (factor, place) = left.remove(k);
             total = sum(total, degrees.remove(k));
@@ -92,8 +95,7 @@ impl<'d> Order<'d> {
     }
 }
 
-/// Factors such that no power of one base leaves the range when their product does not: x^(−7/3) may where x^(−1/3) and x^(−1)
-/// do not.
+/// Powers split into factors that stay in range: x^(−7/3) may leave it where x^(−1/3) and x^(−1) do not.
 fn apart(factors: &[Factor]) -> Vec<Factor> {
     let mut apart = Vec::with_capacity(factors.len());
     for &(base, exponent) in factors {

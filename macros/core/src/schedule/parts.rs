@@ -1,20 +1,21 @@
-//! What sums have in common: parts, so that a sum starts from another one, and coefficients of their terms.
+//! Common parts of sums: partial sums from which a sum starts, and common coefficients.
 //!
 //! ```text
 //! 2μ + λ − 2μ ln x − λ ln J = (2μ + λ) − (2μ ln x + λ ln J)
 //! ```
 //!
-//! The last is x times the first derivative of the same energy. An expression graph has no sums of sums, so this is said while
-//! its operations are put in order. Nor does it have
+//! The last sum is x times the first derivative of the same energy. Sums are flat in the expression graph, so
+//! shared partial sums are introduced here, during scheduling; so is the form
 //!
 //! ```text
 //! a − c s − c t = a − c (s + t)
 //! ```
 //!
-//! which saves a multiplication unless c s or c t is needed by another sum.
+//! which saves a multiplication unless another sum needs c s or c t.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
 /// A sum as a constant and terms with their coefficients.
@@ -22,14 +23,14 @@ pub(super) type Linear = (Rational, Vec<(Id, Rational)>);
 
 /// The sums of a program.
 pub(super) struct Parts {
-    /// The longest first.
+    /// The sums, the longest first.
     sums: Vec<(Id, Linear)>,
-    /// In how many sums a term has a coefficient of this magnitude.
-    multiples: HashMap<(Id, Rational), usize>,
+    /// The number of sums in which a term has a coefficient of this magnitude.
+    multiples: FxHashMap<(Id, Rational), usize>,
 }
 
 impl Parts {
-    /// Those among these nodes.
+    /// The sums among these nodes.
     pub(super) fn of(graph: &Graph, reachable: &[Id]) -> Self {
         let sum = |&id: &Id| match graph.node(id) {
             Node::Linear { constant, terms } if terms.len() > 1 => Some((id, (*constant, terms.clone()))),
@@ -37,21 +38,21 @@ impl Parts {
         };
         let mut sums: Vec<_> = reachable.iter().filter_map(sum).collect();
         sums.sort_by_key(|(_, (_, terms))| std::cmp::Reverse(terms.len()));
-        let mut multiples = HashMap::default();
+        let mut multiples = FxHashMap::default();
         for &(term, c) in sums.iter().flat_map(|(_, (_, terms))| terms) {
             *multiples.entry((term, c.magnitude())).or_default() += 1;
         }
         Self { sums, multiples }
     }
 
-    /// The terms in groups that have one coefficient but for signs.
+    /// The terms in groups whose coefficients differ only by their signs.
     pub(super) fn groups(&self, (constant, terms): &Linear) -> Vec<Vec<(Id, Rational)>> {
         let is_shared = |&&(id, c): &&(Id, Rational)| {
             self.multiples.get(&(id, c.magnitude())).is_some_and(|&sums| sums > 1)
         };
         let are_alike =
             |a: Rational, b: Rational| a.magnitude() == b.magnitude() && a.magnitude() != Rational::ONE;
-        // A multiple that other sums need, too, is no reason for a second multiplication here if it is the only one.
+        // A single multiple that other sums need too is no reason for a second multiplication here.
         let all_alike = constant.is_zero() && terms.iter().all(|&(_, c)| are_alike(c, terms[0].1));
         let one_group = all_alike && terms.iter().filter(is_shared).count() <= 1;
         let mut groups: Vec<Vec<(Id, Rational)>> = Vec::new();

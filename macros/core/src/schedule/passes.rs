@@ -1,8 +1,9 @@
-//! What is done to a program once its operations are in order.
+//! Passes over a program whose operations are in order: fusion and renumbering.
 
-use super::{Op, Program, Statement, Value};
+use super::program::{Op, Program, Statement, Value};
 
-/// a b + c, c − a b and a b − c in one operation where the product is used nowhere else; of a program with so many values.
+/// Fuses a b + c, c − a b and a b − c into one operation where the product is used nowhere else, given the
+/// number of values.
 pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program {
     let mut uses = vec![0; values];
     let mut products = vec![None; values];
@@ -58,8 +59,8 @@ pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program 
     program
 }
 
-/// Numbers values in the order in which they are computed; literals and inputs, which are written where they are used,
-/// come after all others.
+/// Numbers values in the order in which they are computed; literals and inputs, which are written where they
+/// are used, come after all others.
 pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     let (mut named, mut inlined) = (Vec::new(), Vec::new());
     let mut name = |value: Value, op: Option<Op>| {
@@ -101,7 +102,7 @@ pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     program
 }
 
-/// Whether it is written where it is used.
+/// Whether an operation is written where its value is used.
 fn is_inlined(op: Op) -> bool {
     matches!(
         op,

@@ -1,35 +1,36 @@
-//! Which powers of each base are needed, and which one of them is computed.
+//! Powers of each base: which ones are needed, and which one of them is computed.
+
+use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::LARGEST_ROOT;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 
-/// Which powers of each base are needed, to choose the one that is computed.
+/// The powers of each base that are needed, to choose the one that is computed.
 pub(super) struct Powers {
     /// Common denominator of the simple fractional exponents of a base.
-    denominators: HashMap<Id, i128>,
+    denominators: FxHashMap<Id, i128>,
     /// The rational part of the exponent of the power that is computed.
-    representatives: HashMap<PowerClass, Rational>,
+    representatives: FxHashMap<PowerClass, Rational>,
 }
 
-/// Powers that follow from each other by multiplication with the base: the base, the real part of the exponent, and the
-/// fraction of its rational part.
+/// Powers that follow from each other by multiplication with the base: the base, the real part of the
+/// exponent, and the fraction of its rational part.
 type PowerClass = (Id, Option<Id>, Rational);
 
-/// How a power is computed.
-pub(super) enum Way {
-    /// As a power of the root of this degree.
+/// The way in which a power is computed.
+pub(super) enum Evaluation {
+    /// A power of the root of this degree.
     Root(i128),
-    /// From the real power whose exponent has this rational part.
+    /// A multiple of the real power whose exponent has this rational part.
     Real(Rational),
 }
 
 impl Powers {
-    /// Those that the nodes read.
+    /// The powers that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
-        let mut denominators: HashMap<Id, i128> = HashMap::default();
-        let mut used: HashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = HashMap::default();
+        let mut denominators: FxHashMap<Id, i128> = FxHashMap::default();
+        let mut used: FxHashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = FxHashMap::default();
         for &id in reachable {
             match graph.node(id) {
                 Node::Product(factors) => {
@@ -61,17 +62,17 @@ impl Powers {
         Self { denominators, representatives }
     }
 
-    /// How `base^exponent` is computed.
-    pub(super) fn way(&self, base: Id, exponent: Exponent) -> Way {
+    /// The way in which `base^exponent` is computed.
+    pub(super) fn evaluation(&self, base: Id, exponent: Exponent) -> Evaluation {
         let Exponent { rational, .. } = exponent;
         if exponent.as_integer().is_some() {
-            Way::Root(1)
+            Evaluation::Root(1)
         } else if is_simple(exponent) {
             // Roots of one base share a common one unless that is of too high a degree.
             let common = self.denominators.get(&base).copied().filter(|&common| common <= LARGEST_ROOT);
-            Way::Root(common.unwrap_or(rational.denominator()))
+            Evaluation::Root(common.unwrap_or(rational.denominator()))
         } else {
-            Way::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
+            Evaluation::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
         }
     }
 }

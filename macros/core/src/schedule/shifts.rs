@@ -1,16 +1,17 @@
-//! Whole powers that every term of a sum over a list shares, taken out of it.
+//! Whole powers taken out of sums over lists, if every term shares them.
 //!
 //! ```text
 //! Σₚ μₚ (αₚ − 1) x^(αₚ−2) = x⁻¹ Σₚ (αₚ − 1) (μₚ x^(αₚ−1))
 //! ```
 //!
-//! Of the powers x^(αₚ+k) only one is computed; the others are it times a power of x, which is the same for all p and then is
-//! multiplied once, not for every entry; and so is a whole power of a stretch itself. What is left in the sum is what other
-//! sums have computed already.
+//! Only one of the powers x^(αₚ+k) is computed; each other one is that one times a power of x, which is the
+//! same for all p and then is multiplied once, not for every entry; and so is a whole power of a stretch
+//! itself. The terms that remain in the sum have been computed already for other sums.
 
-use super::powers::{Powers, Way};
+use rustc_hash::FxHashMap;
+
+use super::powers::{Evaluation, Powers};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::hash::HashMap;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
 use crate::schedule::sorted::{Sorted, entry};
@@ -26,11 +27,11 @@ pub(super) fn take_out(graph: &mut Graph, powers: &Powers, roots: &[Id]) -> Vec<
         let sum = graph.sum(length, rest);
         Some(times(graph, sum, &shifts))
     };
-    let mut memo = HashMap::default();
+    let mut memo = FxHashMap::default();
     roots.iter().map(|&root| rewrite(graph, root, &mut memo, &rule)).collect()
 }
 
-/// The shifts of all terms and what is left without them.
+/// The shifts of all terms and the expression without them.
 fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
     match graph.node(id).clone() {
         Node::Product(factors) => {
@@ -46,11 +47,11 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                     left.push((rest, Exponent::ONE));
                     continue;
                 }
-                let shift = match powers.way(base, exponent) {
-                    Way::Real(computed) if !varies(graph, base) => {
+                let shift = match powers.evaluation(base, exponent) {
+                    Evaluation::Real(computed) if !varies(graph, base) => {
                         exponent.rational.checked_add(computed.negated())
                     }
-                    Way::Real(_) | Way::Root(_) => None,
+                    Evaluation::Real(_) | Evaluation::Root(_) => None,
                 };
                 match shift.and_then(Rational::as_integer) {
                     Some(n) if n != 0 && exponent.real.is_some() => {
@@ -83,7 +84,7 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
     }
 }
 
-/// Whether it may differ from entry to entry: such a base stays in its sum.
+/// Whether a base may differ from entry to entry: such a base stays in its sum.
 fn varies(graph: &Graph, id: Id) -> bool {
     graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
 }

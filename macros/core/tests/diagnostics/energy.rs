@@ -1,4 +1,5 @@
-//! Mistakes of the energy itself, whose words are understood: stress at rest, asymmetry, no value inside the domain.
+//! Mistakes of the energy itself, whose words are understood: stress at rest, asymmetry, no value inside the
+//! domain.
 
 use super::{GOOD, check, check_added, check_body, mistakes};
 
@@ -35,8 +36,8 @@ fn physics() {
         (
             "",
             "I1b - 3.0",
-            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` where inverted material is \
-             to be as good as upright",
+            "no value where J = 0, in flat material: declare `domain(J > 0.0)`, or `domain(J != 0.0)` if the energy should treat \
+             inverted elements (J < 0) like upright ones",
         ),
         (
             "",
@@ -84,7 +85,7 @@ fn stress_at_rest_is_gathered() {
     says("", "A: f64, n: f64", energy, "2.0 * A * 3.0.powf(n) + A * n * 3.0.powf(n)");
 }
 
-/// An incompressible solid lacks a term; where the volume is spoken of, what is written is wrong.
+/// An incompressible solid lacks a term; in an energy with J, a term is mistyped.
 #[test]
 fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
     let says_so = |attribute: &str, energy: &str| {
@@ -128,7 +129,7 @@ fn the_stress_at_rest_is_taken_away_by_what_is_printed() {
     check("mu * (I1 + 2 / b / (1 + b * I1 / 3)) / 6 + (mu / (b * J) + b).ln()", None);
 }
 
-/// A term in `J - 1.0` is offered just where it does without another domain.
+/// A term in `J - 1.0` is offered only if it needs no other domain.
 #[test]
 fn what_is_printed_has_a_value_wherever_it_is_said_to() {
     let check = |arguments: &str, energy: &str, place: Option<&str>| {
@@ -162,7 +163,7 @@ fn what_is_printed_has_a_value_wherever_it_is_said_to() {
     check("domain(J != 0.0)", "mu * (I1 + J.powi(-2) / 2)", Some("the declared one"));
 }
 
-/// Beside rest, rounding leaves what vanishes there of either sign.
+/// Near rest, rounding gives an expression that vanishes there either sign.
 #[test]
 fn what_vanishes_at_rest_has_whole_powers() {
     for (factor, written, power) in [
@@ -173,10 +174,10 @@ fn what_vanishes_at_rest_has_whole_powers() {
         ("sum(|p| m[p])", "(2.0 * J.ln()).powf(mu)", "(2.0 * J.ln()).powf(mu)"),
     ] {
         let term = format!("{factor} * {written}");
-        check_added(&term, written, &format!("`{power}` is of what vanishes at rest"));
+        check_added(&term, written, &format!("the base of `{power}` vanishes at rest"));
     }
     let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
-    check_added(of_entries, of_entries, "`(2.0 * J.ln()).powf(m[p])` is of what vanishes at rest");
+    check_added(of_entries, of_entries, "the base of `(2.0 * J.ln()).powf(m[p])` vanishes at rest");
     check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
 }
 
@@ -199,12 +200,12 @@ fn what_vanishes_elsewhere_is_a_limit() {
         assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
         check(&domain, &energy(term), &[]);
     }
-    // Parameters that are admissible decide.
+    // The admissible parameters decide.
     let logarithm = "(1 + b * (I1b - 3)).ln()";
     let term = format!("mu * {logarithm}");
     check("domain(J > 0.0)", &energy(&term), &[]);
     check("domain(J > 0.0), admissible(b < 0.0)", &energy(&term), &[(logarithm, "inside the domain")]);
-    // What I1 leaves when volume is lost, I1b keeps.
+    // I1 leaves the bound when volume is lost; I1b stays above it.
     for term in
         ["mu * (I1 - 3 + b).powf(b)", "mu * (b + b * (I1 - 2).ln())", "mu * (I1 - 3 + b.powi(2)).sqrt()"]
     {
@@ -228,7 +229,7 @@ fn what_vanishes_elsewhere_is_a_limit() {
         message.contains("* J.ln()` with `domain(J > 0.0, 1.0 - (I1 - 3.0) / (m - 3.0) > 0.0)`"),
         "{message}"
     );
-    // It is the denominator that vanishes, and the whole term that has none.
+    // The denominator vanishes, and the whole term has no value.
     check(
         "",
         "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 3.0 * J) + mu / (2.0 - J) }",
@@ -249,19 +250,19 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
         (
             "mu * (I2 / 3).powf(1 + b)",
             "(I2 / 3).powf(1 + b)",
-            "λ2 = λ3 = 0, in what is collapsed to a line",
+            "λ2 = λ3 = 0, in elements collapsed to a line",
             "b + 1.0",
         ),
         (
             "mu * (I1 / 3).powf(b)",
             "(I1 / 3).powf(b)",
-            "λ1 = λ2 = λ3 = 0, in what is collapsed to a point",
+            "λ1 = λ2 = λ3 = 0, in elements collapsed to a point",
             "b",
         ),
         (
             "mu * J.powi(2).powf(2 - b)",
             "J.powi(2).powf(2 - b)",
-            "λ3 = 0, in what is collapsed to a sheet",
+            "λ3 = 0, in elements collapsed to a sheet",
             "2.0 - b",
         ),
         (
@@ -284,7 +285,8 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
     }
     check("prestressed", &energy("mu * I2.ln()"), &[("I2.ln()", "`I2.ln()` has no value where λ2 = λ3 = 0")]);
     let of_sums = "mu * I1.powf(sum(|q| m[q]))";
-    let message = "negative and λ1 = λ2 = λ3 = 0, in what is collapsed to a point: declare `domain(J > 0.0)`";
+    let message =
+        "negative and λ1 = λ2 = λ3 = 0, in elements collapsed to a point: declare `domain(J > 0.0)`";
     check("prestressed", &energy(of_sums), &[("I1.powf(sum(|q| m[q]))", message)]);
     check("prestressed", &energy("mu / I1"), &[("mu / I1", "has no value where λ1 = λ2 = λ3 = 0")]);
     for fine in ["mu * I2.sqrt()", "mu * (1 + I1).powf(b)", "mu * (1 + I1).ln()", "mu * (b * b * I2).exp()"] {
@@ -292,7 +294,7 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
     }
 }
 
-/// Conditions that exclude what is flat are none of an energy that is continued from there.
+/// `extend` continues an energy from J = 0 and therefore excludes conditions that fail at J = 0.
 #[test]
 fn what_is_extended_has_room_for_flat_elements() {
     let energy =
@@ -325,7 +327,7 @@ fn the_asymmetric_term_is_named_where_it_is_short() {
     check_body(whole, &[(whole, "but this does: write")]);
 }
 
-/// Of different terms, or of one term and of one that is missing.
+/// Mistakes of different terms, or of one term and of a missing one.
 #[test]
 fn independent_mistakes_come_at_once() {
     let energy = |body: &str| {
@@ -344,7 +346,7 @@ fn independent_mistakes_come_at_once() {
     check(
         "domain(J > 0.0)",
         &energy("kappa * (I1b - 3).powf(2.5) + mu * I1"),
-        &[("(I1b - 3).powf(2.5)", "is of what vanishes at rest"), ("mu * I1", stressed)],
+        &[("(I1b - 3).powf(2.5)", "vanishes at rest and is negative nearby"), ("mu * I1", stressed)],
     );
     check(
         "",
@@ -356,7 +358,7 @@ fn independent_mistakes_come_at_once() {
         "fn E([l1, l2, l3]: [f64; 3], kappa: f64) -> f64 { kappa * J.ln().powi(2) }",
         &[(logarithm, inverted), (logarithm, "the shear modulus of this energy is zero at rest")],
     );
-    // What one says to declare holds what the other does.
+    // The domain that one message asks for includes that of the other.
     let limited = "mu * (1 - (I1 - 3) / m).ln()";
     let both = "domain(J > 0.0, 1.0 - (I1 - 3.0) / m > 0.0)";
     let energy = energy(&format!("{limited} + {logarithm}"));
@@ -389,5 +391,10 @@ fn one_term_is_one_mistake() {
         "mu * J.ln()",
         "append `+ mu * (J - 1.0)` with `domain(J > 0.0)`, or remove the term in `J.ln()`",
     );
-    check("", &format!("mu * (J - 1).cbrt() + {volume}"), "(J - 1).cbrt()", "is of what vanishes at rest");
+    check(
+        "",
+        &format!("mu * (J - 1).cbrt() + {volume}"),
+        "(J - 1).cbrt()",
+        "vanishes at rest and is negative nearby",
+    );
 }

@@ -11,7 +11,7 @@ use proc_macro2::TokenStream;
 /// The messages of a declaration, each with the tokens that it stands on.
 fn mistakes(arguments: &str, item: &str) -> Vec<(String, String)> {
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    let understood = piola_codegen::understand(tokens(arguments), tokens(item));
+    let understood = piola_codegen::analyse(tokens(arguments), tokens(item));
     let errors = understood.err().into_iter().flatten();
     errors.map(|error| (error.span().source_text().unwrap_or_default(), error.to_string())).collect()
 }
@@ -61,7 +61,7 @@ fn check_signature(signature: &str, expected: &[(&str, &str)]) {
 #[test]
 fn a_good_energy_has_none() {
     check_body(GOOD, &[]);
-    // A whole power of what vanishes at rest is zero there, not unknown.
+    // A whole power of an expression that vanishes at rest is zero there, not unknown.
     check_body(&format!("{GOOD} + mu * (I1b - 3.0).powi(2) + mu * J.ln().powf(2.0)"), &[]);
     check_arguments(
         "domain(J > 0.0), admissible(m[p] * m[p] > -1.0, mu.powi(2.0) * 3.0.sqrt() >= 0), extend(mu > 0.0)",
@@ -112,7 +112,7 @@ fn one_mistake_gives_one_message() {
         "n",
         "the index `n` only selects entries",
     );
-    // What hangs on a mistaken binding is no mistake of its own.
+    // Uses of a mistaken binding are not reported again.
     for (binding, tokens, expected) in [
         ("let n = [1.0, 2.0];", "[1.0, 2.0]", "written out, term by term"),
         ("let n = vec![1.0, 2.0];", "vec![1.0, 2.0]", "an energy is made of numbers"),
@@ -154,7 +154,7 @@ fn names() {
     check_added(
         "sum(|p| m[p] * p)",
         "p",
-        "selects entries, as in `m[p]`, and is no number: write the terms out",
+        "selects entries, as in `m[p]`, and is not a number: write the terms out",
     );
     check_added("I3", "I3", "write `J.powi(2)`");
     check_added("I1_bar", "I1_bar", "write `I1b`");
@@ -235,7 +235,7 @@ fn parts_are_named_inside_sums() {
             "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N]) -> f64 {{ {energy} + {sum} }}"
         );
         let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-        let (_, model) = piola_codegen::understand(tokens("domain(J > 0.0)"), tokens(&item)).expect(sum);
+        let (_, model) = piola_codegen::analyse(tokens("domain(J > 0.0)"), tokens(&item)).expect(sum);
         let point = &model.samples[0];
         [model.energy, model.plain.energy].map(|id| evaluate(&model.graph, id, point).value)
     };
@@ -303,7 +303,7 @@ fn tensors() {
     check_added("C.inverse()", "C", "C has eigenvalues");
     check_added("C.transpose().double_dot(C)", "C", "C has eigenvalues");
     check_added("Cinv", "Cinv", "C has eigenvalues");
-    // What the declaration names is no tensor.
+    // Names of the declaration are not tensors.
     check_body(&format!("let b = mu; {GOOD} + tr(b)"), &[("tr", "write the sum of the eigenvalues")]);
 }
 
@@ -332,7 +332,7 @@ fn numbers() {
 /// Papers write products without a sign.
 #[test]
 fn numbers_before_names() {
-    check_added("mu * (2mu - 1.0)", "2mu", "`2mu` is no number: write `2 * mu` for a product");
+    check_added("mu * (2mu - 1.0)", "2mu", "`2mu` is not a number: write `2 * mu` for a product");
     check_added("J.powf(2.5mu)", "2.5mu", "write `2.5 * mu` for a product");
     check_added("J.powi(2u1)", "2u1", "write `2 * u1` for a product");
     check_body(&GOOD.replace("mu *", "2mu *"), &[("2mu", "write `2 * mu` for a product")]);
@@ -388,8 +388,8 @@ fn arguments() {
         check_arguments(&format!("domain(J > 0.0), admissible({condition})"), &[(tokens, expected)]);
     };
     parameters("mu", "mu", "a condition is a comparison");
-    parameters("l1 > 0.0", "l1", "stands in `domain(…)`");
-    parameters("mu * J > 0.0", "J", "stands in `domain(…)`");
+    parameters("l1 > 0.0", "l1", "stand in `domain(…)`");
+    parameters("mu * J > 0.0", "J", "stand in `domain(…)`");
     parameters("mu.powi(1 + 1) > 0.0", "1 + 1", "`powi` takes one number");
     parameters("mu.powi(0.5) > 0.0", "0.5", "`powi` takes a whole number");
     parameters("mu.abs() > 0.0", "abs", "has a kink");
@@ -475,7 +475,7 @@ fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);
 }
 
-/// How the compiler underlines tokens changes; what it says of the cases of `piola-macros` does not.
+/// The messages of the cases of `piola-macros`, whatever way the compiler underlines tokens.
 #[test]
 fn the_compiler_shows_these_messages() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
@@ -493,7 +493,7 @@ fn the_compiler_shows_these_messages() {
         }
         let said: Vec<String> = declarations
             .into_iter()
-            .flat_map(|(arguments, item)| piola_codegen::understand(arguments, item).err())
+            .flat_map(|(arguments, item)| piola_codegen::analyse(arguments, item).err())
             .flatten()
             .map(|error| error.to_string())
             .collect();

@@ -9,7 +9,7 @@
 /// Typical: `mu = 3.3e5, jm = 108.0, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 ///
 /// ```text
-/// ψ = 1/2 κ (J − 1)² − 1/2 μ jm ln(−(I1 − 3)/jm + 1) − μ ln J
+/// ψ = 1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J
 /// ```
 ///
 /// **Parameters**:
@@ -27,17 +27,17 @@
 /// **Derivatives** inside the domain, with D⁻₁₂ = (ψ₁ − ψ₂)/(λ₁ − λ₂) and D⁺₁₂ = (ψ₁ + ψ₂)/(λ₁ + λ₂), where f\[x, y\] is (f(x) − f(y))/(x − y); the others follow by exchange of stretches:
 ///
 /// ```text
-/// ψ₁ = μ λ₁/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₂ λ₃ − μ/λ₁
-/// ψ₁₁ = μ/(−(I1 − 3)/jm + 1) + 2 μ λ₁²/(jm (−(I1 − 3)/jm + 1)²) + μ/λ₁² + κ λ₂² λ₃²
-/// ψ₁₂ = 2 μ λ₁ λ₂/(jm (−(I1 − 3)/jm + 1)²) + κ (J − 1) λ₃ + κ λ₁ λ₂ λ₃²
-/// D⁻₁₂ = μ/(−(I1 − 3)/jm + 1) + μ/(λ₁ λ₂) − κ (J − 1) λ₃
-/// D⁺₁₂ = μ/(−(I1 − 3)/jm + 1) + κ (J − 1) λ₃ − μ/(λ₁ λ₂)
+/// ψ₁ = μ λ₁/(1 − (I1 − 3)/jm) + κ (J − 1) λ₂ λ₃ − μ/λ₁
+/// ψ₁₁ = μ/(1 − (I1 − 3)/jm) + 2 μ λ₁²/(jm (1 − (I1 − 3)/jm)²) + μ/λ₁² + κ λ₂² λ₃²
+/// ψ₁₂ = 2 μ λ₁ λ₂/(jm (1 − (I1 − 3)/jm)²) + κ (J − 1) λ₃ + κ λ₁ λ₂ λ₃²
+/// D⁻₁₂ = μ/(1 − (I1 − 3)/jm) + μ/(λ₁ λ₂) − κ (J − 1) λ₃
+/// D⁺₁₂ = μ/(1 − (I1 − 3)/jm) + κ (J − 1) λ₃ − μ/(λ₁ λ₂)
 /// ```
 ///
 /// **By the invariants**, from which the stress needs no stretches:
 ///
 /// ```text
-/// ∂ψ/∂I1 = 1/2 μ/(−(I1 − 3)/jm + 1)
+/// ∂ψ/∂I1 = 1/2 μ/(1 − (I1 − 3)/jm)
 /// ∂ψ/∂I2 = 0
 /// ∂ψ/∂J = κ (J − 1) − μ/J
 /// ```
@@ -912,7 +912,7 @@ impl ::piola::material::Declared for Gent {
     const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
         name: "Gent",
         summary: "Gent solid: rubber that locks where I1 − 3 reaches Jm.",
-        formula: "1/2 κ (J − 1)² − 1/2 μ jm ln(−(I1 − 3)/jm + 1) − μ ln J",
+        formula: "1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J",
         parameters: &[
             ::piola::material::Parameter {
                 name: "mu",

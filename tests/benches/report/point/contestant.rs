@@ -4,7 +4,7 @@
 
 use piola::Real;
 use piola::batch::{Batch, TileMaterial, Layout, Stages};
-use piola::lanes::{Backend, Element, Kernel, Lanes};
+use piola::lanes::{Backend, Scalar, Kernel, Lanes};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd};
 use piola_tests::baselines::automatic::{self, Potential};

@@ -1,4 +1,4 @@
-//! Exponents: what powers are raised to, and how products add them.
+//! Exponents of powers, and how products add them.
 
 use super::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
@@ -13,7 +13,7 @@ pub struct Exponent {
 }
 
 impl Exponent {
-    /// 1.
+    /// The exponent 1.
     pub const ONE: Self = Self::rational(Rational::ONE);
 
     /// A fraction.
@@ -34,7 +34,7 @@ impl Exponent {
         if self.real.is_some() { None } else { self.rational.as_integer() }
     }
 
-    /// Whether it is n/3: the one root that numbers below zero have everywhere, as [`cbrt`](f64::cbrt).
+    /// Whether it is n/3: negative numbers have cube roots, by [`cbrt`](f64::cbrt).
     pub(crate) fn is_of_cube_root(self) -> bool {
         self.real.is_none() && self.rational.denominator() == 3
     }

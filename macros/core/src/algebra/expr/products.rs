@@ -1,36 +1,36 @@
-//! Products with exponents: what writes them, and their normal form.
+//! Products with exponents: their constructors and their normal form.
 
 use super::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 impl Graph {
-    /// a · b.
+    /// The product a · b.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
         self.product(&[(a, Exponent::ONE), (b, Exponent::ONE)])
     }
 
-    /// Product of several.
+    /// The product of several expressions.
     pub fn product_of(&mut self, factors: &[Id]) -> Id {
         let factors: Vec<_> = factors.iter().map(|&factor| (factor, Exponent::ONE)).collect();
         self.product(&factors)
     }
 
-    /// a / b.
+    /// The quotient a / b.
     pub fn div(&mut self, a: Id, b: Id) -> Id {
         self.product(&[(a, Exponent::ONE), (b, Exponent::integer(-1))])
     }
 
-    /// a^exponent.
+    /// The power a^exponent.
     pub fn power(&mut self, a: Id, exponent: Exponent) -> Id {
         self.product(&[(a, exponent)])
     }
 
-    /// a^n.
+    /// The whole power a^n.
     pub fn powi(&mut self, a: Id, n: i64) -> Id {
         self.power(a, Exponent::integer(n))
     }
 
-    /// Π base^exponent, brought to normal form.
+    /// The product Π base^exponent in normal form.
     pub fn product(&mut self, factors: &[(Id, Exponent)]) -> Id {
         let mut coefficient = Rational::ONE;
         let mut collected = Vec::with_capacity(factors.len());
@@ -65,7 +65,8 @@ impl Graph {
                     return;
                 }
             }
-            // c·t and Π have whole powers factor by factor; real ones only where every factor is known positive.
+            // c·t and Π have whole powers factor by factor; real ones only where every factor is known
+            // positive.
             Node::Linear { constant, terms } if constant.is_zero() && terms.len() == 1 => {
                 let (term, factor) = terms[0];
                 // A cube root keeps the sign: (−t)^(4/3) = t^(4/3).
@@ -83,7 +84,8 @@ impl Graph {
                     return;
                 }
             }
-            // A compound such as J^(−2/3) I1 is of moderate size where its factors are not: its powers are kept whole.
+            // A compound such as J^(−2/3) I1 is of moderate size where its factors are not: its powers are
+            // kept whole.
             Node::Product(factors) => {
                 let is_compound =
                     factors.iter().any(|&(factor, _)| matches!(self.node(factor), Node::Linear { .. }));
@@ -110,7 +112,8 @@ impl Graph {
         }
     }
 
-    /// The factors of a node, itself if it is not a product; without its rational coefficient, which comes first.
+    /// The factors of a node, itself if it is not a product; without its rational coefficient, which comes
+    /// first.
     #[must_use]
     pub fn factors(&self, id: Id) -> (Rational, Vec<(Id, Exponent)>) {
         match self.node(id) {

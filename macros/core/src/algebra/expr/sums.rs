@@ -1,36 +1,36 @@
-//! Sums with rational coefficients: what writes them, and their normal form.
+//! Sums with rational coefficients: their constructors and their normal form.
 
 use super::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 impl Graph {
-    /// a + b.
+    /// The sum a + b.
     pub fn add(&mut self, a: Id, b: Id) -> Id {
         self.linear(Rational::ZERO, &[(a, Rational::ONE), (b, Rational::ONE)])
     }
 
-    /// a − b.
+    /// The difference a − b.
     pub fn sub(&mut self, a: Id, b: Id) -> Id {
         self.linear(Rational::ZERO, &[(a, Rational::ONE), (b, Rational::integer(-1))])
     }
 
-    /// −a.
+    /// The negative −a.
     pub fn neg(&mut self, a: Id) -> Id {
         self.scale(a, Rational::integer(-1))
     }
 
-    /// factor · a.
+    /// The multiple factor · a.
     pub fn scale(&mut self, a: Id, factor: Rational) -> Id {
         self.linear(Rational::ZERO, &[(a, factor)])
     }
 
-    /// Sum of several.
+    /// The sum of several expressions.
     pub fn sum_of(&mut self, terms: &[Id]) -> Id {
         let terms: Vec<_> = terms.iter().map(|&term| (term, Rational::ONE)).collect();
         self.linear(Rational::ZERO, &terms)
     }
 
-    /// constant + Σ coefficient · term, brought to normal form.
+    /// The sum constant + Σ coefficient · term in normal form.
     pub fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Id {
         let mut total = constant;
         let mut collected = Vec::with_capacity(terms.len());

@@ -1,4 +1,4 @@
-//! What lies below a node: reading it, rewriting it, putting it in order.
+//! Traversal of the nodes below a node: their list, in order, and their replacement.
 
 use super::{Exponent, Extended, Graph, Id, Node};
 
@@ -22,9 +22,9 @@ impl Graph {
         }
     }
 
-    /// The same node over other subexpressions, in normal form.
+    /// A node with its subexpressions replaced, in normal form.
     ///
-    /// Leaves are returned as they are: who rewrites leaves treats them before calling this.
+    /// Leaves are returned unchanged: a caller that rewrites leaves does so before this call.
     pub fn map_children(&mut self, id: Id, map: &mut impl FnMut(&mut Self, Id) -> Id) -> Id {
         let exponent = |graph: &mut Self, e: Exponent, map: &mut dyn FnMut(&mut Self, Id) -> Id| match e.real
         {
@@ -35,7 +35,7 @@ impl Graph {
             }
             None => e,
         };
-        // Most children of most nodes stay, and the node with them.
+        // Most children of most nodes are unchanged, and the node with them.
         let mut is_changed = false;
         let map = &mut |graph: &mut Self, child| {
             let mapped = map(graph, child);
@@ -105,7 +105,7 @@ impl Graph {
             Node::Stretch(i) => stretches[i],
             Node::Extended(function, order, i) => match *self.node(stretches[i]) {
                 Node::Stretch(j) => self.leaf(Node::Extended(function, order, j)),
-                // Extended functions are functions of a stretch and of nothing else; NaN would not go unnoticed.
+                // Extended functions are functions of a stretch and of nothing else; NaN would be noticed.
                 _ => self.leaf(Node::Float(f64::NAN.to_bits())),
             },
             _ => self.map_children(id, &mut |graph, child| graph.substitute(child, stretches)),

@@ -4,7 +4,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Signature, Visibility};
 
-/// A function of which everything but the body is understood: while somebody writes it, the body may be half an expression.
+/// A function with its body as tokens: while it is being typed, the body may be half an expression.
 pub(crate) struct Function {
     pub(crate) attributes: Vec<Attribute>,
     pub(crate) visibility: Visibility,
@@ -13,7 +13,7 @@ pub(crate) struct Function {
 }
 
 impl Function {
-    /// The function that an attribute stands on.
+    /// Reads the function below an attribute.
     pub(crate) fn read(item: TokenStream) -> syn::Result<Self> {
         let is_function =
             item.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));

@@ -1,4 +1,4 @@
-//! Functions: those of numbers, and those that are parameters.
+//! Calls: methods of numbers, and functions that are parameters.
 
 use quote::ToTokens;
 use syn::{Expr, ExprCall, ExprMethodCall, Ident};
@@ -11,7 +11,7 @@ use crate::read::literals::is_number;
 use crate::read::parse::identifiers;
 use crate::read::spelling::{list, nearest};
 
-/// Functions that can be called on a number, as they are called.
+/// Methods of numbers, each with an example of a call.
 const METHODS: [(&str, &str); 7] = [
     ("powi", ".powi(2)"),
     ("powf", ".powf(alpha)"),
@@ -76,7 +76,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// What has no value by itself gives one message, on the function or on its name.
+    /// A function of a tensor, which has no value by itself: one message, on the function or on the name of
+    /// the tensor.
     fn tensor_function(&mut self, call: &ExprMethodCall, of: Tensor) -> Id {
         self.excuse_names(call);
         if tensors::function(&call.method.to_string(), None).is_some() {
@@ -85,7 +86,7 @@ impl Resolver<'_> {
         self.expression(&call.receiver)
     }
 
-    /// The tensor of a paper that an expression is, unless the declaration gives a meaning to a name in it.
+    /// The tensor that an expression stands for in papers, unless the declaration defines one of its names.
     fn tensor(&self, expression: &Expr) -> Option<Tensor> {
         let names = identifiers(expression.to_token_stream());
         let has_meaning = |name: &Ident| self.is_taken(name) || self.mistaken.contains(&name.to_string());
@@ -199,7 +200,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A function that is a parameter.
+    /// The call of a function that is a parameter.
     fn function(&mut self, k: usize, call: &ExprCall) -> Id {
         let name = self.declaration.parameters[k].name.to_string();
         if self.scope == Scope::Parameters {
@@ -214,7 +215,7 @@ impl Resolver<'_> {
     }
 }
 
-/// How a function is called.
+/// An example of a call of a method.
 fn form(name: &str) -> Option<&'static str> {
     METHODS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form)
 }

@@ -1,4 +1,4 @@
-//! What a name stands for.
+//! Names of an expression and their meanings.
 
 use syn::{Ident, Path};
 
@@ -21,7 +21,9 @@ impl Resolver<'_> {
         if let Some(i) = self.declaration.stretches.iter().position(|stretch| stretch == name) {
             return match self.scope {
                 Scope::Stretches | Scope::Isochoric => self.graph.stretch(i),
-                Scope::Invariants => self.mistake(name, &format!("`{text}` is no function of I1, I2 and J")),
+                Scope::Invariants => {
+                    self.mistake(name, &format!("`{text}` is not a function of I1, I2 and J"))
+                }
                 Scope::Parameters => self.deformation(name),
             };
         }
@@ -51,7 +53,7 @@ impl Resolver<'_> {
             return word;
         }
         if self.index.as_ref().is_some_and(|index| index.name == *name) {
-            // One message for the name, however often it stands there.
+            // One message for the name, however often it occurs.
             self.mistaken.insert(text.clone());
             return self.mistake(name, &self.index_as_number(&text));
         }
@@ -71,7 +73,7 @@ impl Resolver<'_> {
         let hint = match (paper_notation::name(&text), nearest(&text, known.iter().map(String::as_str))) {
             (Some(hint), _) if self.scope != Scope::Parameters => hint.to_owned(),
             (_, Some(near)) => {
-                // Who meant this has used it.
+                // The likely name counts as used.
                 self.used.insert(near.to_owned());
                 format!("did you mean `{near}`?")
             }
@@ -80,29 +82,30 @@ impl Resolver<'_> {
         self.mistake(name, &format!("unknown name `{text}`: {hint}"))
     }
 
-    /// A list of the declaration.
+    /// The first list among the parameters.
     pub(super) fn first_list(&self) -> Option<&Ident> {
         let mut parameters = self.declaration.parameters.iter();
         parameters.find(|parameter| parameter.length().is_some()).map(|parameter| &parameter.name)
     }
 
-    /// What to say of the index of a sum that stands where a number should.
+    /// The message about the index of a sum in place of a number.
     fn index_as_number(&self, index: &str) -> String {
         let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
         format!(
-            "the index `{index}` only selects entries, as in `{list}[{index}]`, and is no number: write the terms out, each with \
+            "the index `{index}` only selects entries, as in `{list}[{index}]`, and is not a number: write the terms out, each with \
              a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \
              parameters too, which a fit changes"
         )
     }
 
-    /// A mistake of a condition on parameters.
+    /// The mistake of a name of the deformation in a condition on parameters.
     fn deformation(&mut self, name: &Ident) -> Id {
-        let message = format!("`{name}` is no parameter: what bounds the deformation stands in `domain(…)`");
+        let message =
+            format!("`{name}` is not a parameter: conditions on the deformation stand in `domain(…)`");
         self.mistake(name, &message)
     }
 
-    /// Names that an expression here may use.
+    /// The names that an expression may use.
     fn known_names(&self) -> Vec<String> {
         let parameters = self.declaration.parameters.iter().map(|parameter| parameter.name.to_string());
         if self.scope == Scope::Parameters {
@@ -116,7 +119,8 @@ impl Resolver<'_> {
         names
     }
 
-    /// J = λ1 λ2 λ3, I1 = Σ λ², I2 = λ1²λ2² + λ2²λ3² + λ3²λ1², I1b = J^(−2/3) I1, I2b = J^(−4/3) I2.
+    /// The value of J = λ1 λ2 λ3, I1 = Σ λ², I2 = λ1²λ2² + λ2²λ3² + λ3²λ1², I1b = J^(−2/3) I1, I2b = J^(−4/3)
+    /// I2.
     fn word(&mut self, word: &str) -> Option<Id> {
         let graph = &mut *self.graph;
         let stretches = [0, 1, 2].map(|i| graph.stretch(i));

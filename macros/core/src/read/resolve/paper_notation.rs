@@ -1,8 +1,9 @@
-//! What papers write and a declaration writes in another way.
+//! Notation of papers that a declaration writes in another way.
 
 use super::tensors;
+use crate::read::spelling::plain;
 
-/// How a declaration writes what papers call by this name.
+/// The advice for a name that papers use.
 pub(super) fn name(name: &str) -> Option<&'static str> {
     Some(match plain(name).as_str() {
         "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
@@ -22,12 +23,7 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Papers have indices where a name has underscores.
-pub(super) fn plain(name: impl ToString) -> String {
-    name.to_string().replace('_', "")
-}
-
-/// How a declaration writes what papers call by this function.
+/// The advice for a function that papers use.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     Some(match name {
         "pow" => "write `.powi(2)` or `.powf(alpha)`",

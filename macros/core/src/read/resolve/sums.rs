@@ -1,4 +1,4 @@
-//! Sums over lists, and the entries of these.
+//! Sums over lists, and entries of lists.
 
 use quote::ToTokens;
 use syn::{Expr, ExprCall, ExprClosure, ExprIndex, Ident, Pat};
@@ -10,16 +10,16 @@ use crate::read::parse::indexed_lists;
 /// The index of a sum.
 pub(super) struct Index {
     pub(super) name: Ident,
-    /// Of the lists that it has indexed so far.
+    /// The length of the lists that it has indexed so far.
     pub(super) length: Option<Length>,
-    /// It has indexed what was meant to be a list, or is a list with a mistake.
+    /// Whether it has indexed a mistaken list, so that the sum is not to blame.
     pub(super) is_excused: bool,
     /// Other names that were taken for it.
     others: Vec<Ident>,
 }
 
 impl Index {
-    /// One that has indexed nothing.
+    /// An index that has indexed nothing.
     pub(super) fn new(name: Ident) -> Self {
         Self { name, length: None, is_excused: false, others: Vec::new() }
     }
@@ -58,7 +58,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// What to say of a sum inside another one.
+    /// The message about a sum inside another one.
     fn inside(&self, outer: &Ident, closure: &ExprClosure, index: &Ident) -> String {
         let mut lists = indexed_lists(closure.body.to_token_stream());
         lists.retain(|(list, _)| {
@@ -142,7 +142,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// What should have been an entry has a mistake of its own, so that its sum is not to blame.
+    /// Marks the enclosing sum as not to blame: an entry in it has a mistake of its own.
     pub(super) fn excuse(&mut self) {
         if let Some(index) = &mut self.index {
             index.is_excused = true;

@@ -1,11 +1,11 @@
-//! Functions of tensors, such as tr C⁻¹, which papers write and a declaration writes in invariants.
+//! Functions of tensors in papers, such as tr C⁻¹, which a declaration writes in invariants.
 
 use quote::ToTokens;
 use syn::Expr;
 
-use super::paper_notation::plain;
+use crate::read::spelling::plain;
 
-/// How a declaration writes what papers call a function of tensors, of one of these if its argument is one.
+/// The advice for a function of tensors, given the tensor of its argument if that is one.
 pub(super) fn function(name: &str, of: Option<Tensor>) -> Option<&'static str> {
     Some(match (name, of) {
         ("tr" | "trace", Some(Tensor::CauchyGreen)) => "write `I1` for the trace of C",
@@ -20,17 +20,17 @@ pub(super) fn function(name: &str, of: Option<Tensor>) -> Option<&'static str> {
     })
 }
 
-/// What papers take traces and determinants of.
+/// A tensor of which papers take traces and determinants.
 pub(super) enum Tensor {
     /// C, or b, which has the same eigenvalues.
     CauchyGreen,
     /// C⁻¹ or b⁻¹.
     Inverse,
-    /// Another one.
+    /// Another tensor.
     Other,
 }
 
-/// What tensor an expression is, by the names that papers give them.
+/// The tensor that an expression stands for in papers.
 pub(super) fn tensor(expression: &Expr) -> Option<Tensor> {
     let inverse = |of: &Expr| {
         Some(match tensor(of)? {
@@ -73,7 +73,7 @@ fn is_minus_one(exponent: &Expr) -> bool {
     matches!(text.as_str(), "-1" | "-1." | "-1.0")
 }
 
-/// The tensor that papers give a name, which is without underscores.
+/// The tensor that papers denote by a name, given without underscores.
 pub(super) fn named(name: &str) -> Option<Tensor> {
     Some(match name {
         "C" | "B" | "b" => Tensor::CauchyGreen,

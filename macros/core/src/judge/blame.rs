@@ -1,19 +1,26 @@
-//! The term of an energy that breaks a rule, for the rule's message to stand on.
+//! The part of an energy that a message underlines.
 
 use std::collections::HashMap;
 
 use syn::{BinOp, Block, Expr, Local, Pat, Stmt, UnOp};
 
-/// The smallest part that alone breaks the rule, on the way down through sums and the names of their terms.
-///
-/// Terms that break a rule together, such as two that should cancel, are not taken apart.
-pub(crate) fn culprit(body: &Block, breaks: impl FnMut(&Expr) -> bool) -> Option<&Expr> {
-    smallest(body, breaks, terms)
-}
+use super::source::Source;
+use crate::algebra::expr::Id;
 
-/// The smallest part that alone holds something, down to the operands of operators and functions.
-pub(crate) fn holder(body: &Block, holds: impl FnMut(&Expr) -> bool) -> Option<&Expr> {
-    smallest(body, holds, operands)
+impl<'a> Source<'a> {
+    /// The smallest term that alone breaks a rule, found through sums and the names of their terms.
+    ///
+    /// Terms that break a rule together, such as two that should cancel, are not taken apart.
+    pub(crate) fn blamed_term(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
+        smallest(&self.declaration.body, breaks, terms)
+    }
+
+    /// The smallest operand that alone breaks a rule, found through operators and functions.
+    pub(crate) fn blamed_operand(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
+        smallest(&self.declaration.body, breaks, operands)
+    }
 }
 
 fn smallest<'b>(
@@ -22,18 +29,18 @@ fn smallest<'b>(
     parts: impl Fn(&'b Expr, &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr>,
 ) -> Option<&'b Expr> {
     let mut definitions = HashMap::new();
-    let mut guilty = value(body, &mut definitions)?;
+    let mut blamed = value(body, &mut definitions)?;
     loop {
-        let parts = parts(guilty, &mut definitions);
-        let mut guilty_parts = parts.into_iter().filter(|part| breaks(part));
-        match (guilty_parts.next(), guilty_parts.next()) {
-            (Some(part), None) => guilty = part,
-            _ => return Some(guilty),
+        let parts = parts(blamed, &mut definitions);
+        let mut blamed_parts = parts.into_iter().filter(|part| breaks(part));
+        match (blamed_parts.next(), blamed_parts.next()) {
+            (Some(part), None) => blamed = part,
+            _ => return Some(blamed),
         }
     }
 }
 
-/// The terms of a sum, or what a name or parentheses stand for.
+/// The terms of a sum, or the expression that a name or parentheses stand for.
 fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
     match expression {
         Expr::Paren(inner) => vec![&*inner.expr],
@@ -51,7 +58,8 @@ fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) 
     }
 }
 
-/// What an operator, a method or a function is applied to, or what a name or parentheses stand for.
+/// The operands of an operator, a method or a function, or the expression that a name or parentheses stand
+/// for.
 fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
     match expression {
         Expr::Unary(unary) => vec![&*unary.expr],
@@ -62,8 +70,8 @@ fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr
     }
 }
 
-/// The last line of a block; what its names stand for is noted.
-pub(crate) fn value<'b>(block: &'b Block, definitions: &mut HashMap<String, &'b Expr>) -> Option<&'b Expr> {
+/// The last line of a block; the definitions of its names are collected.
+fn value<'b>(block: &'b Block, definitions: &mut HashMap<String, &'b Expr>) -> Option<&'b Expr> {
     for statement in &block.stmts {
         if let Stmt::Local(Local { pat: Pat::Ident(name), init: Some(init), .. }) = statement {
             definitions.insert(name.ident.to_string(), &init.expr);

@@ -1,15 +1,15 @@
-//! Several formulas beside each other, in which a long part that occurs more than once is written once and has a name.
+//! Formulas that share named parts: a long part that occurs more than once is written once.
 
 use std::collections::HashMap;
 
-use super::{Printer, by_invariants, by_stretches, subscript};
+use super::{Notation, Printer, subscript};
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::read::parse::Declaration;
 
 /// Formulas and the parts that they share.
 #[derive(Debug)]
 pub struct Formulas {
-    /// Names s₁, s₂, … and what they stand for, each written with those before it.
+    /// Names s₁, s₂, … with their formulas, each written with the names before it.
     pub parts: Vec<(String, String)>,
     /// The formulas, in the order of their nodes.
     pub formulas: Vec<String>,
@@ -18,16 +18,16 @@ pub struct Formulas {
 /// Nodes as formulas of the stretches.
 #[must_use]
 pub fn formulas(graph: &mut Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
-    share(by_stretches(graph, declaration), roots)
+    share(Printer::by_stretches(graph, declaration, Notation::Formula), roots)
 }
 
-/// The same of nodes in which the three stretches stand for I1, I2 and J.
+/// Nodes as formulas of I1, I2 and J, for which the three stretches stand.
 #[must_use]
 pub fn formulas_by_invariants(graph: &Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
-    share(by_invariants(graph, declaration), roots)
+    share(Printer::by_invariants(graph, declaration), roots)
 }
 
-/// Formulas with no more characters are read as they are.
+/// Formulas with at most so many characters are not divided.
 const LONGEST: usize = 120;
 
 /// A part with fewer characters is written wherever it occurs.
@@ -54,7 +54,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
             }
         }
         let formulas = roots.iter().map(|&root| printer.line(root)).collect();
-        // What occurs in one place only, because what it is a part of has a name, is written there.
+        // A part that occurs in one place only, because a larger part has a name, is written there.
         let uses = printer.uses.borrow();
         let named = |id: &Id| printer.named.contains_key(id);
         let kept: Vec<_> =
@@ -67,7 +67,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
     }
 }
 
-/// What more than one node is made of, the innermost first.
+/// The nodes with more than one parent, the innermost first.
 fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
     let mut parents: HashMap<Id, usize> = HashMap::new();
     let children = order.iter().flat_map(|&id| graph.children(id));
@@ -77,7 +77,7 @@ fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
     order.iter().copied().filter(|id| parents[id] > 1).collect()
 }
 
-/// Whether a node stands for another number in each term of a sum over lists.
+/// Whether the value of a node differs from term to term of a sum over lists.
 fn entries(graph: &Graph, order: &[Id]) -> HashMap<Id, bool> {
     let mut is_entry = HashMap::new();
     for &id in order {
@@ -107,7 +107,7 @@ mod tests {
     fn check(energy: &syn::Expr, parts: &[(&str, &str)], first: &str) {
         let item = quote!(fn E([l1, l2, l3]: [f64; 3], c: f64, d: f64) -> f64 { #energy });
         let (declaration, mut model) =
-            crate::understand(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
+            crate::analyse(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
         let roots = [model.plain.gradient[0], model.plain.hessian[0]];
         let found = formulas(&mut model.graph, &declaration, &roots);
         let found_parts: Vec<_> = found.parts.iter().map(|(name, text)| (&name[..], &text[..])).collect();

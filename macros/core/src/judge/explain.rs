@@ -1,0 +1,250 @@
+//! The English of all findings: what is wrong, and what to write instead, ready to paste.
+
+use quote::ToTokens;
+
+use super::finding::{Finding, Remedy, Stressed, Vanishing, Violation};
+use super::source::Source;
+use crate::algebra::expr::{Graph, Id, Node};
+use crate::printer::{rust, rust_factor};
+use crate::read::diagnostics::Diagnostics;
+use crate::read::domain::Volume;
+use crate::read::parse::identifiers;
+use crate::read::spelling::list;
+
+/// The longest term, in bytes, that a message quotes: a longer one is better read where it stands.
+const QUOTABLE: usize = 40;
+
+/// Adds findings to the diagnostics of a declaration.
+pub(crate) fn report(
+    graph: &mut Graph,
+    source: &Source<'_>,
+    findings: impl IntoIterator<Item = Finding>,
+    diagnostics: &mut Diagnostics,
+) {
+    for finding in findings {
+        let message = Explainer { graph, source }.message(&finding);
+        diagnostics.error(finding.tokens, message);
+    }
+}
+
+struct Explainer<'g, 's> {
+    graph: &'g mut Graph,
+    source: &'s Source<'s>,
+}
+
+impl Explainer<'_, '_> {
+    fn message(&mut self, Finding { tokens, violation }: &Finding) -> String {
+        match violation {
+            Violation::RestExcluded => {
+                "this excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts: widen the domain"
+                    .into()
+            }
+            Violation::NoSamples => {
+                "no parameters were found for which this energy is finite near rest: check its domain \
+                and `admissible(…)`"
+                    .into()
+            }
+            Violation::Anisotropic { exchanged, term } => {
+                let [i, j] = exchanged.map(|i| &self.source.declaration.stretches[i]);
+                let term =
+                    term.map(|term| format!("`{}`", self.print(term))).filter(|term| term.len() <= QUOTABLE);
+                format!(
+                    "an isotropic energy does not change when `{i}` and `{j}` are exchanged, but {} does: write the same \
+                     for all three stretches",
+                    term.as_deref().unwrap_or("this"),
+                )
+            }
+            Violation::PowerAtRest { power } => format!(
+                "the base of `{}` vanishes at rest and is negative nearby, if only by rounding, where only whole powers have \
+                 a value: write a whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
+                 `(1.0 + b * (I1b - 3.0)).powf(n)`",
+                self.print(*power)
+            ),
+            Violation::StressNotFinite => {
+                "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by \
+                nothing that vanishes there, and take no logarithm of it"
+                    .into()
+            }
+            Violation::Stressed(stressed) => self.stressed(stressed),
+            Violation::NoValue { sign } if *sign < 0.0 => {
+                "this has no value where J < 0, in inverted material: declare `domain(J > 0.0)`".into()
+            }
+            Violation::NoValue { .. } => {
+                "this has no value where J = 0, in flat material: declare `domain(J > 0.0)`, or \
+                `domain(J != 0.0)` if the energy should treat inverted elements (J < 0) like upright ones"
+                    .into()
+            }
+            Violation::NoValueCollapsed { power, exponent, vanishing } => {
+                let place = match vanishing {
+                    1 => "λ3 = 0, in elements collapsed to a sheet",
+                    2 => "λ2 = λ3 = 0, in elements collapsed to a line",
+                    _ => "λ1 = λ2 = λ3 = 0, in elements collapsed to a point",
+                };
+                let negative = if exponent.is_some() { "its exponent is negative and " } else { "" };
+                let admissible = exponent.and_then(|exponent| self.admissible(exponent)).unwrap_or_default();
+                let power = self.print(*power);
+                format!(
+                    "`{power}` has no value where {negative}{place}: declare {admissible}`domain(J > 0.0)`"
+                )
+            }
+            Violation::Vanishing { argument, has_value } => self.vanishing(*argument, *has_value),
+            Violation::FlatExcluded { stretches: [l1, l2, _] } => {
+                let names = identifiers(tokens.clone());
+                let has = |words: [&str; 2]| words.iter().any(|word| names.iter().any(|name| name == word));
+                let instead = if has(["I1b", "I2b"]) {
+                    "bound what stays moderate there, such as I1 in place of I1b"
+                } else if has(["I1", "I2"]) {
+                    "this condition, and write `I1b` for `I1` in the energy, which is 3 or more wherever J > 0"
+                } else {
+                    "this condition"
+                };
+                format!(
+                    "`extend` continues the energy beyond J > 0, but where elements are flat, such as at the stretches {l1}, \
+                     {l2} and 0, this does not hold: remove `extend`, or {instead}"
+                )
+            }
+            Violation::NoShearModulus => {
+                "the shear modulus of this energy is zero at rest: add a term that resists shear, \
+                such as `mu / 2.0 * (I1b - 3.0)`"
+                    .into()
+            }
+            Violation::Overflow => {
+                "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers"
+                    .into()
+            }
+            Violation::ExtendWithoutDomain => {
+                "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`"
+                    .into()
+            }
+            Violation::FitOfFunctions => {
+                "`fit` differentiates the stress by parameters that are numbers, not functions: \
+                remove `fit`, or declare numbers in place of the function"
+                    .into()
+            }
+        }
+    }
+
+    fn print(&mut self, id: Id) -> String {
+        rust(self.graph, self.source.declaration, id)
+    }
+
+    fn stressed(&mut self, stressed: &Stressed) -> String {
+        let source = self.source;
+        let domain = if source.volume == Volume::Positive { "" } else { " with `domain(J > 0.0)`" };
+        let isochoric = stressed
+            .is_isochoric_free
+            .then(|| format!("write {}{domain}, which leaves none", in_place(&source.invariants())));
+        // Where elements are flat, isochoric invariants are beyond limits.
+        let is_limited = source.declaration.options.extend.is_some() && !source.bounds.is_empty();
+        let remedies = match (stressed.vanishing, isochoric) {
+            (Some(Vanishing { remedy: Remedy::Isochoric, .. }), Some(isochoric)) => {
+                format!("{isochoric} and has a value wherever J > 0")
+            }
+            (None, Some(isochoric)) if !is_limited => {
+                format!("{}; or {isochoric}", self.balance(stressed))
+            }
+            _ => self.balance(stressed),
+        };
+        // In an energy of a compressible solid, a slip is likelier than a missing term.
+        let names = identifiers(source.declaration.body.to_token_stream());
+        let is_compressible = !source.declaration.options.domain.is_empty()
+            || ["J", "I1b", "I2b"].into_iter().any(|word| names.iter().any(|name| name == word));
+        let mistyped = if is_compressible {
+            " (if the paper's solid is compressible, a factor or a power is mistyped)"
+        } else {
+            ""
+        };
+        let stress = self.print(stressed.stress);
+        format!(
+            "this leaves the stress `{stress}` at rest: {remedies}; or say `prestressed` in the attribute{mistyped}"
+        )
+    }
+
+    /// A term, ready to paste, that makes the rest state stress-free, and the domain that it needs.
+    fn balance(&mut self, stressed: &Stressed) -> String {
+        let &Stressed { stress, has_logarithm, has_value, .. } = stressed;
+        let declaration = self.source.declaration;
+        let term = if self.print(stress).starts_with('-') {
+            let negated = self.graph.neg(stress);
+            format!("+ {}", rust_factor(self.graph, declaration, negated))
+        } else {
+            format!("- {}", rust_factor(self.graph, declaration, stress))
+        };
+        let limit = stressed.vanishing.and_then(|vanishing| self.limit(vanishing));
+        let is_limited = limit.is_some();
+        let domain = format!(" with {}", self.positive_domain(limit));
+        if has_logarithm {
+            let domain = if is_limited || !has_value { &domain } else { "" };
+            return format!("append `{term} * (J - 1.0)`{domain}, or remove the term in `J.ln()`");
+        }
+        let logarithm = format!("append `{term} * J.ln()`");
+        match self.source.volume {
+            _ if is_limited => format!("{logarithm}{domain}"),
+            Volume::Positive => logarithm,
+            _ if !has_value => format!("{logarithm}{domain}"),
+            Volume::Nonzero => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with the declared one"),
+            Volume::Any => format!("{logarithm}{domain}, or `{term} * (J - 1.0)` with any domain"),
+        }
+    }
+
+    fn vanishing(&mut self, argument: Vanishing, has_value: bool) -> String {
+        let declaration = self.source.declaration;
+        let remedy = if let Some(limit) = self.limit(argument) {
+            let domain = if has_value {
+                let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
+                let conditions: Vec<_> = conditions.chain([limit]).collect();
+                format!("`domain({})`", conditions.join(", "))
+            } else {
+                self.positive_domain(Some(limit))
+            };
+            let is_parameter = |&id: &Id| matches!(self.graph.node(id), Node::Parameter(_));
+            let has_parameters = self.graph.reachable(&[argument.of]).iter().any(is_parameter);
+            let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
+            format!("declare {domain}{or}")
+        } else {
+            let names = self.source.invariants();
+            let is = if names.len() == 1 { "is" } else { "are" };
+            format!("write {}, which {is} at least 3 wherever J > 0", in_place(&names))
+        };
+        let text = self.print(argument.of);
+        format!("`{text}` vanishes inside the domain, and there this has no value: {remedy}")
+    }
+
+    /// The condition that an expression does not vanish.
+    fn limit(&mut self, Vanishing { of, remedy }: Vanishing) -> Option<String> {
+        let side = match remedy {
+            Remedy::Isochoric => return None,
+            Remedy::Positive => '>',
+            Remedy::Negative => '<',
+        };
+        Some(format!("{} {side} 0.0", self.print(of)))
+    }
+
+    /// The declared domain where J > 0, with a further condition.
+    fn positive_domain(&self, limit: Option<String>) -> String {
+        let conditions =
+            self.source.declaration.bounds().map(|condition| condition.to_token_stream().to_string());
+        let conditions: Vec<_> =
+            std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limit).collect();
+        format!("`domain({})`", conditions.join(", "))
+    }
+
+    /// The declared conditions on parameters, with the further one that an exponent is positive; such
+    /// conditions have no sums.
+    fn admissible(&mut self, exponent: Id) -> Option<String> {
+        let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
+        if self.graph.reachable(&[exponent]).iter().any(is_sum) {
+            return None;
+        }
+        let declared = self.source.declaration.options.admissible.iter();
+        let declared = declared.map(|condition| condition.to_token_stream().to_string().replace(" [", "["));
+        let conditions: Vec<_> = declared.chain([format!("{} > 0.0", self.print(exponent))]).collect();
+        Some(format!("`admissible({})`, or ", conditions.join(", ")))
+    }
+}
+
+/// The isochoric invariants in place of the plain ones: `I1b` for `I1`, or both.
+fn in_place(names: &[&str]) -> String {
+    let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
+    format!("{} for {}", list(&isochoric), list(names))
+}

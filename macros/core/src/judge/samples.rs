@@ -1,0 +1,125 @@
+//! Points of the domain at which an energy is tried.
+
+use syn::Expr;
+
+use super::finding::{Finding, Violation};
+use super::source::{Source, at_rest};
+use crate::algebra::diff::Differentiator;
+use crate::algebra::expr::{Graph, Id};
+use crate::algebra::interpret::{Point, Value, evaluate};
+use crate::read::domain::Volume;
+
+/// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
+const SAMPLES: usize = 6;
+
+/// Candidates tried for [`SAMPLES`] admissible points: enough for parameters that must be in order, and for
+/// decades of them up to 10⁹. Most are refused by the conditions alone, in microseconds.
+pub(crate) const CANDIDATES: usize = 20_000;
+
+/// Candidates before this one have positive parameters.
+pub(crate) const POSITIVE: usize = CANDIDATES / 20;
+
+/// Fewer samples than this prove nothing.
+const FEWEST: usize = 2;
+
+/// Entries of a list beyond these are like those before.
+const LONGEST: usize = 8;
+
+/// Rounding errors of a few hundred operations, relative to the magnitudes that enter, stay below this.
+const NOISE: f64 = 1e-12;
+
+/// Points of the domain at which the energy and its derivatives are finite.
+///
+/// # Errors
+/// The finding that there are none.
+pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Point>, Finding> {
+    let &Source { declaration, energy, .. } = source;
+    let gradient = Differentiator::default().by_stretch(graph, energy, 0);
+    let mut found = Vec::new();
+    let mut excludes_rest = None;
+    for point in candidates(source, 0x9E37_79B9_7F4A_7C15, 0..CANDIDATES) {
+        let holds = |id: Id, point: &Point| evaluate(graph, id, point).value > 0.0;
+        if !source.admissible.iter().all(|&id| holds(id, &point)) {
+            continue;
+        }
+        let rest = at_rest(&point);
+        if let Some(k) = source.bounds.iter().position(|&id| !holds(id, &rest)) {
+            excludes_rest = Some(k);
+            continue;
+        }
+        let is_finite = |id| evaluate(graph, id, &point).value.is_finite();
+        if source.is_inside(graph, &point) && is_finite(energy) && is_finite(gradient) {
+            found.push(point);
+        }
+        if found.len() == SAMPLES {
+            return Ok(found);
+        }
+    }
+    if found.len() >= FEWEST {
+        return Ok(found);
+    }
+    Err(match excludes_rest.and_then(|k| declaration.bounds().nth(k)) {
+        Some(condition) => Finding::new(condition, Violation::RestExcluded),
+        None => Finding::new(&declaration.name, Violation::NoSamples),
+    })
+}
+
+/// Points with stretches near rest and parameters over ever more decades, negative ones from [`POSITIVE`] on.
+pub(crate) fn candidates(
+    source: &Source<'_>,
+    seed: u64,
+    attempts: impl Iterator<Item = usize>,
+) -> impl Iterator<Item = Point> {
+    let declaration = source.declaration;
+    let lengths: Vec<usize> = declaration
+        .lengths
+        .iter()
+        .map(|length| match length {
+            Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. }) => {
+                literal.base10_parse().unwrap_or(3).min(LONGEST)
+            }
+            _ => 3,
+        })
+        .collect();
+    let entries = declaration.parameters.iter().map(|parameter| parameter.length().map_or(1, |k| lengths[k]));
+    let entries: Vec<_> = entries.collect();
+    let has_negative = source.volume != Volume::Positive;
+    let mut random = Random(seed);
+    attempts.map(move |attempt| {
+        let decades = 1.0 + 15.0 * attempt as f64 / CANDIDATES as f64;
+        let mut value = || {
+            let magnitude = 10f64.powf(decades * (random.unit() - 0.4));
+            if attempt > POSITIVE && random.unit() < 0.3 { -magnitude } else { magnitude }
+        };
+        let parameters = entries.iter().map(|&number| (0..number).map(|_| value()).collect()).collect();
+        let mut stretches = [0, 1, 2].map(|_| 0.6 + 0.9 * random.unit());
+        if has_negative && attempt % 2 == 1 {
+            stretches[2] = -stretches[2];
+        }
+        Point { stretches, parameters, lengths: lengths.clone(), epsilon: 0.5 }
+    })
+}
+
+/// Whether a value is zero but for rounding.
+pub(crate) fn vanishes(Value { value, magnitude }: Value) -> bool {
+    value.abs() <= NOISE * magnitude
+}
+
+/// Whether a value is below zero by more than rounding.
+pub(crate) fn is_negative(Value { value, magnitude }: Value) -> bool {
+    value < -NOISE * magnitude
+}
+
+/// SplitMix64: Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
+struct Random(u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}

@@ -1,0 +1,52 @@
+//! A declaration as the judges see it: its tokens and the expressions that they stand for.
+
+use quote::ToTokens;
+
+use crate::algebra::expr::{Graph, Id};
+use crate::algebra::interpret::{Point, evaluate};
+use crate::read::domain::Volume;
+use crate::read::parse::{Declaration, identifiers};
+use crate::read::resolve::Nodes;
+
+/// A declaration whose names are resolved.
+pub(crate) struct Source<'a> {
+    /// The tokens.
+    pub(crate) declaration: &'a Declaration,
+    /// The node of each expression of the body.
+    pub(crate) nodes: Nodes,
+    /// The energy as written.
+    pub(crate) energy: Id,
+    /// Expressions that are positive inside the domain, apart from J, in the order of the conditions.
+    pub(crate) bounds: &'a [Id],
+    /// Expressions of parameters that are positive.
+    pub(crate) admissible: &'a [Id],
+    /// The volumes of the domain.
+    pub(crate) volume: Volume,
+}
+
+impl Source<'_> {
+    /// Whether the conditions of the domain hold, those on J apart.
+    pub(crate) fn is_inside(&self, graph: &Graph, point: &Point) -> bool {
+        self.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0)
+    }
+
+    /// Whether the parameters are admissible and give the energy a value at rest. At other stretches a
+    /// missing value may be the very mistake that is looked for.
+    pub(crate) fn is_good_at_rest(&self, graph: &Graph, point: &Point) -> bool {
+        let rest = at_rest(point);
+        self.admissible.iter().all(|&id| evaluate(graph, id, &rest).value > 0.0)
+            && self.is_inside(graph, &rest)
+            && evaluate(graph, self.energy, &rest).value.is_finite()
+    }
+
+    /// Which of I1 and I2 are written in the energy.
+    pub(crate) fn invariants(&self) -> Vec<&'static str> {
+        let names = identifiers(self.declaration.body.to_token_stream());
+        ["I1", "I2"].into_iter().filter(|invariant| names.iter().any(|name| name == invariant)).collect()
+    }
+}
+
+/// The undeformed state with the parameters of a point.
+pub(crate) fn at_rest(point: &Point) -> Point {
+    Point { stretches: [1.0; 3], ..point.clone() }
+}

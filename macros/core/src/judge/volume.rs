@@ -1,0 +1,116 @@
+//! Volumes for which an energy must have a value: inverted, flat and collapsed elements, unless its domain
+//! excludes them.
+
+use super::arguments::Argument;
+use super::finding::{Findings, Violation};
+use super::samples::{CANDIDATES, POSITIVE, candidates};
+use super::source::Source;
+use crate::algebra::expr::{Graph, Id};
+use crate::algebra::interpret::{Point, evaluate};
+use crate::read::domain::Volume;
+
+/// The stretches of elements that are collapsed to a sheet, a line and a point.
+const COLLAPSED: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+
+/// Draws of the parameters, some of which are negative: an exponent 1 + β is below zero in a fifth of them,
+/// so that all of them miss it once in 10⁶ times.
+const DRAWS: usize = 64;
+
+/// Finds volumes of the domain for which the energy has no value.
+pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
+    let source = findings.source;
+    if let Some(sign) = sign_without_value(graph, source, samples) {
+        // An energy undefined at J = 0 is undefined on collapsed elements too and has the same remedy: only
+        // the first is reported.
+        let breaks = |part| has_no_value(graph, source, part, sign, samples);
+        if !findings.is_known(breaks) {
+            findings.add(source.blamed_term(breaks), Violation::NoValue { sign });
+        }
+        return;
+    }
+    let Some((argument, vanishing)) = without_value(graph, source) else { return };
+    if findings.is_known(|part| Argument::is_in(graph, part, argument.of)) {
+        return;
+    }
+    let exponent = argument.exponent.filter(|exponent| exponent.real.is_some());
+    let exponent = exponent.map(|exponent| graph.exponent_value(exponent));
+    let power = match argument.exponent {
+        Some(exponent) => graph.power(argument.of, exponent),
+        None => graph.ln(argument.of),
+    };
+    let part = source.blamed_operand(|part| Argument::is_in(graph, part, argument.of));
+    findings.add(part, Violation::NoValueCollapsed { power, exponent, vanishing });
+}
+
+/// Whether the energy needs no further condition on J.
+pub(crate) fn has_value(graph: &mut Graph, source: &Source<'_>, samples: &[Point]) -> bool {
+    sign_without_value(graph, source, samples).is_none() && without_value(graph, source).is_none()
+}
+
+/// A sign of J in the domain with which the energy has no value.
+fn sign_without_value(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<f64> {
+    let signs: &[f64] = match source.volume {
+        Volume::Positive => &[],
+        Volume::Nonzero => &[-1.0],
+        Volume::Any => &[-1.0, 0.0],
+    };
+    // The domain of functions is not known here.
+    let is_judged = !source.declaration.has_functions();
+    let is_short = |&sign: &f64| is_judged && has_no_value(graph, source, source.energy, sign, samples);
+    signs.iter().copied().find(is_short)
+}
+
+/// Whether a part has no value at the samples, given J of this sign, inside the domain.
+fn has_no_value(graph: &Graph, source: &Source<'_>, part: Id, sign: f64, samples: &[Point]) -> bool {
+    let with_sign = |point: &Point| {
+        let [l1, l2, l3] = point.stretches;
+        Point { stretches: [l1, l2, sign * l3.abs()], ..point.clone() }
+    };
+    let is_inside = |point: &Point| source.is_inside(graph, point);
+    let mut points = samples.iter().map(with_sign).filter(is_inside).peekable();
+    points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
+}
+
+/// A logarithm or power without a value in collapsed elements, such as one of I2 on a line, and how many
+/// stretches vanish there.
+fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, usize)> {
+    // The domain of functions is not known here.
+    if source.volume != Volume::Any || source.declaration.has_functions() {
+        return None;
+    }
+    let arguments = Argument::all(graph, source.energy).into_iter();
+    let arguments: Vec<_> = arguments
+        .map(|argument| (argument, argument.exponent.map(|exponent| graph.exponent_value(exponent))))
+        .collect();
+    if arguments.is_empty() {
+        return None;
+    }
+    let points = draws(graph, source);
+    COLLAPSED.into_iter().find_map(|stretches| {
+        let collapsed = |point: &Point| Point { stretches, ..point.clone() };
+        let argument = points.iter().map(collapsed).find_map(|point| {
+            let value = |id: Id| evaluate(graph, id, &point).value;
+            if !source.is_inside(graph, &point) || value(source.energy).is_finite() {
+                return None;
+            }
+            let has_none = |&&(argument, exponent): &&(Argument, Option<Id>)| {
+                value(argument.of) == 0.0 && exponent.is_none_or(|exponent| value(exponent) < 0.0)
+            };
+            arguments.iter().find(has_none).map(|&(argument, _)| argument)
+        });
+        argument.map(|argument| (argument, stretches.iter().filter(|&&stretch| stretch == 0.0).count()))
+    })
+}
+
+/// Points with admissible parameters of either sign. The entries of a list are equal, so that a condition on
+/// their sum holds for each of them.
+fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
+    let points = candidates(source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).map(|mut point| {
+        for entries in &mut point.parameters {
+            let first = entries.first().copied().unwrap_or_default();
+            entries.fill(first);
+        }
+        point
+    });
+    points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS).collect()
+}
