@@ -5,7 +5,7 @@
 use std::sync::OnceLock;
 
 use piola::Inversion;
-use piola::batch::{Batch, TileMaterial, Layout, Survey};
+use piola::batch::{Batch, Layout, Survey, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Graded, PerPoint, PerPointError};
 use piola::mesh::TetMesh;

@@ -1,8 +1,8 @@
 //! Each point with parameters of its own gets what it would get alone.
 
-use piola::{Inversion, Material};
 use piola::lanes::{Lanes, Lanes2};
 use piola::material::{Blocks, Graded, Inadmissible};
+use piola::{Inversion, Material};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
 
 type Four = Lanes2<Lanes2<f64>>;

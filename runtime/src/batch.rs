@@ -264,12 +264,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn factored_tangents(
-        &self,
-        F: &[E],
-        P: &mut [E],
-        factors: &mut [E],
-    ) -> Result<Survey, LengthError> {
+    pub fn factored_tangents(&self, F: &[E], P: &mut [E], factors: &mut [E]) -> Result<Survey, LengthError> {
         self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
     }
 

@@ -15,7 +15,11 @@ use crate::output::{Field, write_vtu};
 ///
 /// # Errors
 /// Where `target` cannot be written to.
-pub fn write(target: &mut impl Write, simulation: &Simulation, material: &dyn TileMaterial<f64>) -> io::Result<()> {
+pub fn write(
+    target: &mut impl Write,
+    simulation: &Simulation,
+    material: &dyn TileMaterial<f64>,
+) -> io::Result<()> {
     let (body, positions) = (simulation.body(), simulation.positions());
     let displacements: Vec<f64> = positions
         .as_flattened()

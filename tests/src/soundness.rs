@@ -248,8 +248,7 @@ pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, 
 /// Which quantity is off.
 pub fn check_single_accuracy(material: &impl Material, F: &Matrix3<f32>) -> Result<(), Fault> {
     let single = evaluate(material, F, Filter::None);
-    let clean =
-        |status: piola::Status<bool>| !(status.refused || status.bounded || status.nonfinite);
+    let clean = |status: piola::Status<bool>| !(status.refused || status.bounded || status.nonfinite);
     let F = widen(F);
     let double = evaluate(material, &F, Filter::None);
     if !clean(single.status) || !clean(double.status) {

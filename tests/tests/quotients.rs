@@ -17,8 +17,8 @@ use std::fmt;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use piola::material::{Inadmissible, PAIRS};
 use piola::__private::pole_floor;
+use piola::material::{Inadmissible, PAIRS};
 use piola::{Inversion, Material, Real};
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::declared::Declared;

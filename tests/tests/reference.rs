@@ -16,7 +16,7 @@ use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::process::ExitCode;
 
-use piola::batch::{Batch, TileMaterial, LengthError, Stages, Survey};
+use piola::batch::{Batch, LengthError, Stages, Survey, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Declared, Status};
 use piola::point::Matrix3;

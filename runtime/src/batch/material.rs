@@ -1,7 +1,7 @@
 //! A material as batches see it: one dynamic dispatch for each response of a tile.
 
 use super::tile::{Rows, first_bits, for_each_group};
-use crate::lanes::{Backend, Scalar, Kernel, Lanes, Mask};
+use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
 use crate::material::{Blocks, Graded, Material, PerPoint};
 use crate::point::energy_is_finite;
 use crate::status::Status;

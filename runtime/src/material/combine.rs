@@ -267,7 +267,7 @@ mod tests {
 
     #[test]
     fn a_sum_is_defined_where_both_parts_are() {
-        let inverted = [1.3, 0.9, -0.7];
+        let inverted: [f64; 3] = [1.3, 0.9, -0.7];
         let everywhere = Sum::new(RotatedLinear, VolumetricPenalty::new(1.0).expect("admissible"));
         assert!(everywhere.admits(inverted) && everywhere.inversion() == Inversion::Refuse);
         let refusing = Sum::new(RotatedLinear, NeoHookean);

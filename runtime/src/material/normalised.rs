@@ -134,7 +134,8 @@ mod tests {
     #[test]
     fn what_cannot_be_is_refused() {
         for (young, poisson) in [(f64::NAN, 0.4), (1.0, f64::INFINITY), (0.0, 0.4), (1.0, 0.5), (1.0, -1.0)] {
-            let error = Normalised::with_young_poisson(NeoHookean, young, poisson).err().expect("inadmissible");
+            let error =
+                Normalised::with_young_poisson(NeoHookean, young, poisson).err().expect("inadmissible");
             assert!(matches!(error, Inadmissible::YoungPoisson { .. }), "{error}");
         }
         let error = Normalised::with_young_poisson(NeoHookean, 1.0, 0.2).err().expect("inadmissible");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Blocks, Inversion, Material, Moduli};
-use crate::lanes::{Scalar, Real};
+use crate::lanes::{Real, Scalar};
 
 /// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
 ///

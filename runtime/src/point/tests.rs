@@ -1,8 +1,8 @@
 //! Stress, tangent and filters against dense algebra, finite differences and a 9×9 eigensolver.
 
-use crate::material::Material;
 use super::*;
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+use crate::material::Material;
 use crate::material::PAIRS;
 use crate::random::Random;
 

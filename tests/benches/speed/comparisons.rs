@@ -3,7 +3,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 
 use piola::Material;
-use piola::batch::{Batch, TileMaterial, Layout, Stages};
+use piola::batch::{Batch, Layout, Stages, TileMaterial};
 use piola::lanes::Backend;
 use piola_materials::{NeoHookean, StVenantKirchhoff};
 use piola_speed::{Arrays, Effort, IN_CACHE, LAMBDA, MU, Task, Times, materials, ogden, time_in_turns};

@@ -1,6 +1,6 @@
 //! One configuration at a time.
 
-use piola::batch::{Batch, TileMaterial, Layout, Stages};
+use piola::batch::{Batch, Layout, Stages, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};

@@ -117,7 +117,8 @@ fn kernels_in<E: Stages>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
             let count = task.materials(&materials::<E>()).len();
             for (name, energy) in materials::<E>().into_iter().take(count) {
                 let mut arrays = Arrays::new(task, Layout::Lines, IN_CACHE);
-                let call = move || arrays.run(&Batch::new(&*energy).with_backend(backend).with_filter(filter));
+                let call =
+                    move || arrays.run(&Batch::new(&*energy).with_backend(backend).with_filter(filter));
                 push(&task.label(filter), name, Box::new(call));
             }
         }

@@ -105,7 +105,7 @@ impl Explainer<'_, '_> {
             }
             Violation::NoShearModulus => {
                 "the shear modulus of this energy is zero at rest: add a term that resists shear, \
-                such as `mu / 2.0 * (I1b - 3.0)`"
+                such as `mu / 2.0 * (I1b - 3.0)`, or say `part` in the attribute if it is a part of a sum"
                     .into()
             }
             Violation::Overflow => {

@@ -1,7 +1,7 @@
 //! Slopes: a central difference approaches a right derivative as h², until rounding takes over.
 
-use crate::material::Material;
 use super::*;
+use crate::material::Material;
 
 /// Checks that (f(h) − f(−h))/2h tends to `derivative` as h² does, with a floor of `rounding`/h from the rounding
 /// of f.

@@ -1,8 +1,8 @@
 //! Filters against an eigensolver of the whole 9×9 matrix.
 
-use crate::material::Material;
 use super::*;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
+use crate::material::Material;
 
 /// f(A) by nalgebra's eigensolver, which has never heard of stretches.
 fn by_eigensolver(A: &[[f64; 9]; 9], f: impl Fn(f64) -> f64) -> [[f64; 9]; 9] {

@@ -1,10 +1,10 @@
 //! Two numbers side by side: the kernels compile over them, and give each the bits it would get alone.
 
-use crate::material::Material;
 use super::measures::every_number;
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
 use crate::lanes::{Lanes, Lanes2};
+use crate::material::Material;
 
 type Two = Lanes2<f64>;
 

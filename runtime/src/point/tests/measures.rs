@@ -1,9 +1,9 @@
 //! Measures of stress and tangent against their definitions in F, P and dP/dF, written out over indices.
 
-use crate::material::Material;
 use super::differences::{check_slope, flat};
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
+use crate::material::Material;
 use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};
 use crate::point::measures::{
     cauchy, jaumann_tangent, kirchhoff, material_tangent, second_piola, spatial_tangent, voigt,

@@ -3,8 +3,8 @@
 //! Saint Venant–Kirchhoff's P = F (2μ E + λ tr E) is a polynomial in H and judged in about 106 bits. The other energies
 //! are judged in single precision by closed forms in double.
 
-use crate::material::Material;
 use super::*;
+use crate::material::Material;
 use crate::point::twice::Twice;
 
 const MU: f64 = 1.0;

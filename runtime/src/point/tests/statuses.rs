@@ -1,8 +1,8 @@
 //! What is not finite is said, whatever the entry point: in F, in H, and in what comes of them.
 
-use crate::material::{Material, Scaled};
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
+use crate::material::{Material, Scaled};
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 

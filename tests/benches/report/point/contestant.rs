@@ -3,8 +3,8 @@
 #![expect(non_snake_case, reason = "F, P, K as in the literature")]
 
 use piola::Real;
-use piola::batch::{Batch, TileMaterial, Layout, Stages};
-use piola::lanes::{Backend, Scalar, Kernel, Lanes};
+use piola::batch::{Batch, Layout, Stages, TileMaterial};
+use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd};
 use piola_tests::baselines::automatic::{self, Potential};
