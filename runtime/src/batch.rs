@@ -68,8 +68,9 @@ pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
+#[cfg(any(feature = "system", test))]
 pub(crate) use form::PACKED_12;
-#[cfg(test)]
+#[cfg(all(test, feature = "system"))]
 pub(crate) use form::STIFFEST;
 use jobs::{Tile, Work};
 use sink::{Sink, Source};

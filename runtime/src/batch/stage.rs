@@ -8,9 +8,11 @@
 use std::cell::Cell;
 
 use super::energy::{self, from_numbers};
+#[cfg(feature = "system")]
+use super::form::{BlockStiffness, FactoredStiffness};
 use super::form::{
-    BlockStiffness, Factored, FactoredStiffness, Form, FullStiffness, FullTangent, PackedStiffness,
-    PackedTangent, gradient_is_finite, put_all, put_gradient,
+    Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite, put_all,
+    put_gradient,
 };
 use super::sink::{Lines, Sink, Source};
 use super::tile::{Row, Rows, first_bits, for_each_group};
@@ -377,7 +379,9 @@ pub(super) enum TangentForm {
 pub(super) enum StiffnessForm {
     Full,
     Packed,
+    #[cfg(feature = "system")]
     Blocks,
+    #[cfg(feature = "system")]
     Factored,
 }
 
@@ -453,7 +457,9 @@ macro_rules! stages {
                 match form {
                     StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
+                    #[cfg(feature = "system")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
+                    #[cfg(feature = "system")]
                     StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
                 }
             }

@@ -95,7 +95,7 @@ impl<M> Parameters<M> for Uniform<'_, M> {
 
 /// A material for each number, in their order. Where there are fewer, the last one serves for the rest.
 ///
-/// As the energy of a [`Batch`](crate::batch::Batch), a material for each point.
+/// As the energy of a `piola::batch::Batch`, a material for each point.
 #[derive(Clone, Copy, Debug)]
 pub struct Each<'a, M>(&'a [M]);
 
@@ -113,6 +113,7 @@ impl<'a, M: Varying> Each<'a, M> {
     }
 }
 
+#[cfg(feature = "batch")]
 impl<'a, M> Each<'a, M> {
     /// One for each number, at least one.
     #[inline(always)]
