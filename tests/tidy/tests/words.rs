@@ -1,9 +1,10 @@
 //! Comments and documentation.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use piola_tidy::tokens::summaries;
-use piola_tidy::{crates, files, forbid, members, read};
+use piola_tidy::{crates, files, forbid, members, read, root};
 use quote::ToTokens;
 
 /// First words that make a summary depend on what stands above it, or that say nothing of what the item is.
@@ -21,7 +22,7 @@ fn summaries_make_sense_alone() {
                 let begins = |words: &&str| {
                     summary.strip_prefix(*words).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
                 };
-                if HEADLESS.iter().any(|words| begins(&words)) {
+                if HEADLESS.iter().any(|words| begins(words)) {
                     found.push(format!("{}:{line}: {summary}", module.file.display()));
                 }
             }
@@ -74,7 +75,7 @@ fn nothing_is_left_undone() {
 }
 
 /// All Rust files of the workspace, each once, and those of the fuzz targets.
-fn sources() -> Vec<(std::path::PathBuf, String)> {
+fn sources() -> Vec<(PathBuf, String)> {
     let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
     found.extend(files(Path::new("fuzz/fuzz_targets")));
     found.sort();
@@ -82,6 +83,32 @@ fn sources() -> Vec<(std::path::PathBuf, String)> {
     // What the macro makes of a declaration is formatted by another program.
     found.retain(|(path, _)| !path.components().any(|part| part.as_os_str() == "goldens"));
     found
+}
+
+/// Relative links of the repository's documents lead to files.
+#[test]
+fn links_of_documents_lead_to_files() {
+    let mut found = Vec::new();
+    let mut judged = 0;
+    for folder in ["", "docs", "tests"] {
+        for entry in fs::read_dir(root().join(folder)).expect("a folder of the repository") {
+            let document = entry.expect("an entry").path();
+            if document.extension().is_none_or(|extension| extension != "md") {
+                continue;
+            }
+            let text = fs::read_to_string(&document).expect("a document");
+            for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link)
+            {
+                judged += 1;
+                let file = link.split('#').next().unwrap_or_default();
+                if !file.contains("://") && !document.with_file_name(file).exists() {
+                    found.push(format!("{}: {link}", document.display()));
+                }
+            }
+        }
+    }
+    forbid("links that lead nowhere", &found);
+    assert!(judged > 5, "{judged} links");
 }
 
 /// The README shows a program that the test target `readme` of `piola-tests` compiles and runs.
