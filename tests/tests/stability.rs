@@ -22,7 +22,7 @@ fn rows(text: &str) -> Vec<Vec<&str>> {
 
 /// An error as it is written: units of u (‖X‖ + sens) up to the bound, a power of ten, ∞; `None` for –.
 fn error(cell: &str) -> Option<f64> {
-    let digit = |c: char| Some(char::from_digit("⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c)? as u32, 10)?);
+    let digit = |c: char| char::from_digit("⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c)? as u32, 10);
     let written = cell.split(' ').next().unwrap_or_default();
     let exponent = || written.strip_prefix("10")?.chars().map(digit).collect::<Option<String>>();
     match (written, exponent()) {
