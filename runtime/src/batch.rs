@@ -71,8 +71,9 @@ pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "system"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
+#[cfg(any(feature = "system", test))]
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::{Sink, Source};

@@ -52,9 +52,14 @@
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
 
+// Modules that a feature adds, where it is off.
+#![cfg_attr(not(feature = "batch"), doc = "", doc = "[`batch`]: https://docs.rs/piola/latest/piola/batch/")]
 #![cfg_attr(
     not(feature = "system"),
-    allow(unused, rustdoc::broken_intra_doc_links, reason = "what bodies and batches need")
+    doc = "",
+    doc = "[`mesh`]: https://docs.rs/piola/latest/piola/mesh/",
+    doc = "[`step`]: https://docs.rs/piola/latest/piola/step/",
+    doc = "[`system`]: https://docs.rs/piola/latest/piola/system/"
 )]
 
 extern crate self as piola;

@@ -21,6 +21,7 @@ use crate::quotient::pole_floor;
 use crate::status::Status;
 
 pub mod gradient;
+#[cfg(feature = "batch")]
 pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
@@ -36,6 +37,7 @@ mod tests;
 mod twice;
 
 pub use gradient::{SvdGradient, svd_gradient};
+#[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
 pub use project::{Filter, project};
 pub use small_strain::{evaluate_from_displacement, evaluate_stress_from_displacement};
@@ -47,14 +49,14 @@ pub use tangent::{Assemble, Tangent, contract};
 pub type Matrix3<R> = [[R; 3]; 3];
 
 /// From nalgebra's matrix, which is stored by columns.
-#[cfg(feature = "nalgebra")]
+#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn from_nalgebra<R: Real + nalgebra::Scalar>(matrix: &nalgebra::Matrix3<R>) -> Matrix3<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
 }
 
 /// To nalgebra's matrix, which is stored by columns.
-#[cfg(feature = "nalgebra")]
+#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn to_nalgebra<R: Real + nalgebra::Scalar>(matrix: &Matrix3<R>) -> nalgebra::Matrix3<R> {
     nalgebra::Matrix3::from_fn(|i, j| matrix[i][j])

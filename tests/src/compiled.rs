@@ -6,7 +6,8 @@
 #![expect(non_snake_case, reason = "F and H as in the literature")]
 
 use piola::Real;
-use piola::material::{Material, Status};
+use piola::Status;
+use piola::material::Material;
 use piola::point::{self, Filter, Matrix3, Point, Svd};
 
 /// [`point::evaluate`].

@@ -12,7 +12,7 @@
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
 //! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors refuse;
 //! * `tests/contract.rs`: the contract of every material;
-//! * `tests/tidy.rs`: the rules of the house.
+//! * `tidy/`, a crate of its own: the rules that all sources follow.
 
 pub mod baselines;
 pub mod bits;

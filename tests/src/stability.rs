@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
+use std::path::Path;
 
 use piola::material::Declared;
 use piola::point::svd::{Svd, svd, svd_signed_by_determinant};
@@ -63,11 +64,18 @@ impl fmt::Display for Format {
 /// The errors of all columns at one case; `None` where the exact result leaves the format.
 type Row = [Option<f64>; COLUMNS.len()];
 
-/// The document for these cases.
+/// The document that `STABILITY.md` is: all methods at the reference cases, those of ordinary F excepted.
 ///
 /// # Errors
-/// Where a case does not fit its material; says which and why.
-pub fn report(cases: &[Case]) -> Result<String, String> {
+/// Where the cases cannot be read, or one does not fit its material; says which and why.
+pub fn document() -> Result<String, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
+    let mut cases = Case::read(&folder.join("cases.json"))?;
+    cases.extend(Case::read(&folder.join("cases-more.json"))?);
+    report(&cases)
+}
+
+fn report(cases: &[Case]) -> Result<String, String> {
     let mut rows: BTreeMap<(&str, Format), BTreeMap<&str, Vec<Row>>> = BTreeMap::new();
     for case in cases {
         let Some(entry) = piola_materials::find(&case.material) else {
@@ -90,7 +98,7 @@ pub fn report(cases: &[Case]) -> Result<String, String> {
 const INTRODUCTION: &str = "\
 # Stability
 
-Made by `cargo run --release -p piola-tests --example stability`; `-- --check` compares instead of writing.
+Made by `cargo run -p piola-tests --example stability`; `cargo test -p piola-tests --test stability` computes it anew.
 
 Errors ‖X − X*‖ of P, of K = dP/dF and of S, its projection to semidefinite matrices, against reference values of 25 digits
 (`tests/reference`), in units of u (‖X*‖ + sens): u = 2⁻⁵³ in f64 and 2⁻²⁴ in f32, norms are Frobenius norms, and sens is what

@@ -1,22 +1,20 @@
-//! Every flip and twist of the catalogue at every gap, with a table: `cargo test --release -p piola-tests quotients`.
+//! Every flip and twist of the catalogue at every gap, a trial for each energy and inversion, with a table:
+//! `cargo test -p piola-tests --test quotients`.
 //!
 //! A quotient D may err by 10 u (1 + κ) relative to max(|D|, |ψii| + |ψij|), where κ is its condition with respect to
-//! relative changes of the stretches, and of the threshold of an extension. Where that fails, Σ|terms of D| enters the maximum: a sum whose terms cancel by the
-//! nature of the energy cannot do better. The table counts those. Parameters are rounded to `f32` first, so that both
-//! formats judge one material.
+//! relative changes of the stretches, and of the threshold of an extension. Where that fails, Σ|terms of D| enters the
+//! maximum: a sum whose terms cancel by the nature of the energy cannot do better. The table counts those. Parameters are
+//! rounded to `f32` first, so that both formats judge one material.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a test with its own main and a table to show"
-)]
+#![expect(clippy::print_stdout, reason = "a table to show")]
 
 use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::fmt;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
+use libtest_mimic::{Arguments, Trial};
 use piola::__private::pole_floor;
 use piola::material::{Inadmissible, PAIRS};
 use piola::{Inversion, Material, Real};
@@ -30,23 +28,19 @@ const C: f64 = 10.0;
 /// Of a threshold that is exact in both formats.
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
 
+/// A line of the table: energy, inversion, format.
+type Line = (&'static str, &'static str, &'static str, Tally);
+
+/// What every trial so far has judged.
+static TABLE: Mutex<Vec<Line>> = Mutex::new(Vec::new());
+
 fn main() -> ExitCode {
-    // `cargo test NAME` passes the name to every test target; this one is its own only test.
-    if std::env::args().skip(1).any(|argument| !argument.starts_with('-') && !"quotients".contains(&argument))
-    {
-        return ExitCode::SUCCESS;
+    let arguments = Arguments::from_args();
+    let conclusion = libtest_mimic::run(&arguments, trials());
+    if !arguments.list {
+        print(&mut TABLE.lock().unwrap_or_else(PoisonError::into_inner));
     }
-    match run() {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(failed) => {
-            eprintln!("{failed} quotients failed");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
+    conclusion.exit_code()
 }
 
 /// Parameters other than the typical ones: where those switch off a part of the energy, and splines whose coefficients are
@@ -64,8 +58,53 @@ const OTHERS: [(&str, &[&[f64]]); 2] = [
     ),
 ];
 
-/// The number of quotients that failed.
-fn run() -> Result<usize, String> {
+/// A trial for each energy with each choice of parameters, plain and, where it can be, extended.
+fn trials() -> Vec<Trial> {
+    let mut trials = Vec::new();
+    for entry in CATALOGUE {
+        let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|&(_, values)| values);
+        for (choice, values) in std::iter::once(entry.typical).chain(others).enumerate() {
+            for (word, inversion) in [("refuse", Inversion::Refuse), ("extend", EXTEND)] {
+                if inversion == EXTEND && !can_be_extended(entry, values) {
+                    continue;
+                }
+                let choice = if choice == 0 { String::new() } else { format!("::{choice}") };
+                let name = format!("quotients::{}::{word}{choice}", entry.name);
+                trials.push(Trial::test(name, move || Ok(add_to_table(entry, word, values, inversion)?)));
+            }
+        }
+    }
+    trials
+}
+
+/// Typical parameters can be extended wherever the entry can; of other ones, some may not.
+fn can_be_extended(entry: &Entry, values: &[&[f64]]) -> bool {
+    let restores = || !matches!(entry.moduli(values, EXTEND), Err(Inadmissible::DoesNotRestore { .. }));
+    entry.description.extends && (values == entry.typical || restores())
+}
+
+/// Judges a material and adds the result to the table.
+///
+/// # Errors
+/// The quotients that fail, one in each line, or why the material cannot be judged.
+fn add_to_table(
+    entry: &'static Entry,
+    word: &'static str,
+    values: &[&[f64]],
+    inversion: Inversion,
+) -> Result<(), String> {
+    let mut failures = Vec::new();
+    for (precision, tally) in judge(entry, values, inversion)? {
+        failures.extend(tally.failures.iter().map(|failure| format!("{precision} {failure}")));
+        if tally.failed > 0 || tally.judged == 0 {
+            failures.push(format!("{precision}: {} of {} quotients failed", tally.failed, tally.judged));
+        }
+        TABLE.lock().unwrap_or_else(PoisonError::into_inner).push((entry.name, word, precision, tally));
+    }
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+}
+
+fn print(table: &mut [Line]) {
     println!("Errors of quotients in units of u (1 + κ) max(|D|, |ψii| + |ψij|); each may reach {C}.");
     println!("flat: how many stay below {C} u max(|D|, |ψii| + |ψij|).");
     println!("terms: how many need Σ|terms| in that maximum. pole: twists below the floor of a pole.");
@@ -74,51 +113,16 @@ fn run() -> Result<usize, String> {
         "{:28} {:6} {:4} {:>8} {:>7} {:>8} {:>6} {:>6} {:>6} {:>6}",
         "material", "", "", "judged", "worst", "flat", "terms", "pole", "range", "failed"
     );
-    let mut work = Vec::new();
-    for entry in CATALOGUE {
-        let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|&(_, values)| values);
-        for values in std::iter::once(entry.typical).chain(others) {
-            work.extend([Inversion::Refuse, EXTEND].map(|inversion| (entry, values, inversion)));
-        }
-    }
-    let next = AtomicUsize::new(0);
-    let worker = || {
-        let mut done = Vec::new();
-        while let Some(&(entry, values, inversion)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push((entry.name, inversion, judge(entry, values, inversion)));
-        }
-        done
-    };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut tables = Vec::new();
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
-        for worker in workers {
-            tables.extend(worker.join().map_err(|_| "a judge panicked")?);
-        }
-        Ok::<_, String>(())
-    })?;
-    tables.sort_by_key(|&(name, inversion, _)| (name, inversion == EXTEND));
-
+    table.sort_by_key(|&(name, word, precision, _)| (name, word == "extend", precision == "f32"));
     let mut total = Tally::default();
-    let mut failures = Vec::new();
-    for (name, inversion, tallies) in tables {
-        let word = if inversion == EXTEND { "extend" } else { "refuse" };
-        for (precision, tally) in tallies? {
-            println!("{name:28} {word:6} {precision:4} {tally}");
-            let label = |failure: &String| format!("failed: {name} {word} {precision} {failure}");
-            failures.extend(tally.failures.iter().map(label));
-            total.add(&tally);
-        }
+    for (name, word, precision, tally) in table {
+        println!("{name:28} {word:6} {precision:4} {tally}");
+        total.add(tally);
     }
     println!("{:28} {:6} {:4} {total}", "all", "", "");
-    for failure in &failures {
-        println!("{failure}");
-    }
-    Ok(total.failed)
 }
 
-/// The tallies of both formats; none where the material has no extension.
+/// The tallies of both formats.
 fn judge(
     entry: &Entry,
     values: &[&[f64]],
@@ -128,11 +132,9 @@ fn judge(
         values.iter().map(|list| list.iter().map(|&value| f64::from(value as f32)).collect()).collect();
     let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
     let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(&entry.description, &values, inversion)));
-    match entry.visit(&values, inversion, Judge { values: &values, inversion, declared }) {
-        Ok(tallies) => tallies,
-        Err(Inadmissible::NoExtension { .. } | Inadmissible::DoesNotRestore { .. }) => Ok(Vec::new()),
-        Err(error) => Err(format!("{}: {error}", entry.name)),
-    }
+    entry
+        .visit(&values, inversion, Judge { values: &values, inversion, declared })
+        .map_err(|error| format!("{}: {error}", entry.name))?
 }
 
 /// Expressions of an energy, understood when they are first asked for.

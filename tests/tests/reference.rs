@@ -1,27 +1,24 @@
-//! The reference cases, with a table of the worst errors: `cargo test --release -p piola-tests reference`.
+//! The reference cases, a trial for each energy, with a table of the worst errors: `cargo test -p piola-tests --test reference`.
 //!
 //! Every case of all files is judged, in `f64` and, where its F is exact there, in `f32`, under [`Inversion::Refuse`], as a
 //! single point and in batches of every back end (in `f32` those of a few energies): by C u (‖X*‖ + sens), ψ by
 //! C u (|ψ*| + sens + Σ|terms|). What has no representation in a format cannot be returned there;
 //! its status must then say so, and say so only then. The variable `PIOLA_CASES` names one other file of the same schema.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a test with its own main and a table to show"
-)]
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 
-use piola::batch::{Batch, LengthError, Stages, Survey, TileMaterial};
+use libtest_mimic::{Arguments, Trial};
+use piola::batch::{Batch, LengthError, Stages, TileMaterial};
 use piola::lanes::Backend;
-use piola::material::{Declared, Status};
+use piola::material::Declared;
 use piola::point::Matrix3;
 use piola::point::project::Filter;
-use piola::{Inversion, Real};
+use piola::{Inversion, Real, Status, Survey};
 use piola_materials::{CATALOGUE, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, Visitor};
 use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
@@ -37,24 +34,39 @@ const FILES: [&str; 3] =
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
 
+/// All results so far, of every trial.
+static TABLE: Mutex<Table> = Mutex::new(Table::EMPTY);
+
 fn main() -> ExitCode {
-    // `cargo test NAME` passes the name to every test target; this one is its own only test.
-    if std::env::args().skip(1).any(|argument| !argument.starts_with('-') && !"reference".contains(&argument))
-    {
-        return ExitCode::SUCCESS;
-    }
-    let cases = match std::env::var_os("PIOLA_CASES") {
-        Some(file) => Case::read(Path::new(&file)),
-        None => own_cases(),
-    };
-    match cases.and_then(|cases| run(&cases)) {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
+    let arguments = Arguments::from_args();
+    let trials = match trials() {
+        Ok(trials) => trials,
         Err(error) => {
             eprintln!("{error}");
-            ExitCode::FAILURE
+            return ExitCode::FAILURE;
         }
+    };
+    let conclusion = libtest_mimic::run(&arguments, trials);
+    if !arguments.list {
+        TABLE.lock().unwrap_or_else(PoisonError::into_inner).print();
     }
+    conclusion.exit_code()
+}
+
+/// One trial for each energy that has cases.
+fn trials() -> Result<Vec<Trial>, String> {
+    let cases = match std::env::var_os("PIOLA_CASES") {
+        Some(file) => Case::read(Path::new(&file))?,
+        None => own_cases()?,
+    };
+    let mut by_energy: BTreeMap<String, Vec<Case>> = BTreeMap::new();
+    for case in cases {
+        by_energy.entry(case.material.clone()).or_default().push(case);
+    }
+    let trial = |(name, cases): (String, Vec<Case>)| {
+        Trial::test(format!("reference::{name}"), move || Ok(judge_all(&name, &cases)?))
+    };
+    Ok(by_energy.into_iter().map(trial).collect())
 }
 
 /// The cases of all files, which leave no energy of the catalogue out.
@@ -71,26 +83,23 @@ fn own_cases() -> Result<Vec<Case>, String> {
     Ok(cases)
 }
 
-/// The number of judgements that failed.
-fn run(cases: &[Case]) -> Result<usize, String> {
-    let mut declared: BTreeMap<&str, declared::Declared> = BTreeMap::new();
-    let mut worst: BTreeMap<(&str, &str, Quantity), Worst> = BTreeMap::new();
-    let (mut passed, mut flagged, mut failed) = (0, 0, Vec::new());
+/// Judges all cases of one energy and adds them to the table.
+///
+/// # Errors
+/// The results that fail, one in each line, or why a case cannot be judged.
+fn judge_all(name: &str, cases: &[Case]) -> Result<(), String> {
+    let entry = piola_materials::find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
+    let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
+    let values = first.values(&entry.description)?;
+    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+    let declared = declared::Declared::read(&entry.description, &values, Inversion::Refuse)?;
+    let mut table = Table { cases: cases.len(), energies: 1, ..Table::EMPTY };
+    let mut failures = Vec::new();
     for case in cases {
-        let entry = piola_materials::find(&case.material)
-            .ok_or_else(|| format!("{}: {} is not in the catalogue", case.id, case.material))?;
         let values = case.values(&entry.description)?;
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        let declaration = match declared.entry(entry.name) {
-            Entry::Occupied(found) => found.into_mut(),
-            Entry::Vacant(vacant) => {
-                let read = declared::Declared::read(&entry.description, &values, Inversion::Refuse)?;
-                vacant.insert(read)
-            }
-        };
-        let terms = declaration.energy_terms(&values, case.stretches()?);
-        let judge = Judge { case, terms };
-        let refused = |error| format!("{}: {} {error}", case.id, case.material);
+        let judge = Judge { case, terms: declared.energy_terms(&values, case.stretches()?) };
+        let refused = |error| format!("{}: {name} {error}", case.id);
         let mut judgements = entry.visit(&values, Inversion::Refuse, judge).map_err(refused)?;
         let elements = entry.elements(&values, Inversion::Refuse).map_err(refused)?;
         judgements.extend(judge.batches(&*elements, "f64 lanes", |value| value, |value| value));
@@ -99,48 +108,79 @@ fn run(cases: &[Case]) -> Result<usize, String> {
         {
             judgements.extend(judge.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
         }
-        for Judgement { precision, quantity, verdict } in judgements {
-            let complaint = match verdict {
-                Verdict::Error(error) => {
-                    let entry = worst.entry((entry.name, precision, quantity)).or_default();
-                    if error >= entry.error {
-                        *entry = Worst { error, case: format!("{} {}", case.id, case.tag) };
-                    }
-                    (error > C).then(|| format!("{error:.1}"))
-                }
-                Verdict::Flagged => {
-                    flagged += 1;
-                    continue;
-                }
-                Verdict::Status(complaint) => Some(complaint.to_owned()),
-            };
-            match complaint {
-                None => passed += 1,
-                Some(complaint) => failed.push(format!(
-                    "{} {} {precision} {} {quantity:?}: {complaint}",
-                    case.id, case.material, case.tag
-                )),
+        for judgement in judgements {
+            if let Some(complaint) = table.add(entry.name, case, &judgement) {
+                let Judgement { precision, quantity, .. } = judgement;
+                failures
+                    .push(format!("{} {name} {precision} {} {quantity:?}: {complaint}", case.id, case.tag));
             }
         }
     }
-    println!(
-        "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + Σ|terms|); each may reach {C}.\n"
-    );
-    println!("{:21} {:9} {:10} {:>10}  case", "material", "", "quantity", "error");
-    for ((material, precision, quantity), Worst { error, case }) in &worst {
-        println!("{material:21} {precision:9} {:10} {error:10.3}  {case}", format!("{quantity:?}"));
+    TABLE.lock().unwrap_or_else(PoisonError::into_inner).extend(table);
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+}
+
+/// Counts and worst errors of results.
+struct Table {
+    cases: usize,
+    energies: usize,
+    passed: usize,
+    flagged: usize,
+    failed: usize,
+    worst: BTreeMap<(&'static str, &'static str, Quantity), Worst>,
+}
+
+impl Table {
+    const EMPTY: Self =
+        Self { cases: 0, energies: 0, passed: 0, flagged: 0, failed: 0, worst: BTreeMap::new() };
+
+    /// Counts one result; returns what is wrong with it.
+    fn add(&mut self, energy: &'static str, case: &Case, judgement: &Judgement) -> Option<String> {
+        let complaint = match judgement.verdict {
+            Verdict::Error(error) => {
+                let key = (energy, judgement.precision, judgement.quantity);
+                self.keep_worse(key, Worst { error, case: format!("{} {}", case.id, case.tag) });
+                // A NaN is no error within the bound.
+                if error <= C { None } else { Some(format!("{error:.1}")) }
+            }
+            Verdict::Flagged => {
+                self.flagged += 1;
+                return None;
+            }
+            Verdict::Status(complaint) => Some(complaint.to_owned()),
+        };
+        *(if complaint.is_none() { &mut self.passed } else { &mut self.failed }) += 1;
+        complaint
     }
-    for failure in &failed {
-        println!("failed: {failure}");
+
+    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: Worst) {
+        let worst = self.worst.entry(key).or_default();
+        if found.error >= worst.error {
+            *worst = found;
+        }
     }
-    println!(
-        "\n{} cases of {} energies: {passed} results passed, {} failed;",
-        cases.len(),
-        declared.len(),
-        failed.len()
-    );
-    println!("{flagged} more have no representation in their format, and their status says so");
-    Ok(failed.len())
+
+    fn extend(&mut self, other: Self) {
+        self.cases += other.cases;
+        self.energies += other.energies;
+        self.passed += other.passed;
+        self.flagged += other.flagged;
+        self.failed += other.failed;
+        other.worst.into_iter().for_each(|(key, worst)| self.keep_worse(key, worst));
+    }
+
+    fn print(&self) {
+        println!(
+            "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + Σ|terms|); each may reach {C}.\n"
+        );
+        println!("{:21} {:9} {:10} {:>10}  case", "material", "", "quantity", "error");
+        for ((material, precision, quantity), Worst { error, case }) in &self.worst {
+            println!("{material:21} {precision:9} {:10} {error:10.3}  {case}", format!("{quantity:?}"));
+        }
+        let Self { cases, energies, passed, flagged, failed, .. } = self;
+        println!("\n{cases} cases of {energies} energies: {passed} results passed, {failed} failed;");
+        println!("{flagged} more have no representation in their format, and their status says so");
+    }
 }
 
 #[derive(Default)]
@@ -228,7 +268,7 @@ impl Judge<'_> {
         self.verdicts(precision, R::UNIT_ROUNDOFF, |x| R::splat(x).is_finite(), results)
     }
 
-    /// The same of a batch of one point, with every back end.
+    /// Results of a batch of one point, with every back end.
     fn batches<E: Stages>(
         self,
         energy: &dyn TileMaterial<E>,
@@ -244,6 +284,7 @@ impl Judge<'_> {
                 refused: survey.refused > 0,
                 bounded: survey.bounded > 0,
                 nonfinite: survey.nonfinite > 0,
+                filtered: survey.filtered > 0,
             }
         };
         let judge = |backend| {

@@ -1,46 +1,86 @@
-//! The committed `STABILITY.md` tells of every material, and of no result of ours beyond the bound.
+//! The committed `STABILITY.md` is what is computed, and tells of no result of ours beyond the bound.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
-use piola_tests::cases::Case;
+use piola_tests::stability::{BOUND, document};
+
+/// Columns of a row: its name, the number of cases, and nine errors.
+const COLUMNS: usize = 11;
+
+/// Those of piola among the columns.
+const OURS: std::ops::Range<usize> = 2..5;
+
+/// By how much another processor or another platform's ln, exp and pow may move an error: units up to the bound, and above
+/// it one in the exponent of ten, as the document says.
+const MOVED: f64 = 2.0;
+
+/// Lines of a document as cells; a line that is no row of a table is a single one.
+fn rows(text: &str) -> Vec<Vec<&str>> {
+    let cells = |line| str::trim_matches(line, '|').split('|').map(str::trim).collect();
+    text.lines().map(cells).collect()
+}
+
+/// An error as it is written: units of u (‖X‖ + sens) up to the bound, a power of ten, ∞; `None` for –.
+fn error(cell: &str) -> Option<f64> {
+    let digit = |c: char| char::from_digit("⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c)? as u32, 10);
+    let written = cell.split(' ').next().unwrap_or_default();
+    let exponent = || written.strip_prefix("10")?.chars().map(digit).collect::<Option<String>>();
+    match (written, exponent()) {
+        ("–", _) => None,
+        ("∞", _) => Some(f64::INFINITY),
+        (_, Some(exponent)) if !exponent.is_empty() => {
+            Some(format!("1e{exponent}").parse().expect("a power"))
+        }
+        (units, _) => Some(units.parse().unwrap_or_else(|_| panic!("`{cell}` is no error"))),
+    }
+}
+
+/// Whether both tell the same of one column, as far as the machine has no part in it.
+fn agree(committed: &str, computed: &str, column: usize) -> bool {
+    if committed == computed {
+        return true;
+    }
+    // With fused multiplications the other methods meet 0/0 and the edge of their switches at other cases.
+    if !OURS.contains(&column) && cfg!(any(target_feature = "fma", not(target_arch = "x86_64"))) {
+        return true;
+    }
+    match (error(committed), error(computed)) {
+        (Some(old), Some(new)) if old == new => true,
+        (Some(old), Some(new)) if old.max(new) <= BOUND => (old - new).abs() <= MOVED,
+        (Some(old), Some(new)) => old.max(new) / old.min(new).max(BOUND) <= 10.0,
+        _ => false,
+    }
+}
 
 #[test]
-fn the_table_is_complete_and_ours_keeps_the_bound() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(folder.join("STABILITY.md")).expect("STABILITY.md");
-    let cases = Case::read(&folder.join("reference/cases.json")).expect("the reference cases");
-
-    let mut formats = 0;
-    for format in ["f64", "f32"] {
-        let heading = |name: &str| format!("## {name}, {format}\n");
-        assert!(text.contains(&heading("Summary")), "a summary for {format}");
-        let materials: BTreeSet<&str> = cases
-            .iter()
-            .filter(|case| format == "f64" || case.f32_exact)
-            .map(|case| case.material.as_str())
-            .collect();
-        for material in materials {
-            assert!(text.contains(&heading(material)), "a table for {material}, {format}");
-            formats += 1;
+fn the_table_is_what_is_computed_and_ours_keeps_the_bound() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("STABILITY.md");
+    let committed = std::fs::read_to_string(path).expect("STABILITY.md");
+    let computed = document().expect("the reference cases");
+    let (committed, computed) = (rows(&committed), rows(&computed));
+    let mut differences = Vec::new();
+    let mut judged = 0;
+    for (line, (old, new)) in committed.iter().zip(&computed).enumerate() {
+        let is_row = new.len() == COLUMNS && new[1].parse::<u32>().is_ok();
+        let same = if is_row && old.len() == COLUMNS {
+            judged += 1;
+            old[..2] == new[..2] && (2..COLUMNS).all(|column| agree(old[column], new[column], column))
+        } else {
+            old == new
+        };
+        if !same {
+            differences.push(format!("line {}:\n- {}\n+ {}", line + 1, old.join(" | "), new.join(" | ")));
+        }
+        for cell in OURS.filter(|_| is_row).map(|column| new[column]) {
+            assert!(error(cell).is_none_or(|error| error <= BOUND), "{cell} is beyond the bound: {new:?}");
         }
     }
-    assert!(formats >= 34, "17 materials in two formats");
-
-    let mut rows = 0;
-    for line in text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| material")) {
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        if cells[1] == "family" {
-            continue;
-        }
-        assert_eq!(cells.len(), 13, "name, cases and nine errors: {line}");
-        for ours in &cells[3..6] {
-            let error = ours.split(' ').next().unwrap_or_default();
-            // What is beyond the bound is written as a power of ten or ∞; – stands where nothing fits the format.
-            let bounded = error == "–" || error.parse().is_ok_and(|units: u32| units <= 30);
-            assert!(bounded, "{error} in {line}");
-        }
-        rows += 1;
-    }
-    assert!(rows >= 300, "{rows} rows");
+    assert!(
+        differences.is_empty() && committed.len() == computed.len(),
+        "STABILITY.md has {} lines, computed were {}; the example `stability` writes it anew.\n{}",
+        committed.len(),
+        computed.len(),
+        differences.join("\n")
+    );
+    assert!(judged >= 300, "{judged} rows");
 }

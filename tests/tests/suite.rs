@@ -131,9 +131,7 @@ impl Judge<'_> {
         for (what, ids, values) in groups {
             for (&id, &value) in ids.iter().zip(values) {
                 let expected = evaluate(&self.model.graph, id, point);
-                // The interpreter's own quotients of close stretches are good to 1e-9 only.
-                let tolerance = (roundings * R::UNIT_ROUNDOFF).max(1e-9);
-                self.close(what, expected, widen(value), tolerance, point);
+                self.close(what, expected, widen(value), roundings * R::UNIT_ROUNDOFF, point);
             }
         }
     }

@@ -7,9 +7,11 @@
 
 use std::cell::Cell;
 
+#[cfg(feature = "system")]
+use super::form::{BlockStiffness, FactoredStiffness};
 use super::form::{
-    BlockStiffness, Factored, FactoredStiffness, Form, FullStiffness, FullTangent, PackedStiffness,
-    PackedTangent, gradient_is_finite, put_all, put_gradient,
+    Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite, put_all,
+    put_gradient,
 };
 use super::material::{from_rows, to_rows};
 use super::sink::{Lines, Sink, Source};
@@ -338,7 +340,9 @@ pub(super) enum TangentForm {
 pub(super) enum StiffnessForm {
     Full,
     Packed,
+    #[cfg(feature = "system")]
     Blocks,
+    #[cfg(feature = "system")]
     Factored,
 }
 
@@ -414,7 +418,9 @@ macro_rules! stages {
                 match form {
                     StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
+                    #[cfg(feature = "system")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
+                    #[cfg(feature = "system")]
                     StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
                 }
             }

@@ -31,6 +31,7 @@ macro_rules! three {
 
 /// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a constant from the
 /// beginning.
+#[cfg(feature = "batch")]
 macro_rules! thrice {
     ($i:ident => $body:block) => {{
         {
@@ -48,7 +49,9 @@ macro_rules! thrice {
     }};
 }
 
-pub(crate) use {three, thrice};
+pub(crate) use three;
+#[cfg(feature = "batch")]
+pub(crate) use thrice;
 
 /// x·y.
 #[inline(always)]

@@ -105,8 +105,7 @@ impl Interpreter<'_> {
             }
             Node::FunctionQuotient(k, order, a, b) => {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
-                let (k, order) = (*k, *order);
-                exact(quotient(a, b, |x| stand_in(k, order, x), |x| stand_in(k, order + 1, x)))
+                exact(stand_in_quotient(*k, *order, a, b))
             }
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
@@ -144,16 +143,16 @@ impl Interpreter<'_> {
             }
             Node::LnQuotient(a, b) => {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(quotient(a, b, f64::ln, |m| 1.0 / m))
+                exact(ln_quotient(a, b))
             }
             Node::ExpQuotient(a, b) => {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(quotient(a, b, f64::exp, f64::exp))
+                exact(exp_quotient(a, b))
             }
             Node::PowerQuotient(a, b, exponent) => {
                 let r = self.exponent(*exponent);
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(quotient(a, b, |x| x.powf(r), |m| r * m.powf(r - 1.0)))
+                exact(power_quotient(a, b, r))
             }
             Node::PoleQuotient(a, b) => {
                 let Value { value, magnitude } = self.value(*a);
@@ -206,19 +205,65 @@ impl Interpreter<'_> {
 /// Derivative of the function that stands for a parameter: neither even nor odd, and different for each
 /// parameter.
 fn stand_in(parameter: usize, order: u8, x: f64) -> f64 {
-    const FREQUENCY: f64 = 1.3;
-    let phase = 0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2;
-    FREQUENCY.powi(i32::from(order)) * (FREQUENCY * x + phase).sin()
+    stand_in_scale(order) * (FREQUENCY * x + stand_in_phase(parameter, order)).sin()
 }
 
-/// The difference quotient where it does not cancel, else the derivative at the midpoint: accurate to
-/// (gap/scale)².
-fn quotient(a: f64, b: f64, function: impl Fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> f64 {
-    if (a - b).abs() > 1e-5 * (a.abs() + b.abs()) {
-        (function(a) - function(b)) / (a - b)
-    } else {
-        derivative(0.5 * (a + b))
+/// Divided difference of [`stand_in`]: sin x − sin y = 2 cos((x + y)/2) sin((x − y)/2).
+fn stand_in_quotient(parameter: usize, order: u8, a: f64, b: f64) -> f64 {
+    let (middle, half) = (FREQUENCY * 0.5 * (a + b), FREQUENCY * 0.5 * (a - b));
+    let shrunk = if half == 0.0 { 1.0 } else { half.sin() / half };
+    FREQUENCY * stand_in_scale(order) * (middle + stand_in_phase(parameter, order)).cos() * shrunk
+}
+
+const FREQUENCY: f64 = 1.3;
+
+fn stand_in_scale(order: u8) -> f64 {
+    FREQUENCY.powi(i32::from(order))
+}
+
+fn stand_in_phase(parameter: usize, order: u8) -> f64 {
+    0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2
+}
+
+// Divided differences to a few u at every gap, by the functions of the standard library that are made for small arguments,
+// and not by the series of the runtime, which are judged with them.
+
+/// (ln a − ln b)/(a − b).
+fn ln_quotient(a: f64, b: f64) -> f64 {
+    if a == b { 1.0 / a } else { ln_ratio(a, b) / (a - b) }
+}
+
+/// ln(a/b); NaN unless both have a logarithm.
+fn ln_ratio(a: f64, b: f64) -> f64 {
+    let gap = (a - b) / b;
+    match a > 0.0 && b > 0.0 {
+        true if gap.abs() < 0.5 => gap.ln_1p(),
+        true => (a / b).ln(),
+        false => f64::NAN,
     }
+}
+
+/// (eᵃ − eᵇ)/(a − b).
+fn exp_quotient(a: f64, b: f64) -> f64 {
+    if a == b {
+        return a.exp();
+    }
+    // From the larger one, so that nothing overflows but the result.
+    let gap = (a - b).abs();
+    -a.max(b).exp() * (-gap).exp_m1() / gap
+}
+
+/// (aʳ − bʳ)/(a − b).
+fn power_quotient(a: f64, b: f64, r: f64) -> f64 {
+    if a == b {
+        return r * a.powf(r - 1.0);
+    }
+    if !(a > 0.0 && b > 0.0) {
+        return (a.powf(r) - b.powf(r)) / (a - b);
+    }
+    // From the larger power.
+    let (large, small) = if (a > b) == (r > 0.0) { (a, b) } else { (b, a) };
+    -large.powf(r) * (r * ln_ratio(small, large)).exp_m1() / (large - small)
 }
 
 fn share_above(a: f64, b: f64, epsilon: f64) -> f64 {

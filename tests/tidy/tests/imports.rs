@@ -1,0 +1,96 @@
+//! Imports point one way: between crates, between the folders of a crate, and between its modules.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use piola_tidy::imports::{Edge, Graph};
+use piola_tidy::tokens::mentions;
+use piola_tidy::{Crate, crates, files, forbid};
+
+/// Crates that nothing in a folder may name, its tests included.
+const FORBIDDEN: [(&str, &[&str]); 5] = [
+    ("macros/core/src", &["nalgebra", "piola_materials", "faer"]),
+    ("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
+    ("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]),
+    ("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
+    ("scenes/src", &["piola_tests", "piola_codegen"]),
+];
+
+/// Modules of the runtime from the bottom up: each may need those on the floors below.
+const RUNTIME: [&[&str]; 8] = [
+    &["lanes", "mesh", "random"],
+    &["quotient"],
+    &["material"],
+    &["univariate"],
+    &["point"],
+    &["batch", "contract"],
+    &["system"],
+    &["step"],
+];
+
+#[test]
+fn crates_know_only_those_below_them() {
+    let mut found = Vec::new();
+    for (folder, forbidden) in FORBIDDEN {
+        for (path, text) in files(Path::new(folder)) {
+            let tokens = text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            for mention in mentions(tokens) {
+                let first = mention.segments[0].as_str();
+                if forbidden.contains(&first) {
+                    found.push(format!(
+                        "{}:{}: {}",
+                        path.display(),
+                        mention.line,
+                        mention.segments.join("::")
+                    ));
+                }
+            }
+        }
+    }
+    forbid("paths into crates above", &found);
+}
+
+#[test]
+fn modules_of_the_runtime_know_only_those_below_them() {
+    let crates = crates();
+    let runtime = crates.iter().find(|one| one.name == "piola").expect("the runtime");
+    let floor = |module: usize| {
+        let name = &runtime.modules[module].path[0];
+        let floor = RUNTIME.iter().position(|floor| floor.contains(&name.as_str()));
+        floor.unwrap_or_else(|| panic!("`RUNTIME` in this file does not say on which floor `{name}` stands"))
+    };
+    let mut edges = Graph::new(runtime).edges_of_folders();
+    edges.retain(|edge| floor(edge.from) <= floor(edge.to));
+    forbid("paths in the runtime that do not point downwards", &lines(runtime, &edges));
+}
+
+#[test]
+fn no_folders_of_a_crate_need_each_other() {
+    no_circles(|graph| graph.circles_of_folders());
+}
+
+#[test]
+fn no_modules_of_a_crate_need_each_other() {
+    no_circles(|graph| graph.circles());
+}
+
+#[track_caller]
+fn no_circles(circles: fn(&Graph<'_>) -> Vec<Vec<Edge>>) {
+    let mut found = Vec::new();
+    for one in crates() {
+        for circle in circles(&Graph::new(&one)) {
+            found.push(format!("in {}:\n{}", one.name, lines(&one, &circle).join("\n")));
+        }
+    }
+    forbid("circles of imports", &found);
+}
+
+/// A line for each pair of modules, with the first path between them.
+fn lines(one: &Crate, edges: &[Edge]) -> Vec<String> {
+    let pairs: BTreeMap<_, _> = edges.iter().rev().map(|edge| ((edge.from, edge.to), edge)).collect();
+    let line = |edge: &Edge| {
+        let (from, to) = (&one.modules[edge.from], &one.modules[edge.to]);
+        format!("  {from} → {to}: {} at {}:{}", edge.written, from.file.display(), edge.line)
+    };
+    pairs.into_values().map(line).collect()
+}

@@ -1,0 +1,122 @@
+//! Comments and documentation.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use piola_tidy::tokens::summaries;
+use piola_tidy::{crates, files, forbid, members, read, root};
+use quote::ToTokens;
+
+/// First words that make a summary depend on what stands above it, or that say nothing of what the item is.
+const HEADLESS: [&str; 6] = ["The same", "Of", "That of", "As", "What", "Who"];
+
+/// In a search result or beside a cursor, a summary stands alone.
+#[test]
+fn summaries_make_sense_alone() {
+    let mut found = Vec::new();
+    for one in crates() {
+        for module in &one.modules {
+            let inner = module.attributes.iter().map(ToTokens::to_token_stream).collect();
+            let items = module.items.iter().map(ToTokens::to_token_stream);
+            for (line, summary) in items.chain([inner]).flat_map(summaries) {
+                let begins = |words: &&str| {
+                    summary.strip_prefix(*words).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+                };
+                if HEADLESS.iter().any(|words| begins(words)) {
+                    found.push(format!("{}:{line}: {summary}", module.file.display()));
+                }
+            }
+        }
+    }
+    found.sort();
+    found.dedup();
+    forbid("summaries that do not stand alone", &found);
+}
+
+/// As wide as rustfmt makes code; what cannot be broken, such as an address or a row of a table, may be wider.
+#[test]
+fn comments_are_as_wide_as_code() {
+    let configuration = read(Path::new("rustfmt.toml"));
+    let width = configuration.lines().find_map(|line| line.strip_prefix("max_width = "));
+    let width: usize = width.and_then(|width| width.parse().ok()).expect("max_width in rustfmt.toml");
+    let mut found = Vec::new();
+    for (path, text) in sources() {
+        for (number, line) in text.lines().enumerate() {
+            let Some(words) = comment(line).map(|words| words.trim_start_matches(['/', '!']).trim()) else {
+                continue;
+            };
+            let columns = line.chars().count();
+            let can_be_broken = words.contains(' ') && !words.starts_with('|') && !words.starts_with('[');
+            if columns > width && can_be_broken {
+                found.push(format!("{}:{}: {columns} columns", path.display(), number + 1));
+            }
+        }
+    }
+    forbid("comments that are wider than code", &found);
+}
+
+/// The comment that a line ends with, unless it is a part of a text.
+fn comment(line: &str) -> Option<&str> {
+    let (code, comment) = line.match_indices("//").map(|(at, _)| line.split_at(at)).next()?;
+    (code.matches('"').count() % 2 == 0).then_some(comment)
+}
+
+#[test]
+fn nothing_is_left_undone() {
+    let mut found = Vec::new();
+    for (path, text) in sources() {
+        for (number, line) in text.lines().enumerate() {
+            if [["TO", "DO"], ["FIX", "ME"]].iter().any(|mark| line.contains(&mark.concat())) {
+                found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    forbid("marks of what is left undone", &found);
+}
+
+/// All Rust files of the workspace, each once, and those of the fuzz targets.
+fn sources() -> Vec<(PathBuf, String)> {
+    let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
+    found.extend(files(Path::new("fuzz/fuzz_targets")));
+    found.sort();
+    found.dedup();
+    // What the macro makes of a declaration is formatted by another program.
+    found.retain(|(path, _)| !path.components().any(|part| part.as_os_str() == "goldens"));
+    found
+}
+
+/// Relative links of the repository's documents lead to files.
+#[test]
+fn links_of_documents_lead_to_files() {
+    let mut found = Vec::new();
+    let mut judged = 0;
+    for folder in ["", "docs", "tests"] {
+        for entry in fs::read_dir(root().join(folder)).expect("a folder of the repository") {
+            let document = entry.expect("an entry").path();
+            if document.extension().is_none_or(|extension| extension != "md") {
+                continue;
+            }
+            let text = fs::read_to_string(&document).expect("a document");
+            for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link)
+            {
+                judged += 1;
+                let file = link.split('#').next().unwrap_or_default();
+                if !file.contains("://") && !document.with_file_name(file).exists() {
+                    found.push(format!("{}: {link}", document.display()));
+                }
+            }
+        }
+    }
+    forbid("links that lead nowhere", &found);
+    assert!(judged > 5, "{judged} links");
+}
+
+/// The README shows a program that the test target `readme` of `piola-tests` compiles and runs.
+#[test]
+fn the_readme_shows_the_example() {
+    let (readme, example) =
+        (read(Path::new("README.md")), read(Path::new("materials/examples/own_energy.rs")));
+    let (_, rest) = readme.split_once("```rust\n").expect("a Rust block in the README");
+    let (shown, _) = rest.split_once("```").expect("the end of the block");
+    assert_eq!(shown, example, "README.md and materials/examples/own_energy.rs differ");
+}
