@@ -4,12 +4,12 @@
 
 use std::sync::OnceLock;
 
-use piola::Inversion;
-use piola::batch::{Batch, Layout, Survey, TileMaterial};
+use piola::batch::{Batch, Layout, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Graded, PerPoint, PerPointError};
 use piola::mesh::TetMesh;
 use piola::system::{Body, BodyError};
+use piola::{Inversion, Survey};
 use piola_materials::{Gent, NeoHookean, Ogden};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -151,7 +151,7 @@ fn points_with_and_without_invariants_share_a_tile() -> Outcome {
 fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
     let (all, energy) = (deformations(), NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?);
     for backend in Backend::available() {
-        let batch = Batch::<f64> { backend, ..Batch::new(&energy) };
+        let batch = Batch::<f64>::new(&energy).with_backend(backend);
         let (mut stresses, mut beside) = (vec![0.0; 9 * COUNT], vec![0.0; 9 * COUNT]);
         let mut tangents = vec![0.0; 81 * COUNT];
         batch.stresses(all.as_flattened(), &mut stresses)?;

@@ -70,6 +70,7 @@ impl<M: BitAnd<Output = M> + Copy> BitAnd<M> for Status<M> {
 }
 
 /// Statuses of up to 64 points, a bit for each.
+#[cfg(feature = "batch")]
 impl Status<u64> {
     /// The status of one of the points.
     #[must_use]
@@ -125,6 +126,7 @@ pub struct Survey {
 
 impl Survey {
     /// Counts the points of a tile, whose first is number `start`.
+    #[cfg(feature = "batch")]
     pub(crate) fn of(status: Status<u64>, start: usize) -> Self {
         let count = |bits: u64| bits.count_ones() as usize;
         let meaningless = status.refused | status.nonfinite;

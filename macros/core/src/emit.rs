@@ -95,11 +95,14 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-/// The type parameter of a material for how its parameters are kept.
-fn value_parameter(declaration: &Declaration) -> Ident {
+/// The type parameter of a material for how its parameters are kept, if all of them are numbers.
+fn value_parameter(declaration: &Declaration) -> Option<Ident> {
+    if declaration.has_functions() || declaration.parameters.is_empty() {
+        return None;
+    }
     let is_free = |name: &Ident| !declaration.generics.contains(name) && declaration.name != *name;
     let names = ["P", "V", "Value"].map(|name| format_ident!("{name}"));
-    names.into_iter().find(is_free).unwrap_or_else(|| format_ident!("ParameterValue"))
+    names.into_iter().find(is_free).or_else(|| Some(format_ident!("ParameterValue")))
 }
 
 /// The attribute that allows names of papers, such as `K`, in spite of the lint on their case.
@@ -116,11 +119,8 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let (documentation, naming) = (doc(documentation), naming(declaration));
     let lengths = &declaration.generics;
     let value = value_parameter(declaration);
-    let (kept_as, value) = if declaration.has_functions() {
-        (quote!(f64), None)
-    } else {
-        (quote!(#value), Some(quote!(#value = f64)))
-    };
+    let kept_as = value.as_ref().map_or(quote!(f64), |value| quote!(#value));
+    let value = value.map(|value| quote!(#value = f64));
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
         Kind::Number => kept_as.clone(),

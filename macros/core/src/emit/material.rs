@@ -30,6 +30,8 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         };
     }
     let value = value_parameter(declaration);
+    let kept = value.as_ref().map(|value| quote!(#value: __piola::ParameterValue));
+    let per_lane = value.as_ref().map(|_| quote!(__piola::PerLane));
     let lengths = &declaration.generics;
     let gathered = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
@@ -45,13 +47,13 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     quote! {
         #[allow(unused_variables, clippy::all)]
         #naming
-        impl<#(const #lengths: usize,)* #value: __piola::ParameterValue> ::piola::Material for #name<#(#lengths,)* #value> {
+        impl<#(const #lengths: usize,)* #kept> ::piola::Material for #name<#(#lengths,)* #value> {
             #computed
             #constants
         }
 
         impl #bounds ::piola::material::Graded for #name #arguments {
-            type OnLanes = #name<#(#lengths,)* __piola::PerLane>;
+            type OnLanes = #name<#(#lengths,)* #per_lane>;
 
             #[inline(always)]
             fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
