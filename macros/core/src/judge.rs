@@ -11,17 +11,18 @@ use crate::read::domain::Volume;
 pub(crate) use explain::report;
 pub(crate) use finding::Finding;
 use finding::{Findings, Violation};
+use samples::is_zero;
 pub(crate) use samples::samples;
-use samples::vanishes;
 pub(crate) use source::Source;
 
-mod arguments;
+mod argument;
 mod blame;
 mod explain;
 mod finding;
 mod rest;
 mod samples;
 mod source;
+mod vanishing;
 mod volume;
 
 /// Checks that ψ does not change when two stretches are exchanged.
@@ -34,7 +35,7 @@ pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) ->
                 swapped.stretches.swap(i, j);
                 let [a, b] = [point, &swapped].map(|point| evaluate(graph, id, point));
                 // NaN differs.
-                !vanishes(Value { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
+                !is_zero(Value { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
             })
         };
         is_asymmetric(source.energy).then(|| {
@@ -53,12 +54,12 @@ pub(crate) fn values(
     samples: &[Point],
 ) -> Vec<Finding> {
     let mut findings = Findings::new(source);
-    arguments::powers_at_rest(graph, samples, &mut findings);
+    vanishing::powers_at_rest(graph, samples, &mut findings);
     if !source.declaration.options.prestressed {
         rest::rest(graph, gradient, samples, &mut findings);
     }
     volume::volumes(graph, samples, &mut findings);
-    arguments::limits(graph, samples, &mut findings);
+    vanishing::limits(graph, samples, &mut findings);
     findings.found
 }
 
@@ -99,7 +100,7 @@ pub(crate) fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec
 
 /// Checks that some shear modulus is positive: the constructor would refuse all parameters else.
 pub(crate) fn stiffness(graph: &Graph, source: &Source<'_>, shear: Id, samples: &[Point]) -> Option<Finding> {
-    let vanishes = samples.iter().all(|point| vanishes(evaluate(graph, shear, point)));
+    let vanishes = samples.iter().all(|point| is_zero(evaluate(graph, shear, point)));
     (vanishes && !source.declaration.has_functions())
         .then(|| Finding::new(source.blamed_term(|_| false), Violation::NoShearModulus))
 }

@@ -174,21 +174,21 @@ impl Scheduler<'_> {
     }
 
     fn compute(&mut self, id: Id) -> Value {
-        match self.graph.node(id).clone() {
-            Node::Stretch(i) => self.push(Op::Stretch(i)),
-            Node::Strain(i) => self.push(Op::Strain(i)),
-            Node::Parameter(k) => self.push(Op::Parameter(k)),
-            Node::Entry(k) => self.push(Op::Entry(k)),
-            Node::Float(bits) => self.push(Op::Literal(bits)),
-            Node::Epsilon => self.push(Op::Epsilon),
-            Node::Linear { constant, terms } => self.linear(constant, &terms),
+        let op = match self.graph.node(id).clone() {
+            Node::Stretch(i) => Op::Stretch(i),
+            Node::Strain(i) => Op::Strain(i),
+            Node::Parameter(k) => Op::Parameter(k),
+            Node::Entry(k) => Op::Entry(k),
+            Node::Float(bits) => Op::Literal(bits),
+            Node::Epsilon => Op::Epsilon,
+            Node::Linear { constant, terms } => return self.linear(constant, &terms),
             Node::Product(_) => {
                 let factors = self.order.balanced(self.graph, id);
                 let powers: Vec<_> = factors.iter().map(|&(base, e)| self.power(base, e)).collect();
-                powers
+                return powers
                     .into_iter()
                     .reduce(|a, b| self.push(Op::Mul(a, b)))
-                    .unwrap_or_else(|| self.literal(Rational::ONE))
+                    .unwrap_or_else(|| self.literal(Rational::ONE));
             }
             Node::Ln(a) => {
                 // ln J, which is defined where J itself is out of range.
@@ -196,69 +196,50 @@ impl Scheduler<'_> {
                     && let &[(a, Exponent::ONE), (b, Exponent::ONE), (c, Exponent::ONE)] = &factors[..]
                     && [a, b, c].iter().all(|&id| matches!(self.graph.node(id), Node::Stretch(_)))
                 {
-                    let factors = [a, b, c].map(|id| self.value(id));
-                    return self.push(Op::LnProduct(factors));
+                    Op::LnProduct([a, b, c].map(|id| self.value(id)))
+                } else {
+                    Op::Ln(self.value(a))
                 }
-                let a = self.value(a);
-                self.push(Op::Ln(a))
             }
-            Node::Exp(a) => {
-                let a = self.value(a);
-                self.push(Op::Exp(a))
-            }
-            Node::Function(k, order, a) => {
-                let a = self.value(a);
-                self.push(Op::Function(k, order, a))
-            }
+            Node::Exp(a) => Op::Exp(self.value(a)),
+            Node::Function(k, order, a) => Op::Function(k, order, self.value(a)),
             Node::FunctionQuotient(k, order, a, b) => {
-                let (a, b) = (self.value(a), self.value(b));
-                self.push(Op::FunctionQuotient(k, order, a, b))
+                Op::FunctionQuotient(k, order, self.value(a), self.value(b))
             }
-            Node::Above(i) => {
-                let (stretch, epsilon) = (self.push(Op::Stretch(i)), self.push(Op::Epsilon));
-                self.push(Op::Max(stretch, epsilon))
-            }
-            Node::Below(i) => {
-                let (stretch, epsilon) = (self.push(Op::Stretch(i)), self.push(Op::Epsilon));
-                self.push(Op::Below(stretch, epsilon))
-            }
+            Node::Above(i) => Op::Max(self.push(Op::Stretch(i)), self.push(Op::Epsilon)),
+            Node::Below(i) => Op::Below(self.push(Op::Stretch(i)), self.push(Op::Epsilon)),
             Node::ShareAbove(i, j) => {
                 let [a, b, epsilon] = [Op::Stretch(i), Op::Stretch(j), Op::Epsilon].map(|op| self.push(op));
-                self.push(Op::ShareAbove(a, b, epsilon))
+                Op::ShareAbove(a, b, epsilon)
             }
             Node::ShareBelow(i, j) => {
                 let [a, b, epsilon] = [Op::Stretch(i), Op::Stretch(j), Op::Epsilon].map(|op| self.push(op));
-                self.push(Op::ShareBelow(a, b, epsilon))
+                Op::ShareBelow(a, b, epsilon)
             }
             Node::WhereNegative(condition, a, b) => {
-                let [condition, a, b] = [condition, a, b].map(|id| self.value(id));
-                self.push(Op::WhereNegative(condition, a, b))
+                Op::WhereNegative(self.value(condition), self.value(a), self.value(b))
             }
-            Node::LnQuotient(a, b) => {
-                let pair = self.pair(a, b);
-                self.push(Op::LnQuotient(pair))
-            }
+            Node::LnQuotient(a, b) => Op::LnQuotient(self.pair(a, b)),
             Node::ExpQuotient(a, b) => {
                 let values = [a, b].map(|id| self.value(id));
                 let exponentials = values.map(|value| self.push(Op::Exp(value)));
-                self.push(Op::ExpQuotient { values, exponentials })
+                Op::ExpQuotient { values, exponentials }
             }
             Node::PowerQuotient(a, b, exponent) => {
                 let pair = self.pair(a, b);
                 let powers = [a, b].map(|base| self.power(base, exponent));
-                let exponent = self.exponent(exponent);
-                self.push(Op::PowerQuotient { pair, powers, exponent })
+                Op::PowerQuotient { pair, powers, exponent: self.exponent(exponent) }
             }
             Node::PoleQuotient(numerator, sum) => {
                 let (numerator, sum) = (self.value(numerator), self.value(sum));
                 let floor = self.push(Op::PoleFloor);
-                let bounded = self.push(Op::Max(sum, floor));
-                self.push(Op::Div(numerator, bounded))
+                Op::Div(numerator, self.push(Op::Max(sum, floor)))
             }
             // Sums are computed before the operations that need them, and extended functions are written out
             // before scheduling; NaN would be noticed.
-            Node::Sum(..) | Node::Extended(..) => self.push(Op::Literal(f64::NAN.to_bits())),
-        }
+            Node::Sum(..) | Node::Extended(..) => Op::Literal(f64::NAN.to_bits()),
+        };
+        self.push(op)
     }
 
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {

@@ -2,7 +2,7 @@
 //!
 //! The values of a parameter that is a function are not known here: another function stands for it.
 //!
-//! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of [`crate::judge`], and
+//! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of `judge`, and
 //! tests, as an oracle for the emitted code.
 
 use rustc_hash::FxHashMap;

@@ -1,9 +1,9 @@
 //! Stress at rest, which an energy must not have.
 
-use super::arguments::vanishing;
 use super::finding::{Findings, Stressed, Violation};
-use super::samples::vanishes;
+use super::samples::is_zero;
 use super::source::at_rest;
+use super::vanishing::vanishing;
 use super::volume::has_value;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand;
@@ -40,7 +40,7 @@ pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings:
             let rest = at_rest(point);
             let magnitude = evaluate(graph, gradient, &rest).magnitude;
             // NaN is a mistake too.
-            !vanishes(Value { value: evaluate(graph, stress, &rest).value, magnitude })
+            !is_zero(Value { value: evaluate(graph, stress, &rest).value, magnitude })
         })
     };
     // Only the constructor knows the slopes of functions.

@@ -101,7 +101,7 @@ pub(crate) fn candidates(
 }
 
 /// Whether a value is zero but for rounding.
-pub(crate) fn vanishes(Value { value, magnitude }: Value) -> bool {
+pub(crate) fn is_zero(Value { value, magnitude }: Value) -> bool {
     value.abs() <= NOISE * magnitude
 }
 

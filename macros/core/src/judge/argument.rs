@@ -1,0 +1,46 @@
+//! Arguments that must not vanish: denominators, and those of logarithms, roots and real powers.
+
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+
+/// An expression that must not be zero for another one to have a value.
+#[derive(Clone, Copy)]
+pub(crate) struct Argument {
+    pub(crate) of: Id,
+    /// `None` for a logarithm.
+    pub(crate) exponent: Option<Exponent>,
+}
+
+impl Argument {
+    /// The arguments in an expression that depend on the stretches.
+    pub(crate) fn all(graph: &Graph, id: Id) -> Vec<Self> {
+        let mut found = Vec::new();
+        for id in graph.reachable(&[id]) {
+            match graph.node(id) {
+                Node::Ln(of) => found.push(Self { of: *of, exponent: None }),
+                Node::Product(factors) => found.extend(
+                    factors
+                        .iter()
+                        .filter(|(_, exponent)| exponent.as_integer().is_none_or(|n| n < 0))
+                        .map(|&(of, exponent)| Self { of, exponent: Some(exponent) }),
+                ),
+                _ => {}
+            }
+        }
+        found.retain(|argument| argument.depends_on(graph, |node| matches!(node, Node::Stretch(_))));
+        found
+    }
+
+    /// Whether an expression is an argument in a part.
+    pub(crate) fn is_in(graph: &Graph, part: Id, of: Id) -> bool {
+        Self::all(graph, part).iter().any(|argument| argument.of == of)
+    }
+
+    pub(crate) fn depends_on(&self, graph: &Graph, is: impl Fn(&Node) -> bool) -> bool {
+        graph.reachable(&[self.of]).into_iter().any(|id| is(graph.node(id)))
+    }
+
+    /// The exponent of a power that is not whole, such as a root.
+    pub(crate) fn real_exponent(&self) -> Option<Exponent> {
+        self.exponent.filter(|exponent| exponent.as_integer().is_none())
+    }
+}
