@@ -38,6 +38,7 @@
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
+//! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`random`]: numbers for samples, the same on every machine;
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `system`);
@@ -47,7 +48,7 @@
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
 //! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch`, faer and nalgebra, and
-//! minutes. `nalgebra` has conversions of matrices only.
+//! minutes.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
@@ -62,6 +63,8 @@ extern crate self as piola;
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod contract;
+#[cfg(any(feature = "glam", feature = "nalgebra"))]
+pub mod convert;
 #[cfg(test)]
 mod hand_written;
 pub mod lanes;

@@ -198,11 +198,3 @@ fn the_status_says_what_the_numbers_cannot() {
     assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).1.nonfinite);
     assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).1.nonfinite);
 }
-
-#[test]
-fn nalgebra_stores_columns_and_we_store_rows() {
-    let rows = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
-    let matrix = to_nalgebra(&rows);
-    assert_eq!(matrix.as_slice(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
-    assert_eq!(from_nalgebra(&matrix), rows);
-}
