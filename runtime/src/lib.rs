@@ -39,7 +39,6 @@
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
 //! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
-//! * [`random`]: numbers for samples, the same on every machine;
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `system`);
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
@@ -47,8 +46,7 @@
 //! * [`step`]: implicit Euler by Newton's method (feature `system`).
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
-//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch`, faer and nalgebra, and
-//! minutes.
+//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch` and faer, and minutes.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
@@ -62,6 +60,8 @@ extern crate self as piola;
 
 #[cfg(feature = "batch")]
 pub mod batch;
+#[cfg(feature = "system")]
+mod chained;
 pub mod contract;
 #[cfg(any(feature = "glam", feature = "nalgebra"))]
 pub mod convert;
@@ -73,6 +73,7 @@ pub mod material;
 pub mod mesh;
 pub mod point;
 pub mod quotient;
+#[doc(hidden)] // samples for the contract and for tests: no part of the interface
 pub mod random;
 #[cfg(feature = "system")]
 pub mod step;

@@ -1,18 +1,21 @@
 //! Linear tetrahedra: from nodal positions to energies, nodal forces and 12×12 stiffnesses.
 //!
-//! With Ds = [x1−x0, x2−x0, x3−x0] the deformation gradient is F = Ds Dm⁻¹, constant in an element of rest volume v,
-//! and x_n (n = 1, 2, 3) moves it by ∂F_ab/∂x_na = (Dm⁻¹)_nb. The energy is v ψ(F), its gradient in x_n is
-//! v P Dm⁻ᵀ e_n [SZLSB11 §2: G = P Bm], and node 0 takes minus the sum of the others, because nothing changes when
-//! all move alike. **The nodal force is minus that gradient.**
+//! With Ds = [x1−x0, x2−x0, x3−x0] the deformation gradient is F = Ds Dm⁻¹, constant in an element of rest
+//! volume v, and x_n (n = 1, 2, 3) moves it by ∂F_ab/∂x_na = (Dm⁻¹)_nb. The energy is v ψ(F), its gradient in
+//! x_n is v P Dm⁻ᵀ e_n [SZLSB11 §2: G = P Bm], and node 0 takes minus the sum of the others, because nothing
+//! changes when all move alike. **The nodal force is minus that gradient.**
 //!
-//! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages that share one
-//! singular value decomposition per element: the energy decomposes, and gradients and stiffnesses start from what it
-//! found. A line search thus pays for one decomposition per trial and the next Newton iteration for none.
+//! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages
+//! that share one singular value decomposition per element: the energy decomposes, and gradients and
+//! stiffnesses start from what it found. A line search thus pays for one decomposition per trial and the next
+//! Newton iteration for none.
 //!
-//! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the eigenvalues of
-//! the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements; both are semidefinite.
+//! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the
+//! eigenvalues of the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements;
+//! both are semidefinite.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 //!
 //! This module knows no sparsity and no time.
 
@@ -25,19 +28,19 @@ use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::{Filter, stretches_in_range};
 
-/// A tetrahedron of a body.
+/// Linear tetrahedron of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
-    /// Its nodes.
+pub struct Tetrahedron {
+    /// Indices of its nodes.
     pub nodes: [usize; 4],
-    /// Its shape at rest.
+    /// Shape at rest.
     pub shape: RestShape,
-    /// The number by which the mesh calls it.
+    /// Tag in the mesh: [`TetMesh::tag`](crate::mesh::TetMesh::tag).
     pub tag: usize,
 }
 
-impl Element {
-    /// F = Ds Dm⁻¹, row by row.
+impl Tetrahedron {
+    /// Deformation gradient F = Ds Dm⁻¹, as its rows.
     #[inline]
     #[must_use]
     pub fn deformation_gradient(&self, positions: &[[f64; 3]]) -> [[f64; 3]; 3] {
@@ -50,11 +53,11 @@ impl Element {
     }
 }
 
-/// Second derivatives of an element's energy in its nodal positions, N/m: ∂²E/∂x_i∂x_j of the node pairs i ≥ j in the
-/// order (0,0), (1,0), (1,1), (2,0), …
+/// Second derivatives of an element's energy in its nodal positions, N/m: ∂²E/∂x_i∂x_j of the node pairs i ≥
+/// j in the order (0,0), (1,0), (1,1), (2,0), …
 pub(crate) type Stiffness = [[[f64; 3]; 3]; 10];
 
-/// Where the block of the nodes i ≥ j is kept.
+/// Index of the block of the nodes i ≥ j.
 #[inline(always)]
 pub(crate) const fn pair(i: usize, j: usize) -> usize {
     i * (i + 1) / 2 + j
@@ -67,7 +70,8 @@ pub struct Survey {
     pub refused: usize,
     /// How many are at a pole of their tangent, which got a bounded value.
     pub bounded: usize,
-    /// How many have an infinite or NaN deformation, energy, gradient or stiffness, whichever of these was evaluated.
+    /// How many have an infinite or NaN deformation, energy, gradient or stiffness, whichever of these was
+    /// evaluated.
     pub nonfinite: usize,
     /// How many tangents the filter changed.
     pub filtered: usize,
@@ -102,7 +106,7 @@ impl Survey {
     }
 
     /// Of the derivatives of a tile's elements.
-    fn of_marks(marks: &Marks, elements: &[Element]) -> Self {
+    fn of_marks(marks: &Marks, elements: &[Tetrahedron]) -> Self {
         let nonfinite = marks.nonfinite & !marks.refused;
         let count = |bits: u64| bits.count_ones() as usize;
         Self {
@@ -121,16 +125,16 @@ impl Survey {
     }
 }
 
-/// Elements of one material with what was evaluated last, evaluated together.
+/// Elements of one material, evaluated together, with the results of the last evaluation.
 #[derive(Clone, Debug)]
-pub(crate) struct Group {
+pub(crate) struct ElementGroup {
     tile: ElementTile,
     pub(crate) energies: [f64; TILE],
     pub(crate) gradients: [[[f64; 3]; 4]; TILE],
 }
 
-impl Group {
-    pub(crate) fn new(elements: &[Element]) -> Self {
+impl ElementGroup {
+    pub(crate) fn new(elements: &[Tetrahedron]) -> Self {
         Self {
             tile: ElementTile::new(Backend::best(), elements.iter().map(|element| element.shape)),
             energies: [0.0; TILE],
@@ -146,7 +150,7 @@ impl Group {
     pub(crate) fn evaluate(
         &mut self,
         material: &dyn Energy<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         positions: &[[f64; 3]],
     ) -> Survey {
         let corners = elements.iter().map(|element| element.nodes.map(|node| positions[node]));
@@ -170,18 +174,22 @@ impl Group {
         survey
     }
 
-    /// Gradients of the energies evaluated last in the nodal positions, N: minus the forces. The evaluation has said what
-    /// is `refused` and `min_det`.
-    pub(crate) fn evaluate_gradients(&mut self, material: &dyn Energy<f64>, elements: &[Element]) -> Survey {
+    /// Evaluates the gradients of the energies evaluated last in the nodal positions, N: minus the forces.
+    /// Their survey leaves out `refused` and `min_det`, which that of the energies has.
+    pub(crate) fn evaluate_gradients(
+        &mut self,
+        material: &dyn Energy<f64>,
+        elements: &[Tetrahedron],
+    ) -> Survey {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         Survey::of_marks(&self.tile.gradients(material, gradients), elements)
     }
 
-    /// Gradients, and second derivatives after the filter.
+    /// Evaluates gradients, and second derivatives after the filter.
     pub(crate) fn evaluate_stiffnesses(
         &mut self,
         material: &dyn Energy<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
         stiffnesses: &mut [Stiffness],
     ) -> Survey {
@@ -191,11 +199,11 @@ impl Group {
         Survey::of_marks(&self.tile.stiffnesses(material, filter, gradients, stiffnesses), elements)
     }
 
-    /// Gradients, and second derivatives after the filter as what they are made of.
+    /// Evaluates gradients, and second derivatives after the filter, as factors.
     pub(crate) fn evaluate_factors(
         &mut self,
         material: &dyn Energy<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
         factors: &mut StiffnessFactors,
     ) -> Survey {
@@ -205,7 +213,7 @@ impl Group {
 }
 
 /// The elements of a tile whose bit is set, with their lanes.
-fn set(bits: u64, elements: &[Element]) -> impl Iterator<Item = (usize, &Element)> {
+fn set(bits: u64, elements: &[Tetrahedron]) -> impl Iterator<Item = (usize, &Tetrahedron)> {
     elements.iter().enumerate().filter(move |(lane, _)| bits >> lane & 1 == 1)
 }
 
