@@ -30,6 +30,8 @@ use proc_macro::TokenStream;
 /// * `refuse("why")`: it cannot;
 /// * `prestressed`: stress at rest is intended;
 /// * `fit`: it is `piola::material::Fittable` too, with the derivatives of its stress by its parameters.
+/// * `serde`: it is `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`), as its parameters, which are
+///   checked when they are read; functions among them must be both as well.
 ///
 /// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no other, the type
 /// also has `from_young_poisson(young, poisson, other parameters…)`, unless it is `prestressed` or a parameter is a function.

@@ -48,6 +48,9 @@
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
 //! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch` and faer, and minutes.
 //!
+//! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number that is not
+//! finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read back from there.
+//!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
 
@@ -57,6 +60,13 @@
 )]
 
 extern crate self as piola;
+
+/// Names that generated code uses; no part of the interface.
+#[doc(hidden)]
+pub mod __private {
+    #[cfg(feature = "serde")]
+    pub use serde;
+}
 
 #[cfg(feature = "batch")]
 pub mod batch;

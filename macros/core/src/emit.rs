@@ -11,6 +11,7 @@ use constructor::constructor;
 use declared::declared;
 use fittable::fittable;
 use material::material;
+use serde::serde;
 
 mod constructor;
 mod declared;
@@ -18,6 +19,7 @@ mod documentation;
 mod fittable;
 mod invariants;
 mod material;
+mod serde;
 pub mod stub;
 mod writer;
 mod young_poisson;
@@ -32,7 +34,8 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &mut model, &texts);
     let fittable = fittable(declaration, &mut model);
-    quote!(#structure #constructor #material #declared #fittable)
+    let serde = serde(declaration);
+    quote!(#structure #constructor #material #declared #fittable #serde)
 }
 
 /// What documentation and description say.

@@ -13,6 +13,7 @@ pub struct Embedding {
 
 /// Point that moves with a tetrahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Anchor {
     /// Nodes of the tetrahedron.
     pub nodes: [usize; 4],

@@ -51,6 +51,7 @@ pub struct RestShape {
 
 /// Box with sides along the axes, its boundary included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Bounds {
     /// Lowest coordinates, m.
     pub min: [f64; 3],

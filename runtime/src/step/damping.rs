@@ -18,6 +18,11 @@ use crate::system::stiffnesses::ElementStiffnesses;
 
 /// Forces against velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub enum Damping {
     /// No damping but that of implicit Euler itself.

@@ -46,6 +46,7 @@ const LAST_SHIFT: f64 = 1e3;
 
 /// Residual, stability and inversion of a body at its current positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Equilibrium {
     /// Norm of the forces on the free nodes, N: of elements, springs and gravity together.
@@ -67,6 +68,7 @@ pub struct Equilibrium {
 
 /// Eigenvalue ω², 1/s², with a bound for its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eigenvalue {
     /// Computed value.
     pub value: f64,
@@ -76,6 +78,7 @@ pub struct Eigenvalue {
 
 /// Classification of an [`Equilibrium`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Stability {
     /// Forces are not in balance: the body will move.
     Unbalanced,

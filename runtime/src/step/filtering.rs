@@ -15,6 +15,11 @@ use super::objective::{Objective, product};
 
 /// Choice of the filter in each iteration of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub enum Filtering {
     /// One filter in all iterations.

@@ -14,6 +14,11 @@ use super::objective::{Objective, Quadratic, Spring};
 
 /// Settings of a [`Simulation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct SimulationSettings {
     /// Gravity, m/s².
@@ -385,6 +390,7 @@ fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
 
 /// Report of a step.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct StepReport {
     /// Report of Newton's method.
@@ -397,6 +403,7 @@ pub struct StepReport {
 
 /// Energies of a body, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Energies {
     /// Energy of deformation.

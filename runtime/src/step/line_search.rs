@@ -12,6 +12,11 @@
 
 /// Settings of the line search: when to accept a step and how to shorten it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct LineSearchSettings {
     /// Share δ of the decrease predicted by the slope that is enough, 0 < δ < ½.

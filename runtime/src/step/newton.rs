@@ -15,6 +15,11 @@ use super::solver::{Definiteness, LinearSolver, SolveError, Solver};
 
 /// Settings of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub struct NewtonSettings {
     /// Treatment of negative eigenvalues of dP/dF.
@@ -62,6 +67,7 @@ crate::chained::chained!(NewtonSettings {
 
 /// Positions from which an iteration starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum InitialGuess {
     /// The current positions.
@@ -75,6 +81,7 @@ pub enum InitialGuess {
 
 /// Reason why Newton's method stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
     /// The gradient fell below the tolerance.
     Tolerance,
@@ -86,6 +93,7 @@ pub enum Convergence {
 
 /// Report of a minimisation.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct NewtonReport {
     /// Reason why it stopped.

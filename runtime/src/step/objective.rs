@@ -24,6 +24,7 @@ use super::line_search::{Change, Line};
 
 /// Spring of rest length zero from a point of the body to a point in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Spring {
     /// Point of the body.
     pub anchor: Anchor,

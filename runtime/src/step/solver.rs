@@ -33,6 +33,11 @@ pub(super) use interface::{Definiteness, SolveError, Solver};
 ///
 /// \[EW96\] Eisenstat, Walker, *Choosing the forcing terms in an inexact Newton method*, 1996.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub enum LinearSolver {
     /// Chosen by the number of elements: [`LinearSolver::for_elements`].

@@ -65,6 +65,7 @@ pub(crate) const fn pair(i: usize, j: usize) -> usize {
 
 /// What an evaluation says of many elements beside its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Survey {
     /// How many lie outside the domain of their energy.
     pub refused: usize,

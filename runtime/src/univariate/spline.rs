@@ -20,9 +20,16 @@ use crate::material::Inadmissible;
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "Vec<[f64; 2]>", try_from = "Vec<[f64; 2]>")
+)]
 pub struct Spline {
     /// Abscissae of the control points.
     knots: Vec<f64>,
+    /// φ′ at the control points.
+    forces: Vec<f64>,
     /// One more than knots: piece k ends at knot k. The first and the last are straight.
     pieces: Vec<Piece>,
 }
@@ -54,7 +61,7 @@ impl Spline {
             ));
         }
         let bends = bends(points);
-        let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
+        let (knots, forces) = points.iter().map(|&[x, force]| (x, force)).unzip();
         let mut pieces = Vec::new();
         for (k, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
@@ -76,12 +83,17 @@ impl Spline {
         }
         let last = points.len() - 1;
         pieces.push(pieces[last].straight_from(points[last][0]));
-        let mut spline = Self { knots, pieces };
+        let mut spline = Self { knots, forces, pieces };
         let at_rest = spline.value(1.0);
         for piece in &mut spline.pieces {
             piece.coefficients[0] -= at_rest;
         }
         Ok(spline)
+    }
+
+    /// The control points (x, φ′) that it was made from.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
+        self.knots.iter().zip(&self.forces).map(|(&x, &force)| [x, force])
     }
 
     /// The coefficients of the piece that x lies in, each number of R by itself, and the distance from its anchor.
@@ -98,6 +110,20 @@ impl Spline {
             anchor = R::select(is_before, anchor, R::splat(piece.anchor));
         }
         (coefficients, x - anchor)
+    }
+}
+
+impl From<Spline> for Vec<[f64; 2]> {
+    fn from(spline: Spline) -> Self {
+        spline.points().collect()
+    }
+}
+
+impl TryFrom<Vec<[f64; 2]>> for Spline {
+    type Error = Inadmissible;
+
+    fn try_from(points: Vec<[f64; 2]>) -> Result<Self, Inadmissible> {
+        Self::through(&points)
     }
 }
 
