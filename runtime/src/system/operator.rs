@@ -45,7 +45,8 @@ use crate::point::Filter;
 /// let mut stiffness = StiffnessOperator::new(&body);
 /// assert!(stiffness.linearise(&body, body.rest(), Filter::Clamp)?.is_clean());
 ///
-/// // One corner moves along x by 1 mm, uniaxial strain: force = (λ + 2μ) · strain · area, over the volume of 1/6 m³.
+/// // One corner moves along x by 1 mm, uniaxial strain: force = (λ + 2μ) · strain · area, the area being
+/// // the volume of 1/6 m³ over the edge of 1 m.
 /// let mut displacement = [[0.0; 3]; 4];
 /// displacement[1][0] = 1e-3;
 /// let mut product = [[0.0; 3]; 4];

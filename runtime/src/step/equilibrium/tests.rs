@@ -107,7 +107,7 @@ fn a_point_without_forces_is_a_saddle() {
 }
 
 #[test]
-fn a_pull_holds_a_point_and_stiffens_it() {
+fn a_spring_holds_a_point_and_stiffens_it() {
     let mut body = simulation(&beam(2), ROTATED, &Pins::none());
     let target = body.positions()[0];
     body.set_springs(&[Spring::on_node(0, target, 100.0)]).expect("a spring");

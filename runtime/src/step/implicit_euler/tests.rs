@@ -223,7 +223,7 @@ fn moving_pins_enter_the_right_side() {
 }
 
 #[test]
-fn a_pull_stretches_until_forces_balance() {
+fn a_spring_stretches_until_forces_balance() {
     let mesh = beam(2);
     let mut body = simulation(
         &mesh,

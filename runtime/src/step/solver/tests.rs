@@ -26,7 +26,7 @@ fn simulation(
     Simulation::new(body, &pins, settings).expect("a simulation")
 }
 
-/// A beam whose held end is moved and turned while a spring springs at the other, under gravity: its reports.
+/// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
 fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {
     let newton = NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() };
     let mut body = simulation(
@@ -204,7 +204,7 @@ fn moving_pins_enter_the_right_side() {
 }
 
 #[test]
-fn solvers_are_exchanged_between_steps_and_know_the_same_pulls() {
+fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
     let mesh = beam(4);
     let gravity = [0.0, -9.81, 0.0];
     let settings = |linear| SimulationSettings {
