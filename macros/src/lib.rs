@@ -35,6 +35,8 @@ use proc_macro::TokenStream;
 /// * `refuse("why")`: the energy cannot be continued;
 /// * `prestressed`: stress at rest is intended;
 /// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress by its parameters.
+/// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`), as its
+///   parameters, which are checked when they are read; functions among them must implement both as well.
 ///
 /// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no
 /// other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is

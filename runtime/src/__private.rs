@@ -3,3 +3,5 @@
 pub use crate::lanes::Mask;
 pub use crate::material::{ParameterValue, PerLane};
 pub use crate::quotient::*;
+#[cfg(feature = "serde")]
+pub use serde;

@@ -38,7 +38,7 @@
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
-//! * [`random`]: numbers for samples, the same on every machine;
+//! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `system`);
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
@@ -46,8 +46,10 @@
 //! * [`step`]: implicit Euler by Newton's method (feature `system`).
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
-//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch`, faer and nalgebra, and
-//! minutes. `nalgebra` has conversions of matrices only.
+//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch` and faer, and minutes.
+//!
+//! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number that is not
+//! finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read back from there.
 //!
 //! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
 //! implicit Euler.
@@ -68,7 +70,11 @@ extern crate self as piola;
 pub mod __private;
 #[cfg(feature = "batch")]
 pub mod batch;
+#[cfg(feature = "system")]
+mod chained;
 pub mod contract;
+#[cfg(any(feature = "glam", feature = "nalgebra"))]
+pub mod convert;
 #[cfg(test)]
 mod hand_written;
 pub mod lanes;
@@ -77,6 +83,7 @@ pub mod material;
 pub mod mesh;
 pub mod point;
 mod quotient;
+#[doc(hidden)] // samples for the contract and for tests: no part of the interface
 pub mod random;
 mod status;
 #[cfg(feature = "system")]

@@ -143,6 +143,11 @@ pub trait Material: Send + Sync {
 /// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a point is refused
 /// whatever is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 pub enum Inversion {
     /// The point's status says so, and a line search takes a shorter step.
     #[default]
@@ -159,6 +164,7 @@ pub enum Inversion {
 
 /// Small-strain moduli of an isotropic solid, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Moduli {
     /// Shear modulus μ.
     pub mu: f64,

@@ -48,20 +48,6 @@ pub use tangent::{Assemble, Tangent, contract};
 /// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix3<R> = [[R; 3]; 3];
 
-/// From nalgebra's matrix, which is stored by columns.
-#[cfg(any(feature = "nalgebra", test))]
-#[must_use]
-pub fn from_nalgebra<R: Real + nalgebra::Scalar>(matrix: &nalgebra::Matrix3<R>) -> Matrix3<R> {
-    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
-}
-
-/// To nalgebra's matrix, which is stored by columns.
-#[cfg(any(feature = "nalgebra", test))]
-#[must_use]
-pub fn to_nalgebra<R: Real + nalgebra::Scalar>(matrix: &Matrix3<R>) -> nalgebra::Matrix3<R> {
-    nalgebra::Matrix3::from_fn(|i, j| matrix[i][j])
-}
-
 /// Stress and tangent at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point<R: Real> {

@@ -10,6 +10,7 @@ use crate::lanes::Mask;
 ///
 /// A `Status` is that of one point; `Status<R::Mask>` is that of the points on the lanes of a real type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Status<M = bool> {
     /// The deformation lies outside the domain of the energy, and the results are meaningless.
     pub refused: M,
@@ -111,6 +112,7 @@ impl StatusCell {
 ///
 /// Surveys of different points are added by `+` and [`Iterator::sum`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Survey {
     /// How many points lie outside the domain of the energy.
     pub refused: usize,

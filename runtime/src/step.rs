@@ -1,24 +1,33 @@
-//! Time: implicit Euler steps as minimisations, by Newton's method with a line search.
+//! Time: implicit Euler steps as minimisations, by Newton's method with a line search; and statics.
 //!
-//! From the public entry down: [`implicit_euler`] keeps the state of a body and steps it, `newton` minimises,
-//! `solver` solves its linear systems, `line_search` shortens steps, `objective` is what decreases. [`equilibrium`] says what is known of a body that
-//! has come to rest. Reports are values; nothing
-//! prints.
+//! From the public entry down: `implicit_euler` keeps the state of a body and steps it, `newton` minimises,
+//! `solver` solves its linear systems, `line_search` shortens steps, `objective` is the function that
+//! decreases. `equilibrium` classifies a body that has come to rest. Reports are values; nothing prints.
+//!
+//! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
+//!
+//! ```
+//! use piola::step::{LinearSolver, NewtonSettings, SimulationSettings};
+//!
+//! let newton = NewtonSettings::default().with_tolerance(1e-9).with_linear(LinearSolver::Cholesky);
+//! let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
+//! assert_eq!(settings.newton.tolerance, 1e-9);
+//! ```
 
-pub mod damping;
-pub mod equilibrium;
-pub mod filtering;
-pub mod implicit_euler;
-pub mod line_search;
-pub mod newton;
-pub mod objective;
-pub mod solver;
+mod damping;
+mod equilibrium;
+mod filtering;
+mod implicit_euler;
+mod line_search;
+mod newton;
+mod objective;
+mod solver;
 
 pub use damping::Damping;
-pub use equilibrium::{Eigenvalue, Equilibrium, Verdict};
+pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
-pub use implicit_euler::{Energies, Settings, SetupError, Simulation, StepError, StepReport};
-pub use line_search::{LineSearchSettings, Outcome};
-pub use newton::{Convergence, Guess, NewtonError, NewtonReport, NewtonSettings};
-pub use objective::Pull;
+pub use implicit_euler::{Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport};
+pub use line_search::LineSearchSettings;
+pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
+pub use objective::Spring;
 pub use solver::LinearSolver;

@@ -1,227 +1,27 @@
-//! From points to a body: elements, masses, sparsity, assembly, pins and the linear solver; products without a matrix.
+//! Linear tetrahedral finite elements: elements, masses, sparsity, assembly, pins, linear solvers; products
+//! without a matrix.
 //!
-//! This module knows no time: inertia and damping are the business of [`crate::step`].
-
-use std::fmt;
-use std::ops::Range;
-
-use crate::batch::TileMaterial;
-use crate::batch::element::TILE;
-use crate::mesh::tet::lumped_masses;
-use crate::mesh::{MeshError, TetMesh};
+//! This module knows no time: inertia and damping belong to [`crate::step`]. All of it is in f64, materials
+//! included.
 
 pub(crate) mod assemble;
-pub mod block_matrix;
-pub mod element;
+mod block_matrix;
+mod body;
+pub(crate) mod element;
 pub(crate) mod factored;
 mod fill;
-pub mod linear;
-pub mod operator;
-pub mod pattern;
-pub mod pins;
+pub(crate) mod linear;
+mod operator;
+pub(crate) mod pattern;
+mod pins;
 pub(crate) mod stiffnesses;
 #[cfg(test)]
 pub(crate) mod testing;
 
 pub use block_matrix::BlockMatrix;
-pub use element::Element;
+pub use body::{Body, BodyError, Part};
+pub use element::Tetrahedron;
+pub use linear::{Cholesky, LinearError};
 pub use operator::StiffnessOperator;
+pub use pattern::Pattern;
 pub use pins::{PinError, Pins};
-
-/// A material and a density for a part of a mesh.
-pub struct Part {
-    /// Name of the group of tetrahedra; `None` for those that no other part names.
-    pub group: Option<String>,
-    /// Anything that implements [`Material`](crate::Material).
-    pub material: Box<dyn TileMaterial<f64>>,
-    /// Mass density at rest, kg/m³.
-    pub density: f64,
-}
-
-/// An elastic body: a mesh with a material and a density for each of its parts.
-pub struct Body {
-    rest: Vec<[f64; 3]>,
-    masses: Vec<f64>,
-    /// Elements of one material are contiguous; `runs` says where each material ends.
-    elements: Vec<Element>,
-    runs: Vec<Run>,
-}
-
-/// Contiguous elements of one material.
-struct Run {
-    material: Box<dyn TileMaterial<f64>>,
-    end: usize,
-}
-
-impl fmt::Debug for Body {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (nodes, elements, materials) = (self.rest.len(), self.elements.len(), self.runs.len());
-        write!(f, "Body {{ nodes: {nodes}, elements: {elements}, materials: {materials} }}")
-    }
-}
-
-impl Body {
-    /// A body of one material; `density` in kg/m³.
-    ///
-    /// # Errors
-    /// Where the mesh is not a body or the density is not positive.
-    pub fn new(
-        mesh: &TetMesh,
-        material: impl TileMaterial<f64> + 'static,
-        density: f64,
-    ) -> Result<Self, BodyError> {
-        Self::from_parts(mesh, vec![Part { group: None, material: Box::new(material), density }])
-    }
-
-    /// A body of several parts, which together hold each tetrahedron exactly once.
-    ///
-    /// # Errors
-    /// Where the mesh is not a body, a density is not positive, a material is one for each point, a group does not exist, or a
-    /// tetrahedron belongs to no part or to two.
-    pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
-        let shapes = mesh.rest_shapes().map_err(BodyError::Mesh)?;
-        let part_of_tet = assign(mesh, &parts)?;
-
-        let mut densities = vec![0.0; shapes.len()];
-        let mut elements = Vec::with_capacity(shapes.len());
-        let mut runs = Vec::with_capacity(parts.len());
-        for (index, Part { material, density, .. }) in parts.into_iter().enumerate() {
-            if !(density > 0.0 && density.is_finite()) {
-                return Err(BodyError::Density { density });
-            }
-            if material.properties().points.is_some() {
-                return Err(BodyError::MaterialsForPoints);
-            }
-            for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
-                densities[tet] = density;
-                elements.push(Element { nodes: mesh.tets[tet], shape: shapes[tet], tag: mesh.tag(tet) });
-            }
-            runs.push(Run { material, end: elements.len() });
-        }
-        let masses = lumped_masses(mesh, &shapes, &densities);
-        Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
-    }
-
-    /// Rest position of each node, m.
-    #[must_use]
-    pub fn rest(&self) -> &[[f64; 3]] {
-        &self.rest
-    }
-
-    /// Lumped mass of each node, kg.
-    #[must_use]
-    pub fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    /// The elements, sorted by part.
-    #[must_use]
-    pub fn elements(&self) -> &[Element] {
-        &self.elements
-    }
-
-    /// The material of an element.
-    fn material(&self, element: usize) -> &dyn TileMaterial<f64> {
-        self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
-    }
-
-    /// The materials, each with the range of its elements.
-    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
-        let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
-        self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
-    }
-
-    /// The elements in groups of one material that fill a tile, but for the last of a material.
-    fn groups(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
-        self.materials().flat_map(|(material, run)| {
-            run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
-        })
-    }
-}
-
-/// The part of each tetrahedron.
-fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
-    let mut assigned = vec![None; mesh.tets.len()];
-    for (index, part) in parts.iter().enumerate() {
-        let Some(name) = &part.group else { continue };
-        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
-        let group = group.ok_or_else(|| BodyError::NoSuchGroup {
-            name: name.clone(),
-            existing: mesh
-                .groups
-                .iter()
-                .filter(|group| group.dimension == 3)
-                .map(|group| group.name.clone())
-                .collect(),
-        })?;
-        for &tet in &group.tets {
-            match assigned.get_mut(tet) {
-                Some(slot @ None) => *slot = Some(index),
-                _ => return Err(BodyError::InTwoParts { element: mesh.tag(tet) }),
-            }
-        }
-    }
-    let rest = parts.iter().position(|part| part.group.is_none());
-    let each = assigned.into_iter().enumerate();
-    each.map(|(tet, part)| part.or(rest).ok_or(BodyError::InNoPart { element: mesh.tag(tet) })).collect()
-}
-
-/// Why a mesh and its parts make no body.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum BodyError {
-    /// The mesh itself is at fault.
-    Mesh(MeshError),
-    /// A density is not a positive number.
-    Density {
-        /// As given, kg/m³.
-        density: f64,
-    },
-    /// The material of a part is a material for each of many points.
-    MaterialsForPoints,
-    /// A part names a group that the mesh does not have.
-    NoSuchGroup {
-        /// As given.
-        name: String,
-        /// The groups of tetrahedra that exist.
-        existing: Vec<String>,
-    },
-    /// An element belongs to no part.
-    InNoPart {
-        /// Its tag.
-        element: usize,
-    },
-    /// An element belongs to two parts.
-    InTwoParts {
-        /// Its tag.
-        element: usize,
-    },
-}
-
-impl fmt::Display for BodyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mesh(error) => error.fmt(f),
-            Self::Density { density } => {
-                write!(f, "the density is {density} kg/m³; it must be a positive number")
-            }
-            Self::MaterialsForPoints => f.write_str(
-                "a part has one material for all its elements: make a part for each material, or compute with batches",
-            ),
-            Self::NoSuchGroup { name, existing } if existing.is_empty() => {
-                write!(f, "there is no group `{name}`: the mesh has no groups of tetrahedra")
-            }
-            Self::NoSuchGroup { name, existing } => {
-                write!(f, "there is no group `{name}` of tetrahedra; there are: {}", existing.join(", "))
-            }
-            Self::InNoPart { element } => {
-                write!(f, "element {element} has no material: it belongs to no part")
-            }
-            Self::InTwoParts { element } => {
-                write!(f, "element {element} has two materials: it belongs to two parts")
-            }
-        }
-    }
-}
-
-impl std::error::Error for BodyError {}

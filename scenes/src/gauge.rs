@@ -17,7 +17,7 @@ pub fn read(mesh: &TetMesh, simulation: &Simulation, marks: [f64; 2], material: 
     let positions = simulation.positions();
     let stretch = measure::upright_stretch(&mesh.positions, positions, marks);
     let upwards = simulation
-        .pulls()
+        .springs()
         .iter()
         .map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
     let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / height;

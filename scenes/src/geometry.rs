@@ -5,9 +5,10 @@ use std::ffi::OsStr;
 use std::fmt::Display;
 use std::path::Path;
 
-use piola::mesh::embed::Anchor;
-use piola::mesh::io::{parse_msh, parse_surface_obj};
-use piola::mesh::{Embedding, Surface, TetMesh, read_msh, read_surface_obj, read_tetgen, tetrahedral_box};
+use piola::mesh::{
+    Anchor, Embedding, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    read_tetgen, tetrahedral_box,
+};
 
 use crate::error::Error;
 use crate::scene::body::{Body, Shape};

@@ -3,8 +3,7 @@
 use std::fmt::Display;
 
 use piola::material::Moduli;
-use piola::mesh::embed::Anchor;
-use piola::mesh::{Bounds, TetMesh};
+use piola::mesh::{Anchor, Bounds, TetMesh};
 use piola::step::{self, NewtonSettings, Simulation, StepReport};
 use piola::system::{Body, Part, Pins};
 
@@ -29,7 +28,7 @@ pub struct Play {
     material: &'static str,
     parameters: Parameters,
     pulls: Vec<Grip>,
-    hands: Vec<step::Pull>,
+    hands: Vec<step::Spring>,
     moduli: Moduli,
     /// Of a cube of its material and height, N/m.
     stiffness: f64,
@@ -124,12 +123,12 @@ impl Play {
 
     /// A pull at one point of the body, as stiff as a cube of its material and height.
     #[must_use]
-    pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Pull {
-        step::Pull { anchor, target, stiffness: self.stiffness }
+    pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Spring {
+        step::Spring { anchor, target, stiffness: self.stiffness }
     }
 
     /// Replaces the pulls that come beside those of the scene, from the next step on.
-    pub fn hold(&mut self, pulls: Vec<step::Pull>) {
+    pub fn hold(&mut self, pulls: Vec<step::Spring>) {
         self.hands = pulls;
     }
 
@@ -137,7 +136,7 @@ impl Play {
     ///
     /// # Errors
     /// Where a setting makes no sense.
-    pub fn set_step_settings(&mut self, settings: step::Settings) -> Result<(), Error> {
+    pub fn set_step_settings(&mut self, settings: step::SimulationSettings) -> Result<(), Error> {
         self.simulation.set_settings(settings).map_err(|error| setup(&error))
     }
 
@@ -149,8 +148,8 @@ impl Play {
         let clock = self.clock.next();
         let failed = |error: &dyn Display| Error::Step { frame: clock.frame(), reason: error.to_string() };
         let scene = self.pulls.iter().flat_map(|grip| grip.at(clock.time()));
-        let springs: Vec<step::Pull> = scene.chain(self.hands.iter().copied()).collect();
-        self.simulation.set_pulls(&springs).map_err(|error| failed(&error))?;
+        let springs: Vec<step::Spring> = scene.chain(self.hands.iter().copied()).collect();
+        self.simulation.set_springs(&springs).map_err(|error| failed(&error))?;
         let report = self.simulation.step(clock.dt()).map_err(|error| failed(&error))?;
         self.clock = clock;
         Ok(report)
@@ -166,13 +165,14 @@ fn setup(reason: &dyn Display) -> Error {
     Error::Setup { reason: reason.to_string() }
 }
 
-fn step_settings(settings: &Settings) -> step::Settings {
+fn step_settings(settings: &Settings) -> step::SimulationSettings {
     let newton = match settings.newton {
         Newton::Single => NewtonSettings::single(),
         Newton::Full => NewtonSettings::default(),
     };
     let gravity = [0.0, -settings.gravity, 0.0];
-    step::Settings { gravity, damping: settings.scene.damping, newton, ..step::Settings::default() }
+    let step = step::SimulationSettings::default().with_gravity(gravity).with_newton(newton);
+    step.with_damping(settings.scene.damping)
 }
 
 /// The nodes that the settings pin, or else the scene.
@@ -222,12 +222,12 @@ impl Grip {
     }
 
     /// The springs at a time, s.
-    fn at(&self, time: f64) -> impl Iterator<Item = step::Pull> {
+    fn at(&self, time: f64) -> impl Iterator<Item = step::Spring> {
         let share = self.pull.share_at(time);
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {
                 let target = self.pull.motion.place(rest, share, self.bounds);
-                step::Pull::on_node(node, target, self.stiffness)
+                step::Spring::on_node(node, target, self.stiffness)
             })
         })
     }

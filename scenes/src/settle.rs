@@ -1,7 +1,7 @@
 //! Where a body that is not back comes to rest, and what it is there.
 
 use piola::mesh::TetMesh;
-use piola::step::{Convergence, Equilibrium, NewtonSettings, Verdict};
+use piola::step::{Convergence, Equilibrium, NewtonSettings, Stability};
 
 use crate::error::Error;
 use crate::measure;
@@ -20,10 +20,8 @@ pub fn settle(play: &mut Play, mesh: &TetMesh) -> Result<Standing, Error> {
     let failed = |reason: String| Error::Standing { reason };
     let simulation = play.simulation_mut();
     let settings = *simulation.settings();
-    let newton = NewtonSettings { max_iterations: ITERATIONS, tolerance: 1e-10, ..NewtonSettings::default() };
-    simulation
-        .set_settings(piola::step::Settings { newton, ..settings })
-        .map_err(|error| failed(error.to_string()))?;
+    let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
+    simulation.set_settings(settings.with_newton(newton)).map_err(|error| failed(error.to_string()))?;
     let mut newton_iterations = 0;
     for _ in 0..CALLS {
         // Where statics fails, the body stays where it is, and what it is there will say so.
@@ -38,12 +36,12 @@ pub fn settle(play: &mut Play, mesh: &TetMesh) -> Result<Standing, Error> {
     let found = Equilibrium::of(simulation).map_err(|error| failed(error.to_string()))?;
     let pinned = simulation.pinned().len();
     let max_distance_from_rest = measure::distance_from_rest(mesh, simulation.positions(), pinned);
-    let place = match found.verdict() {
+    let place = match found.stability() {
         _ if max_distance_from_rest <= Summary::RECOVERED => Place::Rest,
-        Verdict::Unbalanced => Place::NotAtRest,
-        Verdict::Stable => Place::StableElsewhere,
-        Verdict::Saddle => Place::Saddle,
-        Verdict::Undecided => Place::UndecidedElsewhere,
+        Stability::Unbalanced => Place::NotAtRest,
+        Stability::Stable => Place::StableElsewhere,
+        Stability::Saddle => Place::Saddle,
+        Stability::Undecided => Place::UndecidedElsewhere,
     };
     Ok(Standing {
         place,

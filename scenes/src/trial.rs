@@ -54,7 +54,7 @@ pub fn watch(mut play: Play, frames: usize, geometry: &Geometry) -> Result<Outco
     for frame in 1..=frames {
         let before = play.simulation_mut().energies();
         let report = play.step()?;
-        let energies = before.elastic.abs() + before.kinetic + before.pulls + before.gravity.abs();
+        let energies = before.elastic.abs() + before.kinetic + before.springs + before.gravity.abs();
         outcome.largest_rise = outcome.largest_rise.max(report.newton.change / (unit + energies));
         let positions = play.simulation().positions();
         outcome.finite &= positions.iter().flatten().all(|x| x.is_finite());

@@ -16,7 +16,7 @@ use clap::{Parser, ValueEnum};
 use rayon::prelude::*;
 
 use piola::point::Filter;
-use piola::step::{self, Filtering, NewtonSettings};
+use piola::step::{Filtering, NewtonSettings};
 use piola_scenes::energy::{Energy, soft};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::output::{Newton, Place};
@@ -162,8 +162,8 @@ impl Way {
         match self {
             Self::Plain(_) => {}
             Self::Filtered(filtering) => {
-                let newton = NewtonSettings { filtering, ..NewtonSettings::single() };
-                play.set_step_settings(step::Settings { newton, ..*play.simulation().settings() })?;
+                let newton = NewtonSettings::single().with_filtering(filtering);
+                play.set_step_settings(play.simulation().settings().with_newton(newton))?;
             }
             Self::Shrunk(share) => {
                 let bounds = geometry.mesh.bounds();

@@ -13,7 +13,7 @@ use clap::Parser;
 use peak_alloc::PeakAlloc;
 use piola::material::Moduli;
 use piola::mesh::{Bounds, tetrahedral_box};
-use piola::step::{Convergence, LinearSolver, NewtonSettings, Settings, Simulation};
+use piola::step::{Convergence, LinearSolver, NewtonSettings, Simulation, SimulationSettings};
 use piola::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
 
@@ -77,7 +77,7 @@ fn hanging(cells: usize) -> Result<Simulation, Box<dyn Error>> {
     let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
     let face = Bounds { min: [-1.0; 3], max: [1e-9, 2.0, 2.0] };
     let pins = Pins::in_box(&mesh, face)?;
-    let newton = NewtonSettings { linear: SOLVER, ..NewtonSettings::default() };
-    let settings = Settings { gravity: [0.0, -9.81, 0.0], newton, ..Settings::default() };
+    let newton = NewtonSettings::default().with_linear(SOLVER);
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
     Ok(Simulation::new(body, &pins, settings)?)
 }

@@ -4,7 +4,8 @@ use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::mesh::TetMesh;
 use piola::point::svd;
-use piola::step::{Damping, NewtonSettings, Settings, Simulation, StepError};
+use piola::random::Random;
+use piola::step::{Damping, Simulation, SimulationSettings, StepError};
 use piola::system::{Body, Part, Pins};
 use piola_materials::{CATALOGUE, Entry};
 
@@ -17,19 +18,6 @@ const EXTEND: Inversion = Inversion::Extend { epsilon: 0.03 };
 
 const REST: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 0.9, 0.0], [0.3, 0.2, 1.1]];
 
-/// Entries uniform in −1 … 1, from SplitMix64.
-fn random_matrix(seed: u64) -> [[f64; 3]; 3] {
-    let mut state = seed;
-    let mut uniform = || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
-    std::array::from_fn(|_| std::array::from_fn(|_| uniform()))
-}
-
 fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
 }
@@ -38,11 +26,7 @@ fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
-    let settings = Settings {
-        damping: Damping::Mass { rate: 1.0 },
-        newton: NewtonSettings::default(),
-        ..Settings::default()
-    };
+    let settings = SimulationSettings::default().with_damping(Damping::Mass { rate: 1.0 });
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     let positions = REST.map(|x| times(start, x));
     simulation.set_positions(&positions).expect("finite positions");
@@ -57,7 +41,7 @@ fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<
 /// A third inverted as they come, a third collapsed nearly to a point, a third mirrored; and one without any extent.
 fn starts() -> impl Iterator<Item = [[f64; 3]; 3]> {
     let random = (0..STARTS).map(|seed| {
-        let mut start = random_matrix(seed);
+        let mut start = Random::new(seed).matrix();
         match seed % 3 {
             0 => {}
             1 => start = start.map(|row| row.map(|x| 1e-3 * x)),

@@ -5,7 +5,7 @@ use std::fs::File;
 use biderman::Biderman;
 use piola::Inversion;
 use piola::mesh::Bounds;
-use piola::step::{Damping, NewtonSettings, Settings, Simulation};
+use piola::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
 use piola::system::{Body, Pins};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::render::{Frame, contact_sheet};
@@ -22,11 +22,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     let hooves = Pins::in_box(&horse.mesh, hooves)?;
     let body = Body::new(&horse.mesh, rubber, 1000.0)?;
-    let settings = Settings {
-        damping: Damping::Mass { rate: 2.0 },
-        newton: NewtonSettings::single(),
-        ..Settings::default()
-    };
+    let settings = SimulationSettings::default()
+        .with_damping(Damping::Mass { rate: 2.0 })
+        .with_newton(NewtonSettings::single());
     let mut simulation = Simulation::new(body, &hooves, settings)?;
 
     // Flat on the ground: nearly every tetrahedron is a sheet without volume.

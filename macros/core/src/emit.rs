@@ -12,6 +12,7 @@ use constructor::constructor;
 use declared::declared;
 use fittable::fittable;
 use material::material;
+use serde::serde;
 
 mod constructor;
 mod declared;
@@ -19,6 +20,7 @@ mod documentation;
 mod fittable;
 mod invariants;
 mod material;
+mod serde;
 pub mod stub;
 mod writer;
 mod young_poisson;
@@ -33,6 +35,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &texts);
     let fittable = fittable(declaration, &mut model);
+    let serde = serde(declaration);
     quote! {
         #structure
         #constructor
@@ -41,6 +44,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
             #material
             #declared
             #fittable
+            #serde
         };
     }
 }

@@ -326,7 +326,7 @@ fn a_survey_counts_and_names_the_first() {
 fn lengths_that_do_not_fit_are_errors() {
     let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
     let error = batch.stresses(&[1.0; 18], &mut [0.0; 17]).unwrap_err();
-    assert_eq!(error.to_string(), "`P` has 17 numbers; 2 points of 9 numbers each would make 18");
+    assert_eq!(error.to_string(), "`P` has 17 entries; 2 points of 9 entries each would make 18");
     let error = batch.stresses(&[1.0; 17], &mut [0.0; 9]).unwrap_err();
     assert_eq!(error.slice, "F");
     let lines = batch.with_layout(Layout::Lines);

@@ -1,16 +1,17 @@
 //! Boxes cut into tetrahedra: bodies of any size without a file.
 //!
-//! A cell is cut into six tetrahedra around its diagonal from the lowest to the highest corner, one for each order in which
-//! a path along its edges can take the three axes \[Kuh60\]. Every face of a cell is then cut from its lowest to its highest
-//! corner as well, whichever of its two cells one looks at: neighbours fit.
+//! A cell is cut into six tetrahedra around its diagonal from the lowest to the highest corner, one for each
+//! order in which a path along its edges can take the three axes \[Kuh60\]. Every face of a cell is then cut
+//! from its lowest to its highest corner as well, in both of its cells: neighbours fit.
 //!
-//! \[Kuh60\] Kuhn, *Some Combinatorial Lemmas in Topology*, 1960; the same triangulation is Freudenthal's of 1942.
+//! \[Kuh60\] Kuhn, *Some Combinatorial Lemmas in Topology*, 1960; the same triangulation is Freudenthal's of
+//! 1942.
 
 use std::fmt;
 
 use super::TetMesh;
 
-/// The orders of the three axes, each with whether it is an odd one: its path turns the other way.
+/// Orders of the three axes, and whether each is an odd permutation: its path turns the other way.
 const PATHS: [([usize; 3], bool); 6] = [
     ([0, 1, 2], false),
     ([1, 2, 0], false),
@@ -20,11 +21,12 @@ const PATHS: [([usize; 3], bool); 6] = [
     ([1, 0, 2], true),
 ];
 
-/// A box from the origin to `size`, m, of so many cells along each axis, six tetrahedra each.
+/// Meshes a box from the origin to `size`, m, with `cells` along each axis, each of six tetrahedra.
 ///
-/// Nodes are numbered in layers across the axis with the most cells, and in a layer in rows across that with the second
-/// most; tetrahedra follow the same order. The nodes of a tetrahedron are then as near in memory as plain counting brings
-/// them. There are no groups: [`Pins::in_box`](crate::system::Pins::in_box) finds a side.
+/// Nodes are numbered in layers across the axis with the most cells, and in a layer in rows across that with
+/// the second most; tetrahedra follow the same order. The nodes of a tetrahedron are then as near in memory
+/// as plain counting brings them. There are no groups: [`Pins::in_box`](crate::system::Pins::in_box) finds a
+/// side.
 ///
 /// ```
 /// use piola::mesh::tetrahedral_box;
@@ -37,7 +39,7 @@ const PATHS: [([usize; 3], bool); 6] = [
 /// ```
 ///
 /// # Errors
-/// Where there are no cells, too many for the memory, or a length is not a positive number.
+/// [`BoxError`] for no cells, too many for the memory, or a length that is not positive and finite.
 pub fn tetrahedral_box(cells: [usize; 3], size: [f64; 3]) -> Result<TetMesh, BoxError> {
     if cells.contains(&0) {
         return Err(BoxError::NoCells { cells });
@@ -85,7 +87,7 @@ fn from_slow_to_fast(cells: [usize; 3]) -> [usize; 3] {
     axes
 }
 
-/// How far apart in the numbering two neighbours along each axis are.
+/// Distance in the numbering between two neighbours along each axis.
 fn strides(counts: [usize; 3], [slow, middle, fast]: [usize; 3]) -> [usize; 3] {
     let mut strides = [1; 3];
     strides[middle] = counts[fast];
@@ -93,7 +95,7 @@ fn strides(counts: [usize; 3], [slow, middle, fast]: [usize; 3]) -> [usize; 3] {
     strides
 }
 
-/// All places of a grid in the order of their numbers.
+/// Visits all places of a grid in the order of their numbers.
 fn for_each_place(counts: [usize; 3], [slow, middle, fast]: [usize; 3], mut visit: impl FnMut([usize; 3])) {
     let mut at = [0; 3];
     for i in 0..counts[slow] {
@@ -108,23 +110,23 @@ fn for_each_place(counts: [usize; 3], [slow, middle, fast]: [usize; 3], mut visi
     }
 }
 
-/// Why there is no such box.
+/// Reason why a box cannot be meshed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BoxError {
     /// There are no cells along an axis.
     NoCells {
-        /// As given.
+        /// Number of cells along each axis.
         cells: [usize; 3],
     },
     /// A length is not a positive number.
     Size {
-        /// As given, m.
+        /// Lengths of the sides, m.
         size: [f64; 3],
     },
-    /// Nodes and tetrahedra of so many cells cannot be counted, or do not fit into memory.
+    /// The mesh does not fit into memory.
     TooManyCells {
-        /// As given.
+        /// Number of cells along each axis.
         cells: [usize; 3],
     },
 }
@@ -173,7 +175,8 @@ mod tests {
         // A sum of 360 terms, each of edges with a rounding error of u of the size of the box.
         assert!((volume - expected).abs() <= 360.0 * f64::EPSILON * expected, "{volume} for {expected}");
         for shape in shapes {
-            // All are a sixth of a cell; the rounding of a coordinate is u times the whole box, five cells long.
+            // All are a sixth of a cell; the rounding of a coordinate is u times the whole box, five cells
+            // long.
             let cell = expected / 360.0;
             assert!((shape.volume - cell).abs() <= 64.0 * f64::EPSILON * cell, "{} for {cell}", shape.volume);
         }

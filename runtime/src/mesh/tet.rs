@@ -1,10 +1,10 @@
-//! A mesh of linear tetrahedra and its shape at rest.
+//! Mesh of linear tetrahedra and its shape at rest.
 //!
 //! Orientation: det [x1−x0, x2−x0, x3−x0] > 0. Lengths in metres, indices from 0.
 
 use std::fmt;
 
-/// A tetrahedral mesh at rest.
+/// Tetrahedral mesh at rest, in f64.
 ///
 /// ```
 /// use piola::mesh::TetMesh;
@@ -20,37 +20,38 @@ pub struct TetMesh {
     pub positions: Vec<[f64; 3]>,
     /// The four nodes of each tetrahedron, positively oriented.
     pub tets: Vec<[usize; 4]>,
-    /// The number by which the file calls each tetrahedron. Where empty, tetrahedra are numbered from 1.
+    /// Tag of each tetrahedron in its file. If empty, tetrahedra are numbered from 1.
     pub tags: Vec<usize>,
     /// Named parts.
     pub groups: Vec<Group>,
 }
 
-/// A named part of a mesh, such as a physical group of Gmsh.
+/// Named part of a mesh, such as a physical group of Gmsh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Group {
-    /// Its name; the number of a physical group that has none.
+    /// Name; the number of a physical group without a name.
     pub name: String,
     /// 0 for points, 1 for curves, 2 for surfaces, 3 for volumes.
     pub dimension: usize,
-    /// Nodes of all its elements, ascending.
+    /// Nodes of all elements of the group, ascending.
     pub nodes: Vec<usize>,
-    /// Its tetrahedra, ascending; none unless the dimension is 3.
+    /// Tetrahedra of the group, ascending; empty unless the dimension is 3.
     pub tets: Vec<usize>,
 }
 
-/// A tetrahedron at rest.
+/// Shape of a tetrahedron at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestShape {
-    /// Dm⁻¹, 1/m, where the columns of Dm are x1−x0, x2−x0, x3−x0: its row i is the gradient of the barycentric
-    /// coordinate of node i+1.
+    /// Inverse edge matrix Dm⁻¹, 1/m, where the columns of Dm are x1−x0, x2−x0, x3−x0: its row i is the
+    /// gradient of the barycentric coordinate of node i+1.
     pub inverse: [[f64; 3]; 3],
     /// Volume, m³.
     pub volume: f64,
 }
 
-/// A box with sides along the axes, its boundary included.
+/// Box with sides along the axes, its boundary included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Bounds {
     /// Lowest coordinates, m.
     pub min: [f64; 3],
@@ -65,13 +66,13 @@ impl TetMesh {
         Self { positions, tets, ..Self::default() }
     }
 
-    /// The number by which the file, or its maker, calls a tetrahedron.
+    /// Tag of a tetrahedron: from `tags`, or its index plus 1.
     #[must_use]
     pub fn tag(&self, tet: usize) -> usize {
         self.tags.get(tet).copied().unwrap_or(tet + 1)
     }
 
-    /// The group of this name.
+    /// Finds a group by its name.
     #[must_use]
     pub fn group(&self, name: &str) -> Option<&Group> {
         self.groups.iter().find(|group| group.name == name)
@@ -83,11 +84,12 @@ impl TetMesh {
         Bounds::around(&self.positions)
     }
 
-    /// The shape at rest of each tetrahedron.
+    /// Computes the shape at rest of each tetrahedron.
     ///
     /// # Errors
-    /// Where there is no tetrahedron, a node is missing, unused or not finite, or a volume is not positive. A volume
-    /// below the rounding error of its own determinant counts as zero: its sign would be noise.
+    /// [`MeshError`] if there is no tetrahedron, a node is missing, unused or not finite, or a volume is not
+    /// positive. A volume below the rounding error of its own determinant counts as zero: its sign would be
+    /// noise.
     pub fn rest_shapes(&self) -> Result<Vec<RestShape>, MeshError> {
         if self.tets.is_empty() {
             return Err(MeshError::Empty);
@@ -115,9 +117,31 @@ impl TetMesh {
             None => Ok(shapes),
         }
     }
+
+    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups.
+    pub(super) fn without_unused_nodes(self) -> Self {
+        let mut renumbered = vec![None; self.positions.len()];
+        self.tets.iter().flatten().for_each(|&node| renumbered[node] = Some(0));
+        let mut positions = Vec::new();
+        for (number, position) in renumbered.iter_mut().zip(self.positions) {
+            if let Some(number) = number {
+                *number = positions.len();
+                positions.push(position);
+            }
+        }
+        let groups = self.groups.into_iter().map(|group| {
+            let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(|node| renumbered[node]).collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            Group { nodes, ..group }
+        });
+        // Every node of a tetrahedron is in use, so that the default is never taken.
+        let tets = self.tets.iter().map(|tet| tet.map(|node| renumbered[node].unwrap_or_default())).collect();
+        Self { positions, tets, groups: groups.collect(), ..self }
+    }
 }
 
-/// The mass of each node, kg: a quarter of the mass of each tetrahedron around it.
+/// Lumped mass of each node, kg: a quarter of the mass of each tetrahedron around it.
 ///
 /// `densities`, kg/m³, and `shapes` hold one entry per tetrahedron.
 #[must_use]
@@ -131,7 +155,7 @@ pub fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) ->
     masses
 }
 
-/// Dm⁻¹ and volume of a tetrahedron, or the volume that is not positive.
+/// Inverse edge matrix and volume of a tetrahedron, or its volume as an error if that is not positive.
 fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, f64> {
     let (a, b, c) = (subtract(x1, x0), subtract(x2, x0), subtract(x3, x0));
     let rows = [cross(b, c), cross(c, a), cross(a, b)];
@@ -168,7 +192,7 @@ impl Bounds {
     }
 }
 
-/// Why a mesh is not a body.
+/// Reason why a mesh is not a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -183,9 +207,9 @@ pub enum MeshError {
     NoSuchNode {
         /// Tag of the tetrahedron.
         element: usize,
-        /// The node it names, from 0.
+        /// The missing node, from 0.
         node: usize,
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
     },
     /// A node belongs to no tetrahedron; it would have no mass.
@@ -193,7 +217,7 @@ pub enum MeshError {
         /// The node, from 0.
         node: usize,
     },
-    /// A tetrahedron is flat or turned inside out at rest.
+    /// A tetrahedron is flat or inverted at rest.
     NonPositiveVolume {
         /// Tag of the tetrahedron.
         element: usize,

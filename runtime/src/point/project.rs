@@ -51,6 +51,7 @@ use crate::material::{Blocks, PAIRS};
 
 /// What becomes of the negative eigenvalues of dP/dF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Filter {
     /// They stay: the exact derivative of the stress.
     #[default]

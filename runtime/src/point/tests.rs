@@ -191,19 +191,11 @@ fn the_status_says_what_the_numbers_cannot() {
     assert_eq!(mirrored.status, Status { bounded: true, ..fine });
     assert!(mirrored.tangent.to_matrix().iter().flatten().all(|x| x.is_finite()));
     let collapsed = evaluate(&RotatedLinear, &at([0.0; 3]), Filter::Clamp);
-    assert_eq!(collapsed.status, Status { bounded: true, ..fine });
-    assert!(collapsed.status.filtered && collapsed.tangent.blocks.twist == [0.0; 3]);
+    assert_eq!(collapsed.status, Status { bounded: true, filtered: true, ..fine });
+    assert!(collapsed.tangent.blocks.twist == [0.0; 3]);
 
     let broken = at([1.0, f64::NAN, 1.0]);
     assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
     assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).1.nonfinite);
     assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).1.nonfinite);
-}
-
-#[test]
-fn nalgebra_stores_columns_and_we_store_rows() {
-    let rows = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
-    let matrix = to_nalgebra(&rows);
-    assert_eq!(matrix.as_slice(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
-    assert_eq!(from_nalgebra(&matrix), rows);
 }

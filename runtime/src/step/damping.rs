@@ -1,37 +1,43 @@
-//! What takes energy out of a motion beside implicit Euler itself.
+//! Damping of a motion beyond that of implicit Euler itself.
 //!
-//! Both kinds are parts of what a step minimises, with h the time step, xₙ the positions before it and K the stiffness
-//! there, its negative eigenvalues clamped:
+//! Both kinds are terms of the function that a step minimises, with h the time step, xₙ the positions before
+//! it and K the stiffness there, its negative eigenvalues clamped:
 //!
 //! ```text
 //! mass         α/(2h) ‖x − xₙ‖²_M          force −α M v
 //! stiffness    β/(2h) (x − xₙ)ᵀK(x − xₙ)    force −β K v
 //! ```
 //!
-//! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: no damping can drive a
-//! body, however stiff or inverted it is.
+//! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: no
+//! damping can drive a body, however stiff or inverted it is.
 
 use crate::point::Filter;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::stiffnesses::ElementStiffnesses;
 
-/// Which forces work against velocity.
+/// Forces against velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
+#[non_exhaustive]
 pub enum Damping {
-    /// None: what implicit Euler takes away is all.
+    /// No damping but that of implicit Euler itself.
     #[default]
     None,
-    /// −α m v on each node: slows every motion alike, falling too.
+    /// Force −α m v on each node: slows every motion alike, falling too.
     Mass {
-        /// α, 1/s.
+        /// Rate α, 1/s.
         rate: f64,
     },
-    /// −β K v with the stiffness K at the start of each step: slows deformation the more the faster it oscillates. A body
-    /// that moves as a whole without stress feels none of it. Costs 720 bytes for each element, and one more evaluation of the
-    /// stiffness in each step.
+    /// Force −β K v with the stiffness K at the start of each step: slows deformation the more the faster it
+    /// oscillates. It is zero for a body that moves as a whole without stress. Costs 720 bytes for each
+    /// element, and one more evaluation of the stiffness in each step.
     Stiffness {
-        /// β, s: a mode of the angular frequency ω decays like exp(−β ω² t/2).
+        /// Time β, s: a mode of the angular frequency ω decays like exp(−β ω² t/2).
         time: f64,
     },
 }
@@ -53,19 +59,20 @@ impl Damping {
         }
     }
 
-    /// Memory for β K, where it is not zero.
+    /// Memory for β K; `None` if it is zero.
     pub(super) fn viscosity(self, body: &Body) -> Option<Viscosity> {
         (self.time() > 0.0).then(|| Viscosity { stiffnesses: ElementStiffnesses::new(body), factor: 0.0 })
     }
 
-    /// The rule that it breaks, if it breaks one.
+    /// The rule that these settings break, if any.
     pub(super) fn broken_rule(self) -> Option<&'static str> {
         let (Self::Mass { rate: number } | Self::Stiffness { time: number }) = self else { return None };
         (!(number >= 0.0 && number.is_finite())).then_some("damping must be finite and not negative")
     }
 }
 
-/// β/h K of the step under way.
+/// Matrix β/h K of the current step.
+#[derive(Clone)]
 pub(crate) struct Viscosity {
     stiffnesses: ElementStiffnesses,
     /// β/h.

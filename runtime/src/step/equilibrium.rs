@@ -1,26 +1,27 @@
-//! What is known of a body that has come to rest, wherever that is.
+//! Classification of a body that has come to rest, wherever that is.
 //!
-//! A body may stay in another place than its rest shape: in a minimum of its energy elsewhere, at a saddle that nothing
-//! pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 + λ3 = 0 and no force
-//! vanishes. What tells these apart are the forces, and the smallest eigenvalue of the stiffness K, unfiltered and with pulls,
+//! A body may stay in another state than its rest shape: in a minimum of its energy elsewhere, at a saddle
+//! that nothing pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 +
+//! λ3 = 0 and no force vanishes. These differ in the forces and in the smallest eigenvalue of the stiffness
+//! K, unfiltered and with springs,
 //!
 //! ```text
 //! K v = ω² M v,   M the lumped masses,
 //! ```
 //!
-//! among the motions of free nodes that are not rigid ones. It comes from a factor of K + σM, σ the first of growing
-//! shifts for which that is positive definite, by [Lanczos' method](crate::system::linear): the smallest eigenvalue of K is the
-//! largest of (K + σM)⁻¹M, the better separated from the others the smaller σ is.
+//! among the motions of free nodes that are not rigid ones. It comes from a factor of K + σM, σ the first of
+//! growing shifts for which that is positive definite, by [Lanczos' method](crate::system::linear): the
+//! smallest eigenvalue of K is the largest of (K + σM)⁻¹M, the better separated from the others the smaller σ
+//! is.
 
 use faer::sparse::SparseColMatRef;
 
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::linear::lanczos::{add, dot, largest, norm};
-use crate::system::linear::{Cholesky, LinearError, symmetric_product};
-use crate::system::pattern::Pattern;
+use crate::system::linear::symmetric_product;
 use crate::system::stiffnesses::ElementStiffnesses;
-use crate::system::{Body, Element, Pins};
+use crate::system::{Body, Cholesky, LinearError, Pattern, Pins, Tetrahedron};
 
 use super::implicit_euler::Simulation;
 use super::newton::{NewtonError, demand_admissible};
@@ -28,50 +29,57 @@ use super::objective::{Objective, Quadratic};
 
 mod rigid;
 
-/// Forces are in balance where what is left of them is this share of the largest.
+/// Residual, as a share of the largest force, at which forces are in balance.
 const BALANCE: f64 = 1e-6;
 
-/// There is no stress where the largest force is this share of [`Equilibrium::unit_force`].
+/// Largest force, as a share of [`Equilibrium::unit_force`], at which a body is free of stress.
 const NO_STRESS: f64 = 1e-9;
 
-/// The first shift σ, as a share of the largest entry of M⁻¹K on the diagonal, and what the next ones are multiplied by.
+/// The first shift σ, as a share of the largest entry of M⁻¹K on the diagonal, and what the next ones are
+/// multiplied by.
 const FIRST_SHIFT: f64 = 1e-6;
 const NEXT_SHIFT: f64 = 10.0;
 
-/// By this share of it a diagonal surely outweighs its row: 3·4 entries for each of some dozens of neighbours.
+/// The last shift, as such a share: it surely outweighs a row of 3·4 entries for each of some dozens of
+/// neighbours.
 const LAST_SHIFT: f64 = 1e3;
 
-/// What is known of a body where it is.
+/// Residual, stability and inversion of a body at its current positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Equilibrium {
-    /// Norm of the forces on the free nodes, N: of elements, pulls and gravity together.
+    /// Norm of the forces on the free nodes, N: of elements, springs and gravity together.
     pub residual: f64,
     /// The largest force of an element on one of its nodes, N.
     pub largest_force: f64,
-    /// About what the stiffest element would exert on a face of its size at a strain of one, N.
+    /// Estimated force of the stiffest element on a face of its size at a strain of one, N.
     pub unit_force: f64,
     /// The smallest eigenvalue of the stiffness beyond the rigid motions; `None` where nothing else can move.
     pub smallest_eigenvalue: Option<Eigenvalue>,
-    /// How many rigid motions the pins leave: six for a free body.
+    /// Number of rigid motions that pins and springs leave: six for a free body.
     pub rigid_motions: usize,
-    /// How many elements are inside out.
+    /// Number of inverted elements.
     pub inverted: usize,
-    /// The smallest λ2 + λ3 of an element: 0 where it is flattened to a line or reflected, and where energies of λ have kinks.
+    /// The smallest λ2 + λ3 of an element: 0 where it is flattened to a line or reflected, and where energies
+    /// of λ have kinks.
     pub smallest_sum: f64,
 }
 
-/// An eigenvalue ω², 1/s².
+/// Eigenvalue ω², 1/s², with a bound for its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eigenvalue {
-    /// As found.
+    /// Computed value.
     pub value: f64,
-    /// An exact one is no farther from it than this: the norm of the residual of its vector, rounding included.
+    /// Largest distance from an exact eigenvalue: the norm of the residual of its vector, rounding included.
     pub error: f64,
 }
 
-/// What an [`Equilibrium`] is.
+/// Classification of an [`Equilibrium`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+pub enum Stability {
     /// Forces are not in balance: the body will move.
     Unbalanced,
     /// Every small motion that is not rigid costs energy.
@@ -83,13 +91,15 @@ pub enum Verdict {
 }
 
 impl Equilibrium {
-    /// Looks at a body where it is, as if it did not move.
+    /// Analyses a body at its current positions, as if it did not move.
     ///
-    /// Takes memory for the stiffness and a factor of it, 720 bytes for each element, and at most a hundred vectors; takes
-    /// about as long as ten to a hundred Newton iterations.
+    /// Takes memory for the stiffness and a factor of it, 720 bytes for each element, and at most a hundred
+    /// vectors; takes about as long as ten to a hundred Newton iterations.
     ///
     /// # Errors
-    /// Where an element is outside the domain of its material, a number is not finite, or memory does not suffice.
+    /// [`NewtonError::Inadmissible`] for an element outside the domain of its material,
+    /// [`NewtonError::NotFinite`], [`NewtonError::NotPositive`] if no shift makes the stiffness definite,
+    /// [`NewtonError::Linear`].
     pub fn of(simulation: &Simulation) -> Result<Self, NewtonError> {
         let (body, positions) = (simulation.body(), simulation.positions());
         let mut elastic = Elastic::new(body);
@@ -108,15 +118,15 @@ impl Equilibrium {
             regularisation: 0.0,
             guard: 0.0,
             gravity: simulation.settings().gravity,
-            pulls: simulation.pulls(),
+            springs: simulation.springs(),
         };
         let objective = Objective { body, elastic: &mut elastic, quadratic, viscosity: None };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 
         let pins = Pins::at(simulation.pinned().iter().copied());
-        let pattern = Pattern::new(positions.len(), body.elements(), &pins).map_err(NewtonError::Linear)?;
-        let rigid = rigid::motions(simulation, pattern.node_of_free());
+        let pattern = Pattern::new(positions.len(), body.elements(), &pins)?;
+        let rigid = rigid::motions(simulation, pattern.node_of_free())?;
         let spectrum = Spectrum::new(&quadratic, &stiffnesses, pattern, &rigid);
         let smallest_eigenvalue = spectrum.and_then(|spectrum| spectrum.smallest())?;
 
@@ -135,28 +145,28 @@ impl Equilibrium {
         })
     }
 
-    /// Whether no element bears stress beyond rounding.
+    /// Whether no element bears stress above rounding.
     #[must_use]
     pub fn is_stress_free(&self) -> bool {
         self.largest_force <= NO_STRESS * self.unit_force
     }
 
-    /// What it is, by the residual and the smallest eigenvalue.
+    /// Classifies it by the residual and the smallest eigenvalue.
     #[must_use]
-    pub fn verdict(&self) -> Verdict {
+    pub fn stability(&self) -> Stability {
         if self.residual > BALANCE * self.largest_force && !self.is_stress_free() {
-            return Verdict::Unbalanced;
+            return Stability::Unbalanced;
         }
         match self.smallest_eigenvalue {
-            Some(Eigenvalue { value, error }) if value < -error => Verdict::Saddle,
-            Some(Eigenvalue { value, error }) if value <= error => Verdict::Undecided,
-            _ => Verdict::Stable,
+            Some(Eigenvalue { value, error }) if value < -error => Stability::Saddle,
+            Some(Eigenvalue { value, error }) if value <= error => Stability::Undecided,
+            _ => Stability::Stable,
         }
     }
 }
 
 fn unit_force(body: &Body) -> f64 {
-    let largest = |volume: f64, element: &Element| volume.max(element.shape.volume);
+    let largest = |volume: f64, element: &Tetrahedron| volume.max(element.shape.volume);
     let forces = body.materials().map(|(material, elements)| {
         let volume = body.elements()[elements].iter().fold(0.0, largest);
         material.properties().rest_stiffness.abs() * volume.powf(2.0 / 3.0)
@@ -164,12 +174,12 @@ fn unit_force(body: &Body) -> f64 {
     forces.fold(0.0, f64::max)
 }
 
-/// The stiffness over the unknowns, and what is left out of it.
+/// The stiffness over the unknowns, and the rigid motions that are left out of it.
 struct Spectrum<'a> {
     pattern: Pattern,
     /// Entries of K.
     stiffness: Vec<f64>,
-    /// Of each unknown.
+    /// Mass of each unknown.
     masses: Vec<f64>,
     rigid: &'a [Vec<f64>],
 }
@@ -183,7 +193,7 @@ impl<'a> Spectrum<'a> {
     ) -> Result<Self, NewtonError> {
         let mut stiffness = vec![0.0; pattern.entries().row_idx().len()];
         stiffnesses.fill(&pattern, |_| 0.0, &mut stiffness);
-        quadratic.add_pulls(&pattern, &mut stiffness);
+        quadratic.add_springs(&pattern, &mut stiffness);
         if !stiffness.iter().all(|entry| entry.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
@@ -192,12 +202,12 @@ impl<'a> Spectrum<'a> {
     }
 
     fn smallest(&self) -> Result<Option<Eigenvalue>, NewtonError> {
-        let mut cholesky = Cholesky::new(self.pattern.entries()).map_err(NewtonError::Linear)?;
+        let mut cholesky = Cholesky::of_pattern(self.pattern.shared_entries())?;
         self.factor(&mut cholesky)?;
         let vector = largest(&self.masses, self.rigid, |x, product| {
             product.iter_mut().zip(x.iter().zip(&self.masses)).for_each(|(product, (x, m))| *product = m * x);
             cholesky.solve(product);
-        });
+        })?;
         Ok(vector.map(|vector| self.quotient(&vector)))
     }
 
@@ -208,7 +218,7 @@ impl<'a> Spectrum<'a> {
         let unknowns = 0..self.masses.len();
         let ratio = |i: usize| self.stiffness[diagonal(i)].abs() / self.masses[i];
         let scale = unknowns.clone().map(ratio).fold(0.0, f64::max);
-        // Whatever the shift is of a body without stiffness, it is positive.
+        // A body without stiffness needs some positive shift.
         let scale = if scale > 0.0 { scale } else { 1.0 };
         let mut shift = FIRST_SHIFT;
         loop {
@@ -216,7 +226,7 @@ impl<'a> Spectrum<'a> {
             for i in unknowns.clone() {
                 shifted[diagonal(i)] += shift * scale * self.masses[i];
             }
-            match cholesky.factor(SparseColMatRef::new(entries, &shifted)) {
+            match cholesky.factor(&shifted) {
                 Ok(()) => return Ok(()),
                 Err(LinearError::NotPositive { .. }) if shift < LAST_SHIFT => shift *= NEXT_SHIFT,
                 Err(LinearError::NotPositive { column }) => {
@@ -225,12 +235,13 @@ impl<'a> Spectrum<'a> {
                         shift,
                     });
                 }
-                Err(error) => return Err(NewtonError::Linear(error)),
+                Err(error) => return Err(error.into()),
             }
         }
     }
 
-    /// ω² = vᵀKv/vᵀMv, from which some eigenvalue differs by no more than the norm of M⁻¹Kv − ω²v, for v of norm 1.
+    /// Rayleigh quotient ω² = vᵀKv/vᵀMv, from which some eigenvalue differs by no more than the norm of M⁻¹Kv
+    /// − ω²v, for v of norm 1.
     fn quotient(&self, vector: &[f64]) -> Eigenvalue {
         let mut product = vec![0.0; vector.len()];
         let matrix = SparseColMatRef::new(self.pattern.entries(), &self.stiffness);

@@ -1,10 +1,11 @@
-//! Which filter each iteration of Newton's method takes.
+//! Choice of the filter in each iteration of Newton's method.
 //!
-//! Without a filter Newton's method converges fastest, but only near a minimum is its matrix positive definite. Clamped
-//! eigenvalues are safe everywhere, absolute ones safer where the energy curves downwards, and slower where it does not. So
-//! the choice may depend on how the iteration goes.
+//! Without a filter Newton's method converges fastest, but only near a minimum is its matrix positive
+//! definite. Clamped eigenvalues are safe everywhere, absolute ones safer where the energy curves downwards,
+//! and slower where it does not. So the choice may depend on how the iteration goes.
 //!
-//! \[CLLJZ24\] Chen, Liu, Levin, Jacobson, Zheng, *Trust-Region Eigenvalue Filtering for Projected Newton*, 2024.
+//! \[CLLJZ24\] Chen, Liu, Levin, Jacobson, Zheng, *Trust-Region Eigenvalue Filtering for Projected Newton*,
+//! 2024.
 
 use crate::point::Filter;
 use crate::system::Body;
@@ -12,27 +13,35 @@ use crate::system::factored::FactoredStiffness;
 
 use super::objective::{Objective, product};
 
-/// Which filter each iteration of Newton's method takes.
+/// Choice of the filter in each iteration of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
+#[non_exhaustive]
 pub enum Filtering {
-    /// Always the same.
+    /// One filter in all iterations.
     Always(Filter),
-    /// None where the matrix is positive definite without one, and clamped eigenvalues where it is not, which costs a
-    /// second linearisation and factorisation: half the iterations of clamping always, or fewer, where steps are solved to
-    /// their end (`cargo speed-report`).
+    /// No filter where the matrix is positive definite without one, and clamped eigenvalues where it is not,
+    /// which costs a second linearisation and factorisation: half the iterations of clamping always, or
+    /// fewer, where steps are solved to their end (`cargo speed-report`).
     OnDemand,
     /// Clamped eigenvalues where the quadratic model without a filter has predicted the step before to within
     /// `tolerance`, absolute ones elsewhere and in the first iteration \[CLLJZ24\].
     ///
-    /// The prediction costs one more evaluation of the stiffness in each iteration, and 240 bytes for each element.
+    /// The prediction costs one more evaluation of the stiffness in each iteration, and 240 bytes for each
+    /// element.
     TrustRegion {
-        /// How far the ratio of actual to predicted decrease may be from 1; 0.01 in the paper.
+        /// Largest distance of the ratio of actual to predicted decrease from 1; 0.01 in the paper.
         tolerance: f64,
     },
 }
 
 impl Filtering {
-    /// The filter to begin an iteration with; `ratio` is that of actual to predicted decrease in the one before.
+    /// The filter to begin an iteration with; `ratio` is that of actual to predicted decrease in the one
+    /// before.
     pub(super) fn choice(self, ratio: Option<f64>) -> Filter {
         match self {
             Self::Always(filter) => filter,
@@ -53,7 +62,7 @@ impl Filtering {
         })
     }
 
-    /// The rule that it breaks, if it breaks one.
+    /// The rule that these settings break, if any.
     pub(super) fn broken_rule(self) -> Option<&'static str> {
         match self {
             Self::TrustRegion { tolerance } if !(tolerance > 0.0 && tolerance.is_finite()) => {
@@ -65,6 +74,7 @@ impl Filtering {
 }
 
 /// The quadratic model of the objective along a direction, without a filter.
+#[derive(Clone)]
 pub(super) struct Model {
     stiffness: FactoredStiffness,
     slope: f64,

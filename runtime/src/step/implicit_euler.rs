@@ -1,4 +1,4 @@
-//! A body in time.
+//! Simulation of a body by implicit Euler steps.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,53 +6,70 @@ use std::ops::Range;
 use crate::batch::TileMaterial;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::linear::LinearError;
-use crate::system::{Body, Pins};
+use crate::system::{Body, LinearError, Pins};
 
 use super::damping::{Damping, Viscosity};
 use super::line_search::LineSearchSettings;
-use super::newton::{NewtonError, NewtonReport, NewtonSettings, Workspace, minimize};
-use super::objective::{Objective, Pull, Quadratic};
+use super::newton::{NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, minimize};
+use super::objective::{Objective, Quadratic, Spring};
 
-/// How a body is stepped.
+/// Settings of a [`Simulation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Settings {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[non_exhaustive]
+pub struct SimulationSettings {
     /// Gravity, m/s².
     pub gravity: [f64; 3],
-    /// What works against velocity.
+    /// Forces against velocity.
     pub damping: Damping,
-    /// How each step is minimised.
+    /// Settings of the minimisation in each step.
     pub newton: NewtonSettings,
-    /// How Newton steps are shortened.
+    /// Settings that shorten Newton steps.
     pub line_search: LineSearchSettings,
 }
 
-/// A body with its state, stepped by implicit Euler.
+crate::chained::chained!(SimulationSettings {
+    with_gravity(gravity: [f64; 3]),
+    with_damping(damping: Damping),
+    with_newton(newton: NewtonSettings),
+    with_line_search(line_search: LineSearchSettings),
+});
+
+/// Body with its state, stepped by implicit Euler. In f64.
 ///
 /// ```math
-/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − damping + M g − pulls
+/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − damping + M g − springs
 /// ```
 ///
-/// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear solver, but for the
-/// small lists of a report. The same input gives the same bits for any number of threads of the rayon pool in which `step` is
-/// called.
+/// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
+/// solver, except for the small lists of a report. The same input gives the same bits for any number of
+/// threads of the rayon pool in which `step` is called.
+///
+/// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
+/// takes as much memory again, but for the materials and the symbolic factorisation, which are shared; to
+/// undo steps later it is enough to keep positions and velocities.
+#[derive(Clone)]
 pub struct Simulation {
     body: Body,
-    settings: Settings,
-    pulls: Vec<Pull>,
+    settings: SimulationSettings,
+    springs: Vec<Spring>,
     positions: Vec<[f64; 3]>,
     velocities: Vec<[f64; 3]>,
-    /// Where the pinned nodes, and only they, are to be after the next step.
+    /// Positions of the pinned nodes, and only of them, after the next step.
     targets: Vec<[f64; 3]>,
     pins: Pins,
     elastic: Elastic,
-    workspace: Workspace,
+    workspace: NewtonWorkspace,
     viscosity: Option<Viscosity>,
-    /// What a unit of regularisation adds for each mass in statics, 1/s².
+    /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     next: Vec<[f64; 3]>,
     pins_move: Vec<[f64; 3]>,
-    /// What the elastic energies at `positions` say, if they are what was evaluated last.
+    /// Survey of the elastic energies at `positions`, if these were evaluated last.
     evaluated: Option<Evaluated>,
 }
 
@@ -67,20 +84,21 @@ impl fmt::Debug for Simulation {
 }
 
 impl Simulation {
-    /// A body at rest in its rest shape. Does the symbolic part of all linear algebra to come.
+    /// A simulation that starts at rest in the rest shape. Does the symbolic part of all linear algebra to
+    /// come.
     ///
     /// # Errors
-    /// Where a pin or a setting makes no sense, or memory does not suffice.
-    pub fn new(body: Body, pins: &Pins, settings: Settings) -> Result<Self, SetupError> {
+    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
+    pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
         let nodes = body.rest().len();
         if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         check_settings(&settings)?;
-        let workspace = Workspace::new(&body, pins, &settings.newton).map_err(SetupError::Linear)?;
+        let workspace = NewtonWorkspace::new(&body, pins, &settings.newton)?;
         Ok(Self {
             settings,
-            pulls: Vec::new(),
+            springs: Vec::new(),
             positions: body.rest().to_vec(),
             velocities: vec![[0.0; 3]; nodes],
             targets: body.rest().to_vec(),
@@ -96,7 +114,7 @@ impl Simulation {
         })
     }
 
-    /// The body.
+    /// Body at rest.
     #[must_use]
     pub fn body(&self) -> &Body {
         &self.body
@@ -114,16 +132,17 @@ impl Simulation {
         &self.velocities
     }
 
-    /// The pinned nodes, ascending.
+    /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
         self.pins.nodes()
     }
 
-    /// Puts each node somewhere, m, however deformed or collapsed the body then is. Pins hold their nodes there.
+    /// Sets the position of each node, m, however deformed or collapsed the body then is. Pins hold their
+    /// nodes there.
     ///
     /// # Errors
-    /// Where there is not one finite position for each node.
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(positions)?;
         self.positions.copy_from_slice(positions);
@@ -132,20 +151,20 @@ impl Simulation {
         Ok(())
     }
 
-    /// Gives each node a velocity, m/s. That of a pinned node lasts until the next step.
+    /// Sets the velocity of each node, m/s; of a pinned node it lasts until the next step.
     ///
     /// # Errors
-    /// Where there is not one finite velocity for each node.
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
         self.velocities.copy_from_slice(velocities);
         Ok(())
     }
 
-    /// Says where a pinned node is to be, m, after the next step and from then on.
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
     ///
     /// # Errors
-    /// Where the node is not pinned or the position not finite.
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
     pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         if self.pinned().binary_search(&node).is_err() {
             return Err(SetupError::NotPinned { node });
@@ -157,40 +176,41 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces all pulls.
+    /// Replaces all springs.
     ///
     /// # Errors
-    /// Where the nodes of a pull do not belong to one element, its stiffness is negative, or a number is not finite. The
-    /// pulls before are then still there.
-    pub fn set_pulls(&mut self, pulls: &[Pull]) -> Result<(), SetupError> {
-        pulls.iter().enumerate().try_for_each(|(index, pull)| self.check_pull(index, pull))?;
-        self.pulls.clear();
-        self.pulls.extend_from_slice(pulls);
+    /// [`SetupError::SpringAcrossElements`] if the nodes of a spring do not belong to one element,
+    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
+        self.springs.clear();
+        self.springs.extend_from_slice(springs);
         Ok(())
     }
 
-    /// The pulls.
+    /// Springs that pull at the body.
     #[must_use]
-    pub fn pulls(&self) -> &[Pull] {
-        &self.pulls
+    pub fn springs(&self) -> &[Spring] {
+        &self.springs
     }
 
-    /// The settings.
+    /// Current settings.
     #[must_use]
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &SimulationSettings {
         &self.settings
     }
 
-    /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set up as by
-    /// [`Simulation::new`].
+    /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set
+    /// up as by [`Simulation::new`].
     ///
     /// # Errors
-    /// Where one makes no sense, or memory does not suffice. The settings before are then still there.
-    pub fn set_settings(&mut self, settings: Settings) -> Result<(), SetupError> {
+    /// [`SetupError::Setting`], [`SetupError::Linear`]. The settings then stay as they were.
+    pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
         if (new.linear, new.filtering) != (old.linear, old.filtering) {
-            self.workspace = Workspace::new(&self.body, &self.pins, new).map_err(SetupError::Linear)?;
+            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, new)?;
         }
         if settings.damping != self.settings.damping {
             self.viscosity = settings.damping.viscosity(&self.body);
@@ -202,7 +222,8 @@ impl Simulation {
     /// Advances by `dt`, s.
     ///
     /// # Errors
-    /// Where there is no admissible next state. The state before the step is then untouched, and a shorter step may do.
+    /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a
+    /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(StepError::TimeStep { dt });
@@ -210,14 +231,15 @@ impl Simulation {
         self.advance(dt)
     }
 
-    /// Moves the body towards a minimum of its energy in the field of gravity and pulls, without inertia and damping, as far as
-    /// the settings of Newton's method say. Then it is at rest: its velocities are zero.
+    /// Moves the body towards a minimum of its energy with gravity and springs, without inertia and damping,
+    /// as far as the settings of Newton's method allow. Then it is at rest: its velocities are zero.
     ///
-    /// Where the second derivatives are not positive definite, small parts of the stiffness are added to them; so they are,
-    /// one ten-thousandth of one, for a body with fewer than three pinned nodes, which may move as a whole at no cost.
+    /// Where the second derivatives are not positive definite, small parts of the stiffness are added to
+    /// them; for a body with fewer than three pinned nodes, which may move as a whole at no cost, one
+    /// ten-thousandth of such a part always.
     ///
     /// # Errors
-    /// Where there is no admissible next state. The state before is then untouched.
+    /// [`StepError::Newton`] if there is no admissible next state. The state before is then untouched.
     pub fn equilibrate(&mut self) -> Result<StepReport, StepError> {
         self.advance(f64::INFINITY)
     }
@@ -255,7 +277,7 @@ impl Simulation {
                 regularisation,
                 guard: if may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
-                pulls: &self.pulls,
+                springs: &self.springs,
             },
             viscosity,
         };
@@ -267,8 +289,7 @@ impl Simulation {
             survey,
             &self.settings.newton,
             &self.settings.line_search,
-        )
-        .map_err(StepError::Newton)?;
+        )?;
 
         for (velocity, (next, position)) in
             self.velocities.iter_mut().zip(self.next.iter().zip(&self.positions))
@@ -282,7 +303,7 @@ impl Simulation {
         Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
     }
 
-    /// Energies of the current state; NaN for the elastic one where an element is outside its domain.
+    /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
     #[must_use]
     pub fn energies(&mut self) -> Energies {
         let survey =
@@ -299,7 +320,7 @@ impl Simulation {
                     mass * self.settings.gravity[c] * (self.positions[node][c] - self.body.rest()[node][c]);
             }
         }
-        energies.pulls = self.pulls.iter().map(|pull| pull.energy(&self.positions)).sum();
+        energies.springs = self.springs.iter().map(|spring| spring.energy(&self.positions)).sum();
         energies
     }
 
@@ -313,31 +334,31 @@ impl Simulation {
         }
     }
 
-    fn check_pull(&self, index: usize, pull: &Pull) -> Result<(), SetupError> {
+    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
         let nodes = self.positions.len();
-        if let Some(&node) = pull.anchor.nodes.iter().find(|&&node| node >= nodes) {
+        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
-        let numbers = pull.anchor.weights.iter().chain(&pull.target).chain([&pull.stiffness]);
-        if pull.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError::Pull { index });
+        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
+        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+            return Err(SetupError::Spring { index });
         }
         let is_free = |node: &usize| self.pinned().binary_search(node).is_err();
-        let free = pull.weights().map(|(node, _)| node).filter(is_free);
+        let free = spring.weights().map(|(node, _)| node).filter(is_free);
         for a in free.clone() {
             if free.clone().any(|b| !self.workspace.solver.joins(a, b)) {
-                return Err(SetupError::PullAcrossElements { index });
+                return Err(SetupError::SpringAcrossElements { index });
             }
         }
         Ok(())
     }
 }
 
-/// How many units of regularisation a body gets in statics that may move as a whole.
+/// Number of units of regularisation, in statics, for a body that may move as a whole.
 const DRIFT: f64 = 1e-4;
 
-/// What to add for each unit of mass, 1/s², so that it is small beside the stiffness of elements: a ten-thousandth of their
-/// stiffness over the mass of the body.
+/// Diagonal for each unit of mass, 1/s², that is small beside the stiffness of elements: a ten-thousandth of
+/// their stiffness over the mass of the body.
 fn static_regularisation(body: &Body) -> f64 {
     let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());
@@ -346,8 +367,8 @@ fn static_regularisation(body: &Body) -> f64 {
     1e-4 * body.materials().map(stiffness).sum::<f64>() / body.masses().iter().sum::<f64>()
 }
 
-fn check_settings(settings: &Settings) -> Result<(), SetupError> {
-    let Settings { gravity, damping, newton, line_search } = settings;
+fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
+    let SimulationSettings { gravity, damping, newton, line_search } = settings;
     let between = |x: f64, low: f64, high: f64| low < x && x < high;
     let checks = [
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
@@ -368,10 +389,12 @@ fn check_settings(settings: &Settings) -> Result<(), SetupError> {
     }
 }
 
-/// What a step did.
+/// Report of a step.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct StepReport {
-    /// What Newton's method did.
+    /// Report of Newton's method.
     pub newton: NewtonReport,
     /// Smallest det F of an element after the step.
     pub min_det: f64,
@@ -381,34 +404,36 @@ pub struct StepReport {
 
 /// Energies of a body, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Energies {
-    /// Of deformation.
+    /// Energy of deformation.
     pub elastic: f64,
-    /// Of motion.
+    /// Energy of motion.
     pub kinetic: f64,
-    /// In the field of gravity, 0 at rest.
+    /// Energy in the field of gravity, 0 in the rest shape.
     pub gravity: f64,
-    /// Of the pulls.
-    pub pulls: f64,
+    /// Energy of the springs.
+    pub springs: f64,
 }
 
 impl Energies {
-    /// The sum.
+    /// Sum of all energies, J.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.elastic + self.kinetic + self.gravity + self.pulls
+        self.elastic + self.kinetic + self.gravity + self.springs
     }
 }
 
-/// Why a body cannot be simulated this way.
+/// Reason why a simulation cannot be set up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// A pin or pull names a node that does not exist.
+    /// A pin or spring names a node that does not exist.
     NoSuchNode {
         /// The node, from 0.
         node: usize,
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
     },
     /// A motion is prescribed for a node that is not pinned.
@@ -416,29 +441,29 @@ pub enum SetupError {
         /// The node, from 0.
         node: usize,
     },
-    /// Not one entry for each node.
+    /// There is not one entry for each node.
     Length {
-        /// How many nodes there are.
+        /// Number of nodes.
         expected: usize,
-        /// How many entries were given.
+        /// Number of entries given.
         found: usize,
     },
     /// A position or velocity is infinite or NaN.
     NotFinite {
-        /// Of this node, from 0.
+        /// The node, from 0.
         node: usize,
     },
-    /// A pull has a negative stiffness or a number that is not finite.
-    Pull {
-        /// Which pull, from 0.
+    /// A spring has a negative or infinite stiffness, or an entry that is not finite.
+    Spring {
+        /// Index of the spring.
         index: usize,
     },
-    /// The nodes of a pull do not belong to one element.
-    PullAcrossElements {
-        /// Which pull, from 0.
+    /// The nodes of a spring do not belong to one element.
+    SpringAcrossElements {
+        /// Index of the spring.
         index: usize,
     },
-    /// A setting makes no sense.
+    /// A setting is out of range.
     Setting {
         /// The rule that it breaks.
         rule: &'static str,
@@ -458,11 +483,11 @@ impl fmt::Display for SetupError {
                 write!(f, "expected one entry for each of {expected} nodes, found {found}")
             }
             Self::NotFinite { node } => write!(f, "the entry of node {node} (from 0) is not finite"),
-            Self::Pull { index } => {
-                write!(f, "pull {index} (from 0) has a negative stiffness or a number that is not finite")
+            Self::Spring { index } => {
+                write!(f, "spring {index} (from 0) has a negative stiffness or an entry that is not finite")
             }
-            Self::PullAcrossElements { index } => {
-                write!(f, "the nodes of pull {index} (from 0) do not belong to one element")
+            Self::SpringAcrossElements { index } => {
+                write!(f, "the nodes of spring {index} (from 0) do not belong to one element")
             }
             Self::Setting { rule } => write!(f, "{rule}"),
             Self::Linear(error) => error.fmt(f),
@@ -470,18 +495,18 @@ impl fmt::Display for SetupError {
     }
 }
 
-impl std::error::Error for SetupError {}
+crate::chained::wraps!(SetupError { Linear(LinearError) });
 
-/// Why there is no next state. The state before the step is untouched.
+/// Reason why a step failed. The state before the step is untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// The time step is not a positive number.
     TimeStep {
-        /// As given, s.
+        /// The time step, s.
         dt: f64,
     },
-    /// The minimisation fails.
+    /// The minimisation failed.
     Newton(NewtonError),
 }
 
@@ -494,7 +519,7 @@ impl fmt::Display for StepError {
     }
 }
 
-impl std::error::Error for StepError {}
+crate::chained::wraps!(StepError { Newton(NewtonError) });
 
 #[cfg(test)]
 mod tests;

@@ -1,22 +1,29 @@
-//! Backtracking: how much of a step to take.
+//! Line search by backtracking.
 //!
-//! A trial is accepted where it decreases the objective enough \[Arm66\]. Near a minimum the decrease drowns in rounding;
-//! there the slope decides instead, which is still accurate: the "approximate Wolfe" condition [HZ05 eq. 4.1]. A trial
-//! outside the domain of the objective is a step too long.
+//! A trial is accepted where it decreases the objective enough \[Arm66\]. Near a minimum the decrease drowns
+//! in rounding; there the slope decides instead, which is still accurate: the "approximate Wolfe" condition
+//! [HZ05 eq. 4.1]. A trial outside the domain of the objective is a step too long.
 //!
 //! \[Arm66\] Armijo, *Minimization of functions having Lipschitz continuous first partial derivatives*, 1966.
-//! \[HZ05\] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line Search*, 2005.
+//! \[HZ05\] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line
+//! Search*, 2005.
 //!
 //! This module knows a function of one variable and nothing else.
 
-/// When to accept and how to shorten.
+/// Settings of the line search: when to accept a step and how to shorten it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[non_exhaustive]
 pub struct LineSearchSettings {
-    /// δ: which part of the decrease that the slope predicts is enough, 0 < δ < ½.
+    /// Share δ of the decrease predicted by the slope that is enough, 0 < δ < ½.
     pub sufficient_decrease: f64,
-    /// The factor from one trial to the next, between 0 and 1.
+    /// Factor from the length of one trial to the next, between 0 and 1.
     pub shrink: f64,
-    /// After how many trials to give up.
+    /// Number of trials after which to give up.
     pub max_trials: usize,
 }
 
@@ -26,9 +33,16 @@ impl Default for LineSearchSettings {
     }
 }
 
-/// An objective along a line, seen from the start of it.
-pub trait Line {
-    /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside the domain.
+crate::chained::chained!(LineSearchSettings {
+    with_sufficient_decrease(sufficient_decrease: f64),
+    with_shrink(shrink: f64),
+    with_max_trials(max_trials: usize),
+});
+
+/// An objective along a line, relative to its start.
+pub(crate) trait Line {
+    /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
+    /// the domain.
     fn change(&mut self, step: f64) -> Option<Change>;
 
     /// The derivative at the step tried last.
@@ -37,25 +51,25 @@ pub trait Line {
 
 /// A difference of objectives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Change {
+pub(crate) struct Change {
     /// Objective at the step minus that at the start.
-    pub difference: f64,
-    /// How much of it may be rounding error.
-    pub noise: f64,
+    pub(super) difference: f64,
+    /// Bound for its rounding error.
+    pub(super) noise: f64,
 }
 
-/// How a line search ended.
+/// Result of a line search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub(super) enum Outcome {
     /// The step tried last was accepted.
     Accepted {
         /// The step, 0 < step ≤ 1.
         step: f64,
         /// The objective there minus that at the start.
         difference: f64,
-        /// How many steps were tried, this one included.
+        /// Number of steps tried, this one included.
         trials: usize,
-        /// How many of them were outside the domain.
+        /// Number of trials outside the domain.
         refused: usize,
         /// Whether the change of the objective was noise, so that the slope decided.
         by_slope: bool,
@@ -64,13 +78,13 @@ pub enum Outcome {
     Failed {
         /// The smallest step tried.
         step: f64,
-        /// How many of the trials were outside the domain.
+        /// Number of trials outside the domain.
         refused: usize,
     },
 }
 
 /// Tries the steps 1, shrink, shrink², … until one is acceptable; `slope` < 0 is the derivative at the start.
-pub fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings) -> Outcome {
+pub(super) fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings) -> Outcome {
     let delta = settings.sufficient_decrease;
     let (mut step, mut refused) = (1.0, 0);
     for trials in 1..=settings.max_trials {
@@ -79,7 +93,8 @@ pub fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings
             Some(Change { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
                 let noisy = difference.abs() <= noise;
-                // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without differences.
+                // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without
+                // differences.
                 if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
                     return Outcome::Accepted { step, difference, trials, refused, by_slope: noisy };
                 }

@@ -7,36 +7,41 @@ use std::fmt;
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::linear::LinearError;
-use crate::system::{Body, Pins};
+use crate::system::{Body, LinearError, Pins};
 
 use super::filtering::{Filtering, Model};
 use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
 use super::objective::{Objective, product};
-use super::solver::{Demand, LinearSolver, Solver};
+use super::solver::{Definiteness, LinearSolver, SolveError, Solver};
 
-/// How to minimise.
+/// Settings of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[non_exhaustive]
 pub struct NewtonSettings {
-    /// What happens to negative eigenvalues of dP/dF.
+    /// Treatment of negative eigenvalues of dP/dF.
     pub filtering: Filtering,
-    /// Where the iteration starts.
-    pub start: Guess,
-    /// After how many iterations to stop; 1 is the mode of the paper.
+    /// Positions from which the iteration starts.
+    pub start: InitialGuess,
+    /// Number of iterations after which to stop; 1 is the mode of the paper.
     pub max_iterations: usize,
-    /// Where the gradient has fallen to this part of its first norm, the minimum is found.
+    /// Share of the first gradient's norm at which the minimum counts as found.
     pub tolerance: f64,
-    /// How linear systems are solved.
+    /// Solver of the linear systems.
     pub linear: LinearSolver,
 }
 
 impl Default for NewtonSettings {
-    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped where the matrix demands it and a
-    /// linear solver that fits the body.
+    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped where the matrix
+    /// demands it and a linear solver chosen by the size of the body.
     fn default() -> Self {
         Self {
             filtering: Filtering::OnDemand,
-            start: Guess::Position,
+            start: InitialGuess::Position,
             max_iterations: 50,
             tolerance: 1e-6,
             linear: LinearSolver::Automatic,
@@ -45,68 +50,86 @@ impl Default for NewtonSettings {
 }
 
 impl NewtonSettings {
-    /// One iteration per step, as in the paper, with clamped eigenvalues: the gradient after it is not even looked at.
+    /// One iteration per step, as in the paper, with clamped eigenvalues: the gradient after it is not
+    /// evaluated.
     #[must_use]
     pub fn single() -> Self {
         Self { filtering: Filtering::Always(Filter::Clamp), max_iterations: 1, ..Self::default() }
     }
 }
 
-/// Where an iteration starts.
+crate::chained::chained!(NewtonSettings {
+    with_filtering(filtering: Filtering),
+    with_start(start: InitialGuess),
+    with_max_iterations(max_iterations: usize),
+    with_tolerance(tolerance: f64),
+    with_linear(linear: LinearSolver),
+});
+
+/// Positions from which an iteration starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Guess {
-    /// Where the body is.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum InitialGuess {
+    /// The current positions.
     #[default]
     Position,
-    /// Where its velocities would take it, if that is admissible and no worse. The first residual, to which the
-    /// tolerance is relative, is then the one there. Where pins move, and in statics, the same as `Position`.
+    /// The positions to which the velocities would take the body, if they are admissible and no worse. The
+    /// first residual, to which the tolerance is relative, is then taken there. Equal to `Position` in
+    /// statics and where pins move.
     Velocity,
 }
 
-/// Why the iteration ended.
+/// Reason why Newton's method stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
     /// The gradient fell below the tolerance.
     Tolerance,
-    /// What is left to gain is below the rounding error of the objective.
+    /// All further gain is below the rounding error of the objective.
     Rounding,
-    /// The limit of iterations is reached: the rule in the mode of one iteration.
+    /// The limit of iterations is reached, as always in the mode of one iteration.
     Limit,
 }
 
-/// What the iteration did.
+/// Report of a minimisation.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct NewtonReport {
-    /// Why it ended.
+    /// Reason why it stopped.
     pub convergence: Convergence,
-    /// How many directions were found.
+    /// Number of directions that were found.
     pub iterations: usize,
-    /// Norm of the gradient over the free nodes before the first iteration, N. Where pins move, right after they have.
+    /// Norm of the gradient over the free nodes before the first iteration, N. Where pins move, right after
+    /// they have.
     pub first_residual: f64,
-    /// The same where it was evaluated last, N: in the mode of one iteration equal to the first.
+    /// Norm of the gradient evaluated last, N: in the mode of one iteration equal to the first.
     pub residual: f64,
-    /// By how much the objective changed behind the motion of the pins, J: never more than the rounding error of its differences.
+    /// Change of the objective after the motion of the pins, J: never above the rounding error of its
+    /// differences.
     pub change: f64,
     /// Length of each step, 1 for a whole one.
     pub step_lengths: Vec<f64>,
-    /// Trials of line searches that left the domain of a material.
+    /// Number of line-search trials that left the domain of a material.
     pub refused_trials: usize,
     /// Largest number of elements in an iteration whose tangent the filter changed.
     pub filtered: usize,
     /// Largest number of elements in an iteration whose tangent is at a pole.
     pub bounded: usize,
-    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that had to be added for a positive
-    /// definite matrix; 0 as a rule.
+    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that had to be added for
+    /// a positive definite matrix; 0 as a rule.
     pub shift: f64,
-    /// How many iterations the linear solver took, over all systems: 0 for [`LinearSolver::Cholesky`].
+    /// Number of iterations of the linear solver, over all systems: 0 for [`LinearSolver::Cholesky`].
     pub linear_iterations: usize,
-    /// How many linear systems were given up before their tolerance, for negative curvature or at the limit of iterations.
-    /// Their directions are as good as any for a line search, but do not make for fast convergence.
+    /// Number of linear systems that were given up before their tolerance, for negative curvature or at the
+    /// limit of iterations. Their directions descend, but do not make for fast convergence.
     pub truncated: usize,
 }
 
-/// Memory of the iteration.
-pub(crate) struct Workspace {
+/// Memory of Newton's method.
+#[derive(Clone)]
+pub(crate) struct NewtonWorkspace {
     pub(crate) solver: Box<dyn Solver>,
     pub(super) model: Option<Model>,
     gradient: Vec<[f64; 3]>,
@@ -114,8 +137,8 @@ pub(crate) struct Workspace {
     trial: Vec<[f64; 3]>,
 }
 
-impl Workspace {
-    /// For the nodes of a body, of which pins hold some.
+impl NewtonWorkspace {
+    /// Allocates the memory for a body with these pins.
     pub(crate) fn new(body: &Body, pins: &Pins, settings: &NewtonSettings) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         Ok(Self {
@@ -136,10 +159,11 @@ impl Workspace {
 
 /// Moves `x` towards a minimum, the pinned nodes by `pins_move` (zero elsewhere) where it is given.
 ///
-/// Energies must have been evaluated at `x`, and on success they have been again, with the survey that is returned.
+/// Energies must have been evaluated at `x`, and on success they have been again, with the survey that is
+/// returned.
 pub(crate) fn minimize(
     objective: &mut Objective<'_>,
-    workspace: &mut Workspace,
+    workspace: &mut NewtonWorkspace,
     x: &mut [[f64; 3]],
     pins_move: Option<&[[f64; 3]]>,
     survey: Evaluated,
@@ -154,17 +178,17 @@ pub(crate) fn minimize(
 /// A minimisation under way.
 struct Iteration<'a, 'b> {
     objective: &'a mut Objective<'b>,
-    workspace: &'a mut Workspace,
+    workspace: &'a mut NewtonWorkspace,
     settings: &'a NewtonSettings,
     line_search: &'a LineSearchSettings,
-    /// Of the energies evaluated last.
+    /// Survey of the energies evaluated last.
     survey: Evaluated,
     report: NewtonReport,
-    /// Of actual to predicted decrease in the step before, where a prediction was made.
+    /// Ratio of actual to predicted decrease in the step before, where a prediction was made.
     ratio: Option<f64>,
 }
 
-/// What a line search has brought.
+/// Outcome of a line search.
 #[derive(PartialEq, Eq)]
 enum Progress {
     Decrease,
@@ -180,13 +204,14 @@ impl Iteration<'_, '_> {
         x: &mut [[f64; 3]],
         mut pins_move: Option<&[[f64; 3]]>,
     ) -> Result<(NewtonReport, Evaluated), NewtonError> {
-        if pins_move.is_none() && self.settings.start == Guess::Velocity {
+        if pins_move.is_none() && self.settings.start == InitialGuess::Velocity {
             self.follow_velocities(x);
         }
-        // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the gradient.
+        // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
+        // gradient.
         let mut idle = 0;
         let mut progress = Progress::Decrease;
-        // What the second system and later ones are to be solved to.
+        // Tolerance of the second linear system and later ones.
         let mut forcing = 1.0;
         while self.report.iterations < self.settings.max_iterations {
             // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
@@ -210,7 +235,8 @@ impl Iteration<'_, '_> {
             if let Some(d) = pins_move.take()
                 && !self.move_pins(x, d)?
             {
-                // The tangent before the move says nothing about the state behind it; the next iteration takes its own.
+                // The tangent before the move says nothing about the state behind it; the next iteration
+                // takes its own.
                 self.report.step_lengths.push(0.0);
                 continue;
             }
@@ -225,7 +251,7 @@ impl Iteration<'_, '_> {
 
     /// Moves `x` on by the velocities where that is admissible and does not increase the objective.
     fn follow_velocities(&mut self, x: &mut [[f64; 3]]) {
-        let Workspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
+        let NewtonWorkspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
         direction.fill([0.0; 3]);
         for &node in solver.free_nodes() {
             direction[node] = self.objective.quadratic.free_motion(node);
@@ -241,14 +267,15 @@ impl Iteration<'_, '_> {
         }
     }
 
-    /// Evaluates the gradient and says whether it is small enough.
+    /// Evaluates the gradient; true where it is small enough.
     fn note_gradient(&mut self, x: &[[f64; 3]]) -> Result<bool, NewtonError> {
         self.objective.elastic.evaluate_gradients(self.objective.body);
         self.objective.gradient(x, &mut self.workspace.gradient);
         self.report.note_residual(self.workspace.free_norm(), self.settings)
     }
 
-    /// A relative tolerance for the next system [EW96, choice 2], no tighter than the last one of all needs to be.
+    /// A relative tolerance for the next system [EW96, choice 2], no tighter than the last one of all needs
+    /// to be.
     fn forcing(&self, before: f64) -> f64 {
         let NewtonReport { residual, first_residual, .. } = self.report;
         let enough = 0.5 * self.settings.tolerance * first_residual / residual;
@@ -257,8 +284,9 @@ impl Iteration<'_, '_> {
 
     /// Linearises and solves for a direction; false where the gradient is small enough already.
     ///
-    /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is that of the
-    /// state before they move, when elements next to them are not yet distorted; the line search starts behind the move.
+    /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
+    /// that of the state before they move, when elements next to them are not yet distorted; the line search
+    /// starts behind the move.
     fn find_direction(
         &mut self,
         x: &[[f64; 3]],
@@ -273,10 +301,11 @@ impl Iteration<'_, '_> {
         {
             return Ok(false);
         }
-        let demand = Demand { tolerance, definite: filtering == Filtering::OnDemand };
-        if !self.solve(demand)? {
+        let on_demand = filtering == Filtering::OnDemand;
+        let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
+        if !self.solve(tolerance, definiteness)? {
             self.linearise(Filter::Clamp, x, pins_move)?;
-            self.solve(Demand { definite: false, ..demand })?;
+            self.solve(tolerance, Definiteness::Optional)?;
         }
         self.report.iterations += 1;
         Ok(true)
@@ -293,7 +322,7 @@ impl Iteration<'_, '_> {
         demand_admissible(&tangents, self.objective.body, self.objective.elastic)?;
         self.report.filtered = self.report.filtered.max(tangents.survey.filtered);
         self.report.bounded = self.report.bounded.max(tangents.survey.bounded);
-        let Workspace { solver, gradient, .. } = &mut *self.workspace;
+        let NewtonWorkspace { solver, gradient, .. } = &mut *self.workspace;
         self.objective.gradient(x, gradient);
         if let Some(d) = pins_move {
             solver.add_product(self.objective, d, gradient);
@@ -301,12 +330,11 @@ impl Iteration<'_, '_> {
         Ok(())
     }
 
-    /// Solves for the direction; false where the matrix is indefinite and must not be.
-    fn solve(&mut self, demand: Demand) -> Result<bool, NewtonError> {
-        let Workspace { solver, gradient, direction, .. } = &mut *self.workspace;
-        let Some(solution) = solver.solve(self.objective, gradient, direction, demand)? else {
-            return Ok(false);
-        };
+    /// Solves for the direction; false if the matrix is indefinite and definiteness is required.
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, NewtonError> {
+        let NewtonWorkspace { solver, gradient, direction, .. } = &mut *self.workspace;
+        let solution = solver.solve(self.objective, gradient, direction, tolerance, definiteness)?;
+        let Some(solution) = solution else { return Ok(false) };
         self.report.shift = self.report.shift.max(solution.shift);
         self.report.linear_iterations += solution.iterations;
         self.report.truncated += usize::from(solution.truncated);
@@ -329,7 +357,7 @@ impl Iteration<'_, '_> {
 
     /// Moves `x` along the direction as far as it is good.
     fn search(&mut self, x: &mut [[f64; 3]]) -> Result<Progress, NewtonError> {
-        let Workspace { model, direction, trial, gradient, .. } = &mut *self.workspace;
+        let NewtonWorkspace { model, direction, trial, gradient, .. } = &mut *self.workspace;
         let slope = product(gradient, direction);
         if !slope.is_finite() {
             return Err(NewtonError::NotFinite);
@@ -363,7 +391,7 @@ impl Iteration<'_, '_> {
 }
 
 impl NewtonReport {
-    /// Of no iteration.
+    /// The report before the first iteration.
     fn before(settings: &NewtonSettings) -> Self {
         Self {
             convergence: Convergence::Limit,
@@ -381,7 +409,7 @@ impl NewtonReport {
         }
     }
 
-    /// Keeps the norm of a gradient and says whether it is small enough.
+    /// Keeps the norm of a gradient; true where it is small enough.
     fn note_residual(&mut self, residual: f64, settings: &NewtonSettings) -> Result<bool, NewtonError> {
         if !residual.is_finite() {
             return Err(NewtonError::NotFinite);
@@ -398,7 +426,7 @@ impl NewtonReport {
     }
 }
 
-/// That all elements are admissible where the energies were evaluated last.
+/// Checks that all elements are admissible where the energies were evaluated last.
 pub(super) fn demand_admissible(
     survey: &Evaluated,
     body: &Body,
@@ -411,32 +439,32 @@ pub(super) fn demand_admissible(
     Err(NewtonError::Inadmissible { element, stretches })
 }
 
-/// The element that has no meaningful energy, if there is one.
+/// Tag of the first element without a meaningful energy, if any.
 fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
     evaluated.survey.first.map(|element| body.elements()[element].tag)
 }
 
-/// Why there is no better state.
+/// Reason why Newton's method failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NewtonError {
-    /// An element is outside the domain of its material, or not finite, from the start.
+    /// An element is outside the domain of its material, or not finite, at the start.
     Inadmissible {
-        /// Its tag.
+        /// Tag of the element.
         element: usize,
-        /// Its principal stretches; NaN where they are not known.
+        /// Its principal stretches; NaN if unknown.
         stretches: [f64; 3],
     },
     /// The motion of the pins alone takes an element out of the domain of its material.
     PinsMoveTooFar {
-        /// Its tag.
+        /// Tag of the element.
         element: usize,
     },
-    /// The matrix is not positive definite whatever is added.
+    /// The matrix is not positive definite with any multiple of inertia added.
     NotPositive {
         /// The node in whose unknowns a pivot fails.
         node: usize,
-        /// The multiple of inertia added last.
+        /// The largest multiple of inertia that was tried.
         shift: f64,
     },
     /// A gradient, a direction or a slope is infinite or NaN.
@@ -445,12 +473,12 @@ pub enum NewtonError {
     LineSearch {
         /// The smallest step tried.
         step: f64,
-        /// How many trials left the domain of a material.
+        /// Number of trials that left the domain of a material.
         refused: usize,
         /// Norm of the gradient, N.
         residual: f64,
     },
-    /// The linear solver fails for another reason.
+    /// The linear solver failed for another reason.
     Linear(LinearError),
 }
 
@@ -469,12 +497,12 @@ impl fmt::Display for NewtonError {
             Self::NotPositive { node, shift } => write!(
                 f,
                 "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added; \
-                 where elements are so flat that the energy's derivatives differ by more than the digits of a number, extend it \
-                 from a greater `epsilon`, or begin less flat"
+                 where elements are so flat that the energy's derivatives differ by more orders of magnitude than f64 has \
+                 digits, extend it from a greater `epsilon`, or begin less flat"
             ),
             Self::NotFinite => write!(
                 f,
-                "a force or the Newton direction is not finite; the motion leaves the range of the numbers"
+                "a force or the Newton direction is not finite; the motion exceeds the range of f64"
             ),
             Self::LineSearch { step, refused, residual } => write!(
                 f,
@@ -486,4 +514,14 @@ impl fmt::Display for NewtonError {
     }
 }
 
-impl std::error::Error for NewtonError {}
+crate::chained::wraps!(NewtonError { Linear(LinearError) });
+
+impl From<SolveError> for NewtonError {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::NotPositive { node, shift } => Self::NotPositive { node, shift },
+            SolveError::NotFinite => Self::NotFinite,
+            SolveError::Linear(error) => Self::Linear(error),
+        }
+    }
+}

@@ -1,20 +1,20 @@
-//! What a step of implicit Euler minimises.
+//! The function that a step of implicit Euler minimises.
 //!
-//! With M the lumped masses, h the time step, xₙ, vₙ the state before the step, and D the quadratic form of its
-//! [damping](super::damping), α M or β K:
+//! With M the lumped masses, h the time step, xₙ, vₙ the state before the step, and D the quadratic form of
+//! its [damping](super::damping), α M or β K:
 //!
 //! ```text
 //! E(x) = ½‖x − xₙ − h vₙ‖²_M / h² + 1/(2h) ‖x − xₙ‖²_D + Ψ(x) − Σ m g·x + Σ ½ k ‖p(x) − t‖²
 //! ```
 //!
-//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − D v + M g − (pulls) with v = (x − xₙ)/h: implicit Euler,
-//! damping included. All but Ψ is quadratic, so that along a line it needs one slope and one curvature and no
-//! subtraction of close energies. Positions enter as displacements from xₙ.
+//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − D v + M g − (springs) with v = (x − xₙ)/h: implicit
+//! Euler, damping included. All but Ψ is quadratic, so that along a line it needs one slope and one curvature
+//! and no subtraction of close energies. Positions enter as displacements from xₙ.
 //!
 //! With h = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
 
 use crate::lanes::Real;
-use crate::mesh::embed::Anchor;
+use crate::mesh::Anchor;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
@@ -23,32 +23,33 @@ use crate::system::pattern::Pattern;
 use super::damping::Viscosity;
 use super::line_search::{Change, Line};
 
-/// A spring of rest length zero from a point of the body to a point in space.
+/// Spring of rest length zero from a point of the body to a point in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
-    /// The point of the body.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct Spring {
+    /// Point of the body.
     pub anchor: Anchor,
-    /// The point in space, m.
+    /// Point in space, m.
     pub target: [f64; 3],
-    /// k, N/m: the energy is ½ k |point − target|².
+    /// Stiffness k, N/m: the energy is ½ k |point − target|².
     pub stiffness: f64,
 }
 
-impl Pull {
-    /// A pull on a node.
+impl Spring {
+    /// Attaches a spring to a node.
     #[must_use]
     pub fn on_node(node: usize, target: [f64; 3], stiffness: f64) -> Self {
         Self { anchor: Anchor { nodes: [node; 4], weights: [1.0, 0.0, 0.0, 0.0] }, target, stiffness }
     }
 
-    /// ½ k |point − target|², J.
+    /// Energy ½ k |point − target|², J.
     #[must_use]
     pub fn energy(&self, positions: &[[f64; 3]]) -> f64 {
         let point = self.anchor.position(positions);
         (0..3).map(|c| 0.5 * self.stiffness * (point[c] - self.target[c]).powi(2)).sum()
     }
 
-    /// Nodes with a weight.
+    /// The nodes with a nonzero weight.
     pub(crate) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         self.anchor
             .nodes
@@ -71,32 +72,32 @@ pub(crate) struct Quadratic<'a> {
     pub(crate) dt: f64,
     /// α of mass-proportional damping, 1/s.
     pub(crate) damping: f64,
-    /// What a unit of regularisation adds for each mass, 1/s².
+    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
     pub(crate) regularisation: f64,
-    /// What is always added for each mass to the second derivatives, not to the objective, 1/s².
+    /// Diagonal that is always added for each mass to the second derivatives, not to the objective, 1/s².
     pub(crate) guard: f64,
     /// g, m/s².
     pub(crate) gravity: [f64; 3],
-    pub(crate) pulls: &'a [Pull],
+    pub(crate) springs: &'a [Spring],
 }
 
 impl Quadratic<'_> {
-    /// Second derivative in each coordinate of a node, without pulls: m (1/h² + α/h).
+    /// Second derivative in each coordinate of a node, without springs: m (1/h² + α/h).
     fn diagonal(&self, node: usize) -> f64 {
         self.masses[node] * (1.0 / self.dt + self.damping) / self.dt
     }
 
-    /// The same with the guard against drift.
+    /// Second derivative in each coordinate of a node, with the guard against drift.
     pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
         self.diagonal(node) + self.masses[node] * self.guard
     }
 
-    /// h vₙ.
+    /// Displacement h vₙ of a node without forces.
     pub(crate) fn free_motion(&self, node: usize) -> [f64; 3] {
         self.velocities[node].map(|v| self.dt * v)
     }
 
-    /// What is added to it, some number of times, where the second derivatives are not positive definite.
+    /// Diagonal shift of a node; multiples of it are added until the Hessian is positive definite.
     pub(crate) fn regularisation(&self, node: usize) -> f64 {
         self.masses[node] * self.regularisation
     }
@@ -110,11 +111,11 @@ impl Quadratic<'_> {
                 total[node][c] += self.masses[node] * (acceleration + self.damping * v - self.gravity[c]);
             }
         }
-        for pull in self.pulls {
-            let point = pull.anchor.position(x);
-            for (node, weight) in pull.weights() {
+        for spring in self.springs {
+            let point = spring.anchor.position(x);
+            for (node, weight) in spring.weights() {
                 for c in 0..3 {
-                    total[node][c] += pull.stiffness * weight * (point[c] - pull.target[c]);
+                    total[node][c] += spring.stiffness * weight * (point[c] - spring.target[c]);
                 }
             }
         }
@@ -127,28 +128,29 @@ impl Quadratic<'_> {
                 total[node][c] += self.guarded_diagonal(node) * d[node][c];
             }
         }
-        for pull in self.pulls {
-            let point = pull.anchor.position(d);
-            for (node, weight) in pull.weights() {
+        for spring in self.springs {
+            let point = spring.anchor.position(d);
+            for (node, weight) in spring.weights() {
                 for c in 0..3 {
-                    total[node][c] += pull.stiffness * weight * point[c];
+                    total[node][c] += spring.stiffness * weight * point[c];
                 }
             }
         }
     }
 
-    /// Adds the pulls' second derivatives to the entries of a matrix.
-    pub(crate) fn add_pulls(&self, pattern: &Pattern, values: &mut [f64]) {
-        for pull in self.pulls {
+    /// Adds the springs' second derivatives to the entries of a matrix.
+    pub(crate) fn add_springs(&self, pattern: &Pattern, values: &mut [f64]) {
+        for spring in self.springs {
             let free =
-                pull.weights().filter_map(|(node, weight)| Some((pattern.free_of_node()[node]?, weight)));
+                spring.weights().filter_map(|(node, weight)| Some((pattern.free_of_node()[node]?, weight)));
             for (row, row_weight) in free.clone() {
                 for (column, column_weight) in free.clone().filter(|&(column, _)| column <= row) {
-                    // The nodes of a pull belong to one element: the simulation has made sure that the block exists.
+                    // The nodes of a spring belong to one element: the simulation has made sure that the
+                    // block exists.
                     if let Some(block) = pattern.block(row, column) {
                         for c in 0..3 {
                             let entry = pattern.scalar(column, block, c, c);
-                            values[entry] += pull.stiffness * row_weight * column_weight;
+                            values[entry] += spring.stiffness * row_weight * column_weight;
                         }
                     }
                 }
@@ -163,20 +165,25 @@ impl Quadratic<'_> {
                 block[c][c] += self.guarded_diagonal(node);
             }
         }
-        for pull in self.pulls {
-            for (node, weight) in pull.weights() {
+        for spring in self.springs {
+            for (node, weight) in spring.weights() {
                 for c in 0..3 {
-                    blocks[node][c][c] += pull.stiffness * weight * weight;
+                    blocks[node][c][c] += spring.stiffness * weight * weight;
                 }
             }
         }
     }
 
-    /// dᵀ H d.
+    /// Curvature dᵀ H d.
     fn curvature(&self, d: &[[f64; 3]]) -> f64 {
         let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
         let inertia: f64 = d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum();
-        inertia + self.pulls.iter().map(|pull| pull.stiffness * square(pull.anchor.position(d))).sum::<f64>()
+        inertia
+            + self
+                .springs
+                .iter()
+                .map(|spring| spring.stiffness * square(spring.anchor.position(d)))
+                .sum::<f64>()
     }
 }
 
@@ -190,7 +197,7 @@ pub(crate) struct Objective<'a> {
 }
 
 impl Objective<'_> {
-    /// Evaluates the energies at `x`; what else is asked of the objective is then meant there.
+    /// Evaluates the energies at `x`, where gradients and second derivatives are taken after that.
     pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
         self.elastic.evaluate(self.body, x)
     }
@@ -201,7 +208,7 @@ impl Objective<'_> {
         self.elastic.add_gradient(self.body, gradient);
     }
 
-    /// That of all but the elastic energy.
+    /// The gradient of all but the elastic energy.
     fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         gradient.fill([0.0; 3]);
         self.quadratic.add_gradient(x, gradient);
@@ -212,14 +219,14 @@ impl Objective<'_> {
         }
     }
 
-    /// dᵀ H d of all but the elastic energy.
+    /// Curvature dᵀ H d of all but the elastic energy.
     pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
         let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
         self.quadratic.curvature(d) + viscosity
     }
 
-    /// The objective along `x + step d`, whose point tried last is left in `trial`. The base of its differences is `x`,
-    /// where the energies must have been evaluated last.
+    /// The objective along `x + step d`, which leaves the point tried last in `trial`. The base of its
+    /// differences is `x`, where the energies must have been evaluated last.
     pub(crate) fn along<'b>(
         &'b mut self,
         x: &'b [[f64; 3]],
@@ -275,7 +282,7 @@ impl Line for Along<'_, '_> {
     }
 }
 
-/// Σ a·b over the nodes.
+/// Inner product Σ a·b over the nodes.
 pub(crate) fn product(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum()
 }

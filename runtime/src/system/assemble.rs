@@ -1,23 +1,25 @@
-//! Assembly: from elements to the vectors and the matrix of a body, with the same bits for any number of threads.
+//! Assembly: from elements to the vectors and the matrix of a body, with the same bits for any number of
+//! threads.
 //!
-//! Parallel assembly usually scatters: each thread adds its elements into shared entries, with atomics or with a
-//! colouring of the mesh, and the order in which floating-point numbers are added, hence the last bits of the sum,
-//! depends on who comes first. Here it gathers instead, in two stages that need neither:
+//! Parallel assembly usually scatters: each thread adds its elements into shared entries, with atomics or
+//! with a colouring of the mesh, and the order in which floating-point numbers are added, hence the last bits
+//! of the sum, depends on which thread comes first. Here it gathers instead, in two stages that need neither:
 //!
 //! 1. *Elements.* Groups of elements are evaluated in parallel, each element into a place of its own.
-//! 2. *Entries.* Each entry of the matrix has a list of the element blocks that add up to it, made once with the
-//!    sparsity pattern and sorted by element. Columns are summed in parallel, each entry by one thread in the order
-//!    of its list. Nodal vectors and energies are summed by one thread in the order of the elements: that takes
-//!    microseconds.
+//! 2. *Entries.* Each entry of the matrix has a list of the element blocks that add up to it, made once with
+//!    the sparsity pattern and sorted by element. Columns are summed in parallel, each entry by one thread in
+//!    the order of its list. Nodal vectors and energies are summed by one thread in the order of the
+//!    elements: that takes microseconds.
 //!
-//! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a division. A sum
-//! therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes of stiffness for each
-//! element, which stays in the cache for the bodies this is made for. Whoever assembles brings it
-//! ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products alone a third of it is enough
-//! ([`FactoredStiffness`](super::factored::FactoredStiffness)).
+//! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a division.
+//! A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes of
+//! stiffness for each element, which stays in the cache for the bodies this is made for. It belongs to the
+//! caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products alone a third of it
+//! is enough ([`FactoredStiffness`](super::factored::FactoredStiffness)).
 //!
-//! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken per
-//! element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is left.
+//! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken
+//! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is
+//! left.
 //!
 //! [Neu74] Neumaier, *Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen*, 1974.
 
@@ -25,14 +27,15 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::Body;
-use super::element::{Element, Evaluated, Group};
+use super::body::Body;
+use super::element::{ElementGroup, Evaluated, Tetrahedron};
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::Filter;
 use crate::status::{Status, Survey};
 
 /// Energies and gradients of all elements at the positions evaluated last.
+#[derive(Clone)]
 pub(crate) struct Elastic {
     groups: Vec<State>,
     /// Energies at the positions before, group by group.
@@ -40,26 +43,27 @@ pub(crate) struct Elastic {
 }
 
 /// A group of elements, and the survey of its last evaluation.
+#[derive(Clone)]
 struct State {
-    group: Group,
+    group: ElementGroup,
     elements: Range<usize>,
     evaluated: Evaluated,
 }
 
 /// A form in which the tangents of a body are kept.
 pub(crate) trait Tangents {
-    /// Those of a group.
+    /// The tangents of a group.
     type Tile: Send;
 
-    /// One for each of [`Body::groups`].
+    /// The tangents of each of [`Body::groups`].
     fn tiles(&mut self) -> &mut [Self::Tile];
 
     /// Evaluates gradients and filtered tangents of a group where its energies were evaluated last.
     fn evaluate(
         tile: &mut Self::Tile,
-        group: &mut Group,
+        group: &mut ElementGroup,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
     ) -> Status<u64>;
 }
@@ -67,7 +71,7 @@ pub(crate) trait Tangents {
 impl Elastic {
     pub(crate) fn new(body: &Body) -> Self {
         let state = |elements: Range<usize>| State {
-            group: Group::new(&body.elements[elements.clone()]),
+            group: ElementGroup::new(&body.elements()[elements.clone()]),
             elements,
             evaluated: Evaluated::NONE,
         };
@@ -92,7 +96,7 @@ impl Elastic {
 
     /// Evaluates the gradients where the energies were evaluated last.
     pub(crate) fn evaluate_gradients(&mut self, body: &Body) {
-        self.groups.par_iter_mut().for_each(|state| state.evaluate(body, Group::evaluate_gradients));
+        self.groups.par_iter_mut().for_each(|state| state.evaluate(body, ElementGroup::evaluate_gradients));
     }
 
     /// Evaluates gradients and filtered tangents where the energies were evaluated last.
@@ -140,15 +144,15 @@ impl Elastic {
         self.energies().map(|(energy, base)| energy - base).collect::<Compensated>().value()
     }
 
-    /// What rounding may contribute to the difference, J.
+    /// Bound for the rounding error of the difference, J.
     ///
-    /// An energy density is a sum that cancels at rest; its terms are of the order of the modulus times |F|². Each
-    /// is taken to err by 4u, which leaves room for the ten or so operations of an energy.
+    /// An energy density is a sum that cancels at rest; its terms are of the order of the modulus times |F|².
+    /// Each is taken to err by 4u, which leaves room for the ten or so operations of an energy.
     pub(crate) fn difference_noise(&self, body: &Body) -> f64 {
         let mut noise = 0.0;
         for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {
             let stiffness = material.properties().rest_stiffness.abs();
-            for (lane, element) in body.elements[elements].iter().enumerate() {
+            for (lane, element) in body.elements()[elements].iter().enumerate() {
                 let square: f64 = state.group.stretches(lane).iter().map(|stretch| stretch * stretch).sum();
                 let scale = element.shape.volume * stiffness * square.max(1.0);
                 noise += scale + state.group.energies[lane].abs() + base[lane].abs();
@@ -170,7 +174,7 @@ impl Elastic {
     /// Adds the gradient of the energy to `total`, one entry per node.
     pub(crate) fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) {
         for State { group, elements, .. } in &self.groups {
-            for (element, gradient) in body.elements[elements.clone()].iter().zip(&group.gradients) {
+            for (element, gradient) in body.elements()[elements.clone()].iter().zip(&group.gradients) {
                 for (&node, g) in element.nodes.iter().zip(gradient) {
                     for c in 0..3 {
                         total[node][c] += g[c];
@@ -186,15 +190,15 @@ impl State {
     fn evaluate(
         &mut self,
         body: &Body,
-        evaluate: impl FnOnce(&mut Group, &dyn TileMaterial<f64>, &[Element]) -> Status<u64>,
+        evaluate: impl FnOnce(&mut ElementGroup, &dyn TileMaterial<f64>, &[Tetrahedron]) -> Status<u64>,
     ) {
-        let elements = &body.elements[self.elements.clone()];
+        let elements = &body.elements()[self.elements.clone()];
         let status = evaluate(&mut self.group, body.material(self.elements.start), elements);
         self.evaluated.survey = Survey::of(status, self.elements.start);
     }
 }
 
-/// A sum that carries its rounding errors along [Neu74].
+/// Compensated sum: carries its rounding errors along [Neu74].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Compensated {
     sum: f64,

@@ -1,21 +1,22 @@
-//! Assembly for meshes of one's own: from the stiffnesses that a batch has made of linear tetrahedra to a sparse matrix.
+//! Assembly for meshes of one's own: from the stiffnesses that a batch computes of linear tetrahedra to a
+//! sparse matrix.
 //!
-//! Who has a mesh but no [`Body`](super::Body) says once which nodes the tetrahedra join, and which of them are held. After
-//! that each set of stiffnesses, as [`Batch`](crate::batch::Batch) writes them, is summed without atomics, without allocation,
-//! and with the same bits for any number of threads.
+//! For callers with a mesh of their own and no [`Body`](super::Body): built once from the element
+//! connectivity and the fixed nodes. After that each set of stiffnesses, as [`Batch`](crate::batch::Batch)
+//! writes them, is summed without atomics, without allocation, and with the same bits for any number of
+//! threads.
 //!
 //! This module knows no material and no rest shape.
 
-use faer::sparse::SparseColMatRef;
-
-use super::Pins;
 use super::fill::{NodePairs, fill};
 use super::linear::LinearError;
 use super::pattern::Pattern;
+use super::pins::Pins;
 use crate::batch::{Layout, LengthError, PACKED_12};
 use crate::lanes::Scalar;
 
-/// The lower triangle of a symmetric matrix with a 3×3 block for each two nodes that share a tetrahedron, N/m.
+/// The lower triangle of a symmetric matrix with a 3×3 block for each two nodes that share a tetrahedron,
+/// N/m.
 ///
 /// Three rows and columns belong to each node that is not pinned, in an order that keeps a factor sparse: see
 /// [`Pattern::free_of_node`].
@@ -23,8 +24,7 @@ use crate::lanes::Scalar;
 /// ```
 /// use piola::batch::{Batch, Layout};
 /// use piola::material;
-/// use piola::system::linear::Cholesky;
-/// use piola::system::{BlockMatrix, Pins};
+/// use piola::system::{BlockMatrix, Cholesky, Pins};
 ///
 /// /// Rubber.
 /// #[material(domain(J > 0.0))]
@@ -39,13 +39,14 @@ use crate::lanes::Scalar;
 /// let rest = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
 /// // Once …
 /// let mut matrix = BlockMatrix::new(nodes, &tets, &pins)?;
-/// let mut cholesky = Cholesky::new(matrix.pattern().entries())?;
+/// let pattern = matrix.pattern();
+/// let mut cholesky = Cholesky::new(pattern.column_starts(), pattern.row_indices())?;
 /// // … and for each deformation:
 /// let rubber = Rubber::new(1e6, 4e6)?;
 /// let (mut gradients, mut stiffnesses) = ([0.0; 12], [0.0; 144]);
 /// Batch::new(&rubber).stiffnesses(&F, &rest, &mut gradients, &mut stiffnesses)?;
 /// matrix.assemble(&stiffnesses, Layout::Points, |_| 0.0)?;
-/// cholesky.factor(matrix.entries())?;
+/// cholesky.factor(matrix.values())?;
 ///
 /// // A newton along x: λ + 2μ over an area of 1/2 and a length of 1, a third of which hangs on the node.
 /// let mut displacement = [1.0, 0.0, 0.0];
@@ -61,23 +62,25 @@ pub struct BlockMatrix {
 }
 
 impl BlockMatrix {
-    /// Zero, for tetrahedra of four different nodes each, without rows and columns of pinned nodes.
+    /// A matrix of zeros for tetrahedra of four different nodes each, without rows and columns of pinned
+    /// nodes.
     ///
     /// # Errors
-    /// Where a tetrahedron or a pin names a node that does not exist, or the pattern does not fit into memory.
+    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::OutOfMemory`].
     pub fn new(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
         let pattern = Pattern::of_tets(nodes, tets, pins)?;
         let values = vec![0.0; pattern.entries().row_idx().len()];
         Ok(Self { pattern, values })
     }
 
-    /// Sums what [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) has written in this layout, 144 numbers of each
-    /// tetrahedron, and adds `diagonal(node)` to the diagonal, such as a mass over the square of a time step.
+    /// Sums the stiffnesses that [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) writes in this
+    /// layout, 144 entries of each tetrahedron, N/m, and adds `diagonal(node)` to the diagonal, such as a
+    /// mass over the square of a time step.
     ///
-    /// In [`Layout::Lines`] what fills up the last line belongs to no tetrahedron and is left out.
+    /// In [`Layout::Lines`] the padding of the last line is left out.
     ///
     /// # Errors
-    /// Where there are not as many stiffnesses as tetrahedra.
+    /// [`LengthError`] if there are not as many stiffnesses as tetrahedra.
     pub fn assemble(
         &mut self,
         stiffnesses: &[f64],
@@ -87,11 +90,11 @@ impl BlockMatrix {
         self.sum::<144>(stiffnesses, layout, |row, column| 12 * row + column, &diagonal)
     }
 
-    /// As [`BlockMatrix::assemble`], of what [`Batch::packed_stiffnesses`](crate::batch::Batch::packed_stiffnesses) has
-    /// written, 78 numbers of each.
+    /// Sums the stiffnesses that [`Batch::packed_stiffnesses`](crate::batch::Batch::packed_stiffnesses)
+    /// writes, 78 entries of each tetrahedron; otherwise like [`BlockMatrix::assemble`].
     ///
     /// # Errors
-    /// Where there are not as many stiffnesses as tetrahedra.
+    /// [`LengthError`] if there are not as many stiffnesses as tetrahedra.
     pub fn assemble_packed(
         &mut self,
         stiffnesses: &[f64],
@@ -127,14 +130,15 @@ impl BlockMatrix {
         &self.pattern
     }
 
-    /// The matrix as [`Cholesky::factor`](super::linear::Cholesky::factor) takes it.
+    /// Values of the stored entries, N/m, in the order of [`Pattern::row_indices`], as
+    /// [`Cholesky::factor`](super::Cholesky::factor) takes them.
     #[must_use]
-    pub fn entries(&self) -> SparseColMatRef<'_, usize, f64> {
-        SparseColMatRef::new(self.pattern.entries(), &self.values)
+    pub fn values(&self) -> &[f64] {
+        &self.values
     }
 }
 
-/// Stiffnesses of N numbers each in a slice; `place` says which of them is that of a row and a column.
+/// Stiffnesses of N entries each in a slice; `place` maps a row and a column to one of them.
 struct Slice<'a, F, const N: usize> {
     numbers: &'a [f64],
     layout: Layout,

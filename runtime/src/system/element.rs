@@ -1,18 +1,21 @@
 //! Linear tetrahedra: from nodal positions to energies, nodal forces and 12×12 stiffnesses.
 //!
-//! With Ds = [x1−x0, x2−x0, x3−x0] the deformation gradient is F = Ds Dm⁻¹, constant in an element of rest volume v,
-//! and x_n (n = 1, 2, 3) moves it by ∂F_ab/∂x_na = (Dm⁻¹)_nb. The energy is v ψ(F), its gradient in x_n is
-//! v P Dm⁻ᵀ e_n [SZLSB11 §2: G = P Bm], and node 0 takes minus the sum of the others, because nothing changes when
-//! all move alike. **The nodal force is minus that gradient.**
+//! With Ds = [x1−x0, x2−x0, x3−x0] the deformation gradient is F = Ds Dm⁻¹, constant in an element of rest
+//! volume v, and x_n (n = 1, 2, 3) moves it by ∂F_ab/∂x_na = (Dm⁻¹)_nb. The energy is v ψ(F), its gradient in
+//! x_n is v P Dm⁻ᵀ e_n [SZLSB11 §2: G = P Bm], and node 0 takes minus the sum of the others, because nothing
+//! changes when all move alike. **The nodal force is minus that gradient.**
 //!
-//! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages that share one
-//! singular value decomposition per element: the energy decomposes, and gradients and stiffnesses start from what it
-//! found. A line search thus pays for one decomposition per trial and the next Newton iteration for none.
+//! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages
+//! that share one singular value decomposition per element: the energy decomposes, and gradients and
+//! stiffnesses start from what it found. A line search thus pays for one decomposition per trial and the next
+//! Newton iteration for none.
 //!
-//! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the eigenvalues of
-//! the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements; both are semidefinite.
+//! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the
+//! eigenvalues of the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements;
+//! both are semidefinite.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 //!
 //! This module knows no sparsity and no time.
 
@@ -28,19 +31,19 @@ use crate::mesh::RestShape;
 use crate::point::{Filter, stretches_in_range};
 use crate::status::{Status, Survey};
 
-/// A tetrahedron of a body.
+/// Linear tetrahedron of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
-    /// Its nodes.
+pub struct Tetrahedron {
+    /// Indices of its nodes.
     pub nodes: [usize; 4],
-    /// Its shape at rest.
+    /// Shape at rest.
     pub shape: RestShape,
-    /// The number by which the mesh calls it.
+    /// Tag in the mesh: [`TetMesh::tag`](crate::mesh::TetMesh::tag).
     pub tag: usize,
 }
 
-impl Element {
-    /// F = Ds Dm⁻¹, row by row.
+impl Tetrahedron {
+    /// Deformation gradient F = Ds Dm⁻¹, as its rows.
     #[inline]
     #[must_use]
     pub fn deformation_gradient(&self, positions: &[[f64; 3]]) -> [[f64; 3]; 3] {
@@ -53,11 +56,11 @@ impl Element {
     }
 }
 
-/// Second derivatives of an element's energy in its nodal positions, N/m: ∂²E/∂x_i∂x_j of the node pairs i ≥ j in the
-/// order (0,0), (1,0), (1,1), (2,0), …
+/// Second derivatives of an element's energy in its nodal positions, N/m: ∂²E/∂x_i∂x_j of the node pairs i ≥
+/// j in the order (0,0), (1,0), (1,1), (2,0), …
 pub(crate) type Stiffness = [[[f64; 3]; 3]; 10];
 
-/// Where the block of the nodes i ≥ j is kept.
+/// Index of the block of the nodes i ≥ j.
 #[inline(always)]
 pub(crate) const fn pair(i: usize, j: usize) -> usize {
     i * (i + 1) / 2 + j
@@ -88,16 +91,16 @@ impl Add for Evaluated {
     }
 }
 
-/// Elements of one material with what was evaluated last, evaluated together.
+/// Elements of one material, evaluated together, with the results of the last evaluation.
 #[derive(Clone, Debug)]
-pub(crate) struct Group {
+pub(crate) struct ElementGroup {
     tile: ElementTile,
     pub(crate) energies: [f64; TILE],
     pub(crate) gradients: [[[f64; 3]; 4]; TILE],
 }
 
-impl Group {
-    pub(crate) fn new(elements: &[Element]) -> Self {
+impl ElementGroup {
+    pub(crate) fn new(elements: &[Tetrahedron]) -> Self {
         Self {
             tile: ElementTile::new(Backend::best(), elements.iter().map(|element| element.shape)),
             energies: [0.0; TILE],
@@ -113,7 +116,7 @@ impl Group {
     pub(crate) fn evaluate(
         &mut self,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         positions: &[[f64; 3]],
     ) -> (Status<u64>, f64) {
         let corners = elements.iter().map(|element| element.nodes.map(|node| positions[node]));
@@ -135,7 +138,7 @@ impl Group {
     pub(crate) fn evaluate_gradients(
         &mut self,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
     ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         of_derivatives(self.tile.gradients(material, gradients))
@@ -145,7 +148,7 @@ impl Group {
     pub(crate) fn evaluate_stiffnesses(
         &mut self,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
         stiffnesses: &mut [Stiffness],
     ) -> Status<u64> {
@@ -159,7 +162,7 @@ impl Group {
     pub(crate) fn evaluate_factors(
         &mut self,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
         factors: &mut StiffnessFactors,
     ) -> Status<u64> {

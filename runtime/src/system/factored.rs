@@ -1,16 +1,16 @@
-//! The stiffness of a body as what it is made of, and its products.
+//! The stiffness of a body in factors, never summed, and its products.
 //!
-//! This is what a [`StiffnessOperator`](super::operator::StiffnessOperator) multiplies with, and says how, without shapes
-//! at rest: where energies are evaluated anyway, [`Elastic`](super::assemble::Elastic) linearises with the decompositions that
-//! these have made.
+//! A [`StiffnessOperator`](super::operator::StiffnessOperator), whose module explains the products,
+//! multiplies with these factors. Shapes at rest are not kept here: where energies are evaluated anyway,
+//! [`Elastic`](super::assemble::Elastic) linearises with the decompositions that these have made.
 //!
 //! This module knows no pins and no masses.
 
 use rayon::prelude::*;
 
-use super::Body;
 use super::assemble::Tangents;
-use super::element::{Element, Group};
+use super::body::Body;
+use super::element::{ElementGroup, Tetrahedron};
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::batch::operator::StiffnessFactors;
@@ -22,16 +22,16 @@ use crate::status::Status;
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 pub(super) const TILES: usize = 4;
 
-/// Nodes likewise.
+/// Nodes that one thread takes without a further division.
 const NODES: usize = 256;
 
-/// The stiffness of a body, N/m, of which each tile of elements keeps its part: zero at first.
+/// The stiffness of a body, N/m, one part in each tile of elements: zero at first.
 #[derive(Clone, Debug)]
 pub(crate) struct FactoredStiffness {
     tiles: Vec<Tile>,
-    /// Where the contributions to each node start, and where the last ends.
+    /// Start of the contributions to each node, and the end of the last.
     starts: Vec<usize>,
-    contributions: Vec<Contribution>,
+    contributions: Vec<TileSum>,
 }
 
 /// Elements of one material and their part of the product made last.
@@ -48,7 +48,7 @@ pub(crate) struct Tile {
 
 /// A tile's sum for a node.
 #[derive(Clone, Copy, Debug)]
-struct Contribution {
+struct TileSum {
     tile: u32,
     place: u8,
 }
@@ -66,17 +66,17 @@ impl FactoredStiffness {
             starts[node + 1] += starts[node];
         }
         let mut next = starts.clone();
-        let mut contributions = vec![Contribution { tile: 0, place: 0 }; starts[nodes]];
+        let mut contributions = vec![TileSum { tile: 0, place: 0 }; starts[nodes]];
         for (number, tile) in tiles.iter().enumerate() {
             for (place, &node) in tile.nodes.iter().enumerate() {
-                contributions[next[node]] = Contribution { tile: number as u32, place: place as u8 };
+                contributions[next[node]] = TileSum { tile: number as u32, place: place as u8 };
                 next[node] += 1;
             }
         }
         Self { tiles, starts, contributions }
     }
 
-    /// How many nodes it joins.
+    /// Number of nodes.
     pub(super) fn nodes(&self) -> usize {
         self.starts.len() - 1
     }
@@ -92,7 +92,7 @@ impl FactoredStiffness {
         })
     }
 
-    /// K x of each node, for one displacement of each.
+    /// Computes K x, one vector for each node.
     pub(crate) fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) {
         self.make_products(x);
         self.sum(product, |total, sum| *total = sum);
@@ -126,7 +126,7 @@ impl FactoredStiffness {
         });
     }
 
-    /// Lets the tiles make what belongs to the corners of their elements, and sum it at their nodes.
+    /// Makes the vectors at the corners of each tile's elements, and sums them at its nodes.
     fn for_each_tile(&mut self, make: impl Fn(&Tile, &mut [f64]) + Sync) {
         self.tiles.par_iter_mut().with_min_len(TILES).for_each(|tile| {
             let mut products = [[[0.0; 3]; 4]; TILE];
@@ -148,8 +148,7 @@ impl FactoredStiffness {
     fn sum<T: Send>(&self, totals: &mut [T], put: impl Fn(&mut T, [f64; 3]) + Sync) {
         totals.par_iter_mut().with_min_len(NODES).enumerate().for_each(|(node, total)| {
             let mut sum = [0.0; 3];
-            for &Contribution { tile, place } in &self.contributions[self.starts[node]..self.starts[node + 1]]
-            {
+            for &TileSum { tile, place } in &self.contributions[self.starts[node]..self.starts[node + 1]] {
                 let part = self.tiles[tile as usize].sums[usize::from(place)];
                 for a in 0..3 {
                     sum[a] += part[a];
@@ -161,7 +160,7 @@ impl FactoredStiffness {
 }
 
 impl Tile {
-    fn new(elements: &[Element]) -> Self {
+    fn new(elements: &[Tetrahedron]) -> Self {
         let mut nodes: Vec<usize> = Vec::new();
         // A full tile has at most 4·64 corners: places fit.
         let mut place_of = |node: usize| {
@@ -193,7 +192,7 @@ impl Tile {
     }
 }
 
-/// What each element has at its corners of what each node of a body has.
+/// Vectors at the corners of each element, from those at the nodes of a body.
 fn at_corners(nodes: &[usize], corners: &[[u8; 4]], x: &[[f64; 3]]) -> impl Iterator<Item = [[f64; 3]; 4]> {
     let at = move |place: u8| x[nodes[usize::from(place)]];
     // Four calls: a closure in an array's `map` is not inlined here, and takes as long as the products.
@@ -209,9 +208,9 @@ impl Tangents for FactoredStiffness {
 
     fn evaluate(
         tile: &mut Tile,
-        group: &mut Group,
+        group: &mut ElementGroup,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
     ) -> Status<u64> {
         group.evaluate_factors(material, elements, filter, &mut tile.factors)

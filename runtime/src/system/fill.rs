@@ -1,10 +1,12 @@
-//! The entries of the matrix: each a sum over element blocks in the order of its list, whatever the number of threads.
+//! Entries of the matrix as sums over element blocks, in the order of their lists, whatever the number of
+//! threads.
 //!
-//! This is the second stage of [assembly](super::assemble); it knows neither where the blocks come from nor what they mean.
+//! The second stage of [assembly](super::assemble). This module knows neither the origin of the blocks nor
+//! their meaning.
 
 use std::ops::Range;
 
-use super::pattern::{Contribution, Pattern};
+use super::pattern::{ElementBlock, Pattern};
 
 /// Columns of blocks summed by one thread without a further division.
 const COLUMNS: usize = 64;
@@ -60,9 +62,9 @@ fn fill_columns(
 }
 
 /// A block of the matrix: the sum of its contributions in the order of their list.
-fn sum_block(contributions: &[Contribution], elements: &impl NodePairs) -> [[f64; 3]; 3] {
+fn sum_block(contributions: &[ElementBlock], elements: &impl NodePairs) -> [[f64; 3]; 3] {
     let mut sum = [[0.0; 3]; 3];
-    for &Contribution { element, i, j, transposed } in contributions {
+    for &ElementBlock { element, i, j, transposed } in contributions {
         let part = elements.block(element as usize, usize::from(i), usize::from(j));
         for r in 0..3 {
             for c in 0..3 {

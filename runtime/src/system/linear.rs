@@ -1,33 +1,51 @@
 //! Sparse Cholesky factorisation A = L Lᵀ, analysed once and refactored for each new set of values.
 //!
-//! Sequential on purpose: at the sizes of real-time bodies (fewer than 10⁴ unknowns) threads cost more than they
-//! bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes; unknowns come already
-//! in an order that keeps L sparse.
+//! Sequential on purpose: at the sizes of real-time bodies (fewer than 10⁴ unknowns) threads cost more than
+//! they bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes;
+//! unknowns come already in an order that keeps L sparse.
 //!
-//! Beside it lie what the steps of a simulation can choose instead: conjugate gradients, a preconditioner for them where there
-//! is no matrix, and a factor in f32 that they refine. The smallest eigenvalue of
-//! a matrix comes from its factor by Lanczos' method.
+//! Its children are the alternatives that a simulation can choose: conjugate gradients, a preconditioner for
+//! them where there is no matrix, and a factor in f32 that they refine. Lanczos' method finds the smallest
+//! eigenvalue of a matrix from its factor.
 
 use std::fmt;
+use std::sync::Arc;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::traits::RealField;
 use faer::{Conj, MatMut, Par, Side};
 
 pub(crate) mod block_jacobi;
 pub(crate) mod conjugate_gradients;
+pub(crate) mod dense;
 pub(crate) mod lanczos;
 pub(crate) mod refined;
 
 /// A factorisation in f64 or f32, and the memory for the next one.
+///
+/// Matrices are given by their lower triangle in compressed columns, the form of
+/// [`BlockMatrix`](super::BlockMatrix), of SciPy's `csc_matrix` and of most sparse solvers.
+///
+/// ```
+/// use piola::system::Cholesky;
+///
+/// // [[4, 2], [2, 5]]: a column of two entries and one of one.
+/// let mut cholesky = Cholesky::new(&[0, 2, 3], &[0, 1, 1])?;
+/// cholesky.factor(&[4.0, 2.0, 5.0])?;
+/// let mut x = [8.0, 12.0];
+/// cholesky.solve(&mut x);
+/// assert_eq!(x, [1.0, 2.0]);
+/// # Ok::<(), piola::system::LinearError>(())
+/// ```
 pub struct Cholesky<E = f64> {
-    symbolic: SymbolicCholesky<usize>,
+    pattern: Arc<SymbolicSparseColMat<usize>>,
+    symbolic: Arc<SymbolicCholesky<usize>>,
     factor: Vec<E>,
     memory: MemBuffer,
 }
@@ -38,14 +56,46 @@ impl<E> fmt::Debug for Cholesky<E> {
     }
 }
 
+impl<E: RealField> Clone for Cholesky<E> {
+    fn clone(&self) -> Self {
+        let (pattern, symbolic) = (self.pattern.clone(), self.symbolic.clone());
+        let memory = MemBuffer::new(scratch::<E>(&symbolic));
+        Self { pattern, symbolic, factor: self.factor.clone(), memory }
+    }
+}
+
 impl<E: RealField> Cholesky<E> {
-    /// Analyses the lower triangle of a symmetric pattern and allocates all that later calls need.
+    /// Analyses the lower triangle of a symmetric pattern and allocates all memory that later calls need.
+    ///
+    /// Entries of column c are those from `column_starts[c]` to `column_starts[c + 1]`, their rows ascending
+    /// from the diagonal, which is always stored.
     ///
     /// # Errors
-    /// Where the factor does not fit into memory.
-    pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, LinearError> {
+    /// [`LinearError::Pattern`] if the slices do not describe such a triangle, [`LinearError::OutOfMemory`].
+    pub fn new(column_starts: &[usize], row_indices: &[usize]) -> Result<Self, LinearError> {
+        let unknowns = column_starts.len().checked_sub(1).ok_or(LinearError::Pattern { column: 0 })?;
+        let is_lower = |column: usize| {
+            let rows = row_indices.get(column_starts[column]..column_starts[column + 1]);
+            rows.is_some_and(|rows| {
+                rows.first() == Some(&column)
+                    && rows.last().is_some_and(|&last| last < unknowns)
+                    && rows.is_sorted_by(|a, b| a < b)
+            })
+        };
+        if let Some(column) = (0..unknowns).find(|&column| !is_lower(column)) {
+            return Err(LinearError::Pattern { column });
+        }
+        if column_starts[0] != 0 || column_starts[unknowns] != row_indices.len() {
+            return Err(LinearError::Pattern { column: unknowns });
+        }
+        let (starts, rows) = (column_starts.to_vec(), row_indices.to_vec());
+        Self::of_pattern(&Arc::new(SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)))
+    }
+
+    /// Analyses a pattern as [`Cholesky::new`] does, and shares it.
+    pub(crate) fn of_pattern(pattern: &Arc<SymbolicSparseColMat<usize>>) -> Result<Self, LinearError> {
         // Without a permutation faer takes the pattern to be an upper triangle, whatever the side it is told.
-        let upper = pattern.transpose().to_col_major().map_err(|_| LinearError::OutOfMemory)?;
+        let upper = (**pattern).as_ref().transpose().to_col_major().map_err(|_| LinearError::OutOfMemory)?;
         // Dense kernels pay from a few hundred unknowns on; by its own estimate faer would begin later.
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -54,24 +104,24 @@ impl<E: RealField> Cholesky<E> {
         let symbolic =
             factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters)
                 .map_err(|_| LinearError::OutOfMemory)?;
-        let scratch = symbolic
-            .factorize_numeric_llt_scratch::<E>(Par::Seq, Default::default())
-            .or(symbolic.solve_in_place_scratch::<E>(1, Par::Seq));
-        let memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
+        let memory = MemBuffer::try_new(scratch::<E>(&symbolic)).map_err(|_| LinearError::OutOfMemory)?;
         let mut factor = Vec::new();
         factor.try_reserve_exact(symbolic.len_val()).map_err(|_| LinearError::OutOfMemory)?;
         factor.resize(symbolic.len_val(), E::zero_impl());
-        Ok(Self { symbolic, factor, memory })
+        Ok(Self { pattern: pattern.clone(), symbolic: Arc::new(symbolic), factor, memory })
     }
 
-    /// Factors a matrix of the analysed pattern.
+    /// Factors the matrix with these values in the order of the pattern.
     ///
     /// # Errors
-    /// Where it is not numerically positive definite.
-    pub fn factor(&mut self, matrix: SparseColMatRef<'_, usize, E>) -> Result<(), LinearError> {
+    /// [`LinearError::NotPositive`] if it is not numerically positive definite.
+    ///
+    /// # Panics
+    /// If there are not as many values as entries.
+    pub fn factor(&mut self, values: &[E]) -> Result<(), LinearError> {
         let result = self.symbolic.factorize_numeric_llt(
             &mut self.factor,
-            matrix,
+            SparseColMatRef::new((*self.pattern).as_ref(), values),
             Side::Lower,
             Default::default(),
             Par::Seq,
@@ -85,6 +135,9 @@ impl<E: RealField> Cholesky<E> {
     }
 
     /// Replaces b by A⁻¹ b, with the matrix factored last.
+    ///
+    /// # Panics
+    /// If b does not hold one entry for each unknown.
     pub fn solve(&mut self, b: &mut [E]) {
         let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
         let factor = LltRef::new(&self.symbolic, &self.factor);
@@ -92,7 +145,14 @@ impl<E: RealField> Cholesky<E> {
     }
 }
 
-/// A x for a symmetric matrix given by its lower triangle.
+/// Memory that a factorisation or a solution takes beside the factor.
+fn scratch<E: RealField>(symbolic: &SymbolicCholesky<usize>) -> StackReq {
+    symbolic
+        .factorize_numeric_llt_scratch::<E>(Par::Seq, Default::default())
+        .or(symbolic.solve_in_place_scratch::<E>(1, Par::Seq))
+}
+
+/// Product A x of a symmetric matrix given by its lower triangle.
 pub(crate) fn symmetric_product(matrix: SparseColMatRef<'_, usize, f64>, x: &[f64], product: &mut [f64]) {
     product.fill(0.0);
     for column in 0..x.len() {
@@ -117,13 +177,20 @@ pub enum LinearError {
         /// The column in which it is met.
         column: usize,
     },
-    /// The factor does not fit into memory.
+    /// The pattern or the factor does not fit into memory.
     OutOfMemory,
+    /// Column starts and row indices do not describe the lower triangle of a matrix.
+    Pattern {
+        /// The first column at fault.
+        column: usize,
+    },
+    /// The eigenvalues of a small matrix cannot be computed.
+    NoEigenvalues,
     /// An element or a pin names a node that does not exist.
     NoSuchNode {
-        /// As named.
+        /// The missing node.
         node: usize,
-        /// How many nodes there are, numbered from 0.
+        /// Number of nodes.
         nodes: usize,
     },
 }
@@ -137,9 +204,38 @@ impl fmt::Display for LinearError {
             Self::NoSuchNode { node, nodes } => {
                 write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
             }
+            Self::Pattern { column } => {
+                write!(
+                    f,
+                    "column {column} is not the lower triangle of a symmetric pattern: rows must ascend from the diagonal"
+                )
+            }
+            Self::NoEigenvalues => write!(f, "the eigenvalues of a small matrix cannot be computed"),
             Self::OutOfMemory => write!(f, "the factor of the matrix does not fit into memory"),
         }
     }
 }
 
 impl std::error::Error for LinearError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_are_checked() {
+        let error = |starts: &[usize], rows: &[usize]| Cholesky::<f64>::new(starts, rows).err();
+        assert_eq!(error(&[0, 2, 3], &[0, 1, 1]), None);
+        let at = |column| Some(LinearError::Pattern { column });
+        assert_eq!(error(&[], &[]), at(0));
+        // A row above the diagonal, no diagonal, rows in the wrong order, a row outside, too few and too many
+        // entries.
+        assert_eq!(error(&[0, 2, 4], &[0, 1, 0, 1]), at(1));
+        assert_eq!(error(&[0, 1, 2], &[1, 1]), at(0));
+        assert_eq!(error(&[0, 3, 4, 5], &[0, 2, 1, 1, 2]), at(0));
+        assert_eq!(error(&[0, 2, 3], &[0, 2, 1]), at(0));
+        assert_eq!(error(&[0, 2, 3], &[0, 1]), at(1));
+        assert_eq!(error(&[0, 1, 2], &[0, 1, 1]), at(2));
+        assert_eq!(error(&[0, 3, 2], &[0, 1]), at(0));
+    }
+}

@@ -1,24 +1,24 @@
-//! The stiffness of a body as an operator: K x without a matrix, for conjugate gradients and their kin.
+//! The stiffness of a body as an operator: K x without a matrix, for conjugate gradients and similar methods.
 //!
-//! An element keeps the thirty numbers that its stiffness is made of, frames and filtered blocks, and multiplies by them with
-//! a quarter of the operations that its entries take to make; nothing is assembled, nor factored. Products are made in
-//! two stages, as in assembly, and have the same bits for any number of threads:
+//! An element keeps the thirty entries of its frames and filtered blocks, and multiplies by them with a
+//! quarter of the operations that its entries take to make; nothing is assembled, nor factored. Products are
+//! made in two stages, as in assembly, and have the same bits for any number of threads:
 //!
-//! 1. *Elements.* Tiles of 64 elements multiply in parallel, and each sums its elements one after the other at the nodes
-//!    they share: where neighbours are near in the numbering there are half as many as elements, so that little is left to
-//!    pass through memory.
-//! 2. *Nodes.* Each node has a list of the tiles around it, made once and sorted; nodes are summed in parallel, each by
-//!    one thread in the order of its list.
+//! 1. *Elements.* Tiles of 64 elements multiply in parallel, and each sums its elements one after the other
+//!    at the nodes they share: where neighbours are near in the numbering there are half as many as elements,
+//!    so that little is left to pass through memory.
+//! 2. *Nodes.* Each node has a list of the tiles around it, made once and sorted; nodes are summed in
+//!    parallel, each by one thread in the order of its list.
 //!
-//! This module knows no pins and no masses: it is for the solver to leave out the rows and columns of pinned nodes, and to
-//! add what is diagonal.
+//! This module knows no pins and no masses: the solver leaves out the rows and columns of pinned nodes, and
+//! adds diagonal terms.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::Body;
 use super::assemble::Tangents;
+use super::body::Body;
 use super::factored::{FactoredStiffness, TILES};
 use crate::batch::LengthError;
 use crate::batch::rest::RestShapes;
@@ -46,7 +46,8 @@ use crate::status::Survey;
 /// let mut stiffness = StiffnessOperator::new(&body);
 /// assert!(stiffness.linearise(&body, body.rest(), Filter::Clamp)?.is_clean());
 ///
-/// // One corner moves along x by 1 mm, uniaxial strain: force = (λ + 2μ) · strain · area, over the volume of 1/6 m³.
+/// // One corner moves along x by 1 mm, uniaxial strain: force = (λ + 2μ) · strain · area, the area being
+/// // the volume of 1/6 m³ over the edge of 1 m.
 /// let mut displacement = [[0.0; 3]; 4];
 /// displacement[1][0] = 1e-3;
 /// let mut product = [[0.0; 3]; 4];
@@ -58,12 +59,12 @@ use crate::status::Survey;
 #[derive(Clone, Debug)]
 pub struct StiffnessOperator {
     factored: FactoredStiffness,
-    /// One for each tile of it.
+    /// One for each tile of `factored`.
     tiles: Vec<Tile>,
     elements: usize,
 }
 
-/// Elements of one material, and what was said of them last.
+/// Elements of one material, and the survey of their last linearisation.
 #[derive(Clone, Debug)]
 struct Tile {
     rest: RestShapes,
@@ -72,7 +73,7 @@ struct Tile {
 }
 
 impl StiffnessOperator {
-    /// With memory for all that later calls need: about 400 bytes for each element.
+    /// Allocates all the memory that later calls need: about 400 bytes for each element.
     #[must_use]
     pub fn new(body: &Body) -> Self {
         let tile = |elements: Range<usize>| Tile {
@@ -84,13 +85,14 @@ impl StiffnessOperator {
         Self { factored: FactoredStiffness::new(body), tiles, elements: body.elements().len() }
     }
 
-    /// Takes the stiffness at these positions, m, with the filter on dP/dF of each element, of the body it was made for.
+    /// Takes the stiffness at these positions, m, with the filter on dP/dF of each element, of the body it
+    /// was made for.
     ///
-    /// The survey counts elements in the order of [`Body::elements`]. Products in which one takes part whose numbers mean
-    /// nothing mean nothing either.
+    /// The survey counts elements in the order of [`Body::elements`]. Products are meaningless at the nodes
+    /// of an element that it reports as refused or not finite.
     ///
     /// # Errors
-    /// Where there are not as many positions or elements as the body had.
+    /// [`LengthError`] if there are not as many positions or elements as the body had.
     pub fn linearise(
         &mut self,
         body: &Body,
@@ -111,10 +113,10 @@ impl StiffnessOperator {
         Ok(self.tiles.iter().map(|tile| tile.survey).sum())
     }
 
-    /// K x, N, for a displacement x of each node, m.
+    /// Computes K x, N, for a displacement x of each node, m.
     ///
     /// # Errors
-    /// Where there are not as many of one or the other as nodes.
+    /// [`LengthError`] if `x` or `product` does not hold one vector for each node.
     pub fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), LengthError> {
         self.check("x", x.len(), 3)?;
         self.check("product", product.len(), 3)?;
@@ -122,18 +124,18 @@ impl StiffnessOperator {
         Ok(())
     }
 
-    /// The 3×3 blocks of K on its diagonal, N/m, one for each node: what block-Jacobi preconditioning inverts. Symmetric to
-    /// rounding.
+    /// Computes the 3×3 blocks on the diagonal of K, N/m, one for each node, which block-Jacobi
+    /// preconditioning inverts. Symmetric up to rounding.
     ///
     /// # Errors
-    /// Where there are not as many as nodes.
+    /// [`LengthError`] if `blocks` does not hold one for each node.
     pub fn diagonal_blocks(&mut self, blocks: &mut [[[f64; 3]; 3]]) -> Result<(), LengthError> {
         self.check("blocks", blocks.len(), 9)?;
         self.factored.diagonal_blocks(blocks);
         Ok(())
     }
 
-    /// Whether a slice holds something for each node, of so many numbers.
+    /// Checks that a slice holds one item for each node, of `numbers` entries each.
     fn check(&self, slice: &'static str, found: usize, numbers: usize) -> Result<(), LengthError> {
         let points = self.factored.nodes();
         if found == points {

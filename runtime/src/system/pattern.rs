@@ -1,13 +1,16 @@
-//! Which entries of the stiffness matrix exist, and which element blocks add up to each.
+//! Sparsity of the stiffness matrix: which entries exist, and which element blocks add up to each.
 //!
-//! Unknowns are the coordinates of the nodes that are not pinned, numbered so that a Cholesky factor stays sparse
-//! (approximate minimum degree on the graph of nodes, whose edges are 3×3 blocks). This module knows no values.
+//! Unknowns are the coordinates of the nodes that are not pinned, numbered so that a Cholesky factor stays
+//! sparse (approximate minimum degree on the graph of nodes, whose edges are 3×3 blocks). This module knows
+//! no values.
+
+use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use super::element::Element;
+use super::element::Tetrahedron;
 use super::linear::LinearError;
 use super::pins::Pins;
 
@@ -17,18 +20,19 @@ pub struct Pattern {
     elements: usize,
     free_of_node: Vec<Option<usize>>,
     node_of_free: Vec<usize>,
-    /// Where the blocks of each column of blocks start, and where the last ends. The first is on the diagonal.
+    /// Start of each column of blocks, and the end of the last. The first block of a column is on the
+    /// diagonal.
     columns: Vec<usize>,
     rows: Vec<usize>,
-    /// Where the contributions to each block start, and where the last ends.
+    /// Start of the contributions to each block, and the end of the last.
     gather_starts: Vec<usize>,
-    gather: Vec<Contribution>,
-    entries: SymbolicSparseColMat<usize>,
+    gather: Vec<ElementBlock>,
+    entries: Arc<SymbolicSparseColMat<usize>>,
 }
 
-/// A 3×3 block of an element that is part of a block of the matrix.
+/// A 3×3 block of an element, one of those that add up to a block of the matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Contribution {
+pub(crate) struct ElementBlock {
     pub(crate) element: u32,
     /// The nodes i ≥ j of the element.
     pub(crate) i: u8,
@@ -40,8 +44,8 @@ impl Pattern {
     /// The pattern of these elements among `nodes` nodes, without rows and columns of pinned ones.
     ///
     /// # Errors
-    /// Where an element or a pin names a node that does not exist, or the pattern does not fit into memory.
-    pub fn new(nodes: usize, elements: &[Element], pins: &Pins) -> Result<Self, LinearError> {
+    /// [`LinearError::NoSuchNode`] for an element or a pin, [`LinearError::OutOfMemory`].
+    pub fn new(nodes: usize, elements: &[Tetrahedron], pins: &Pins) -> Result<Self, LinearError> {
         let tets: Vec<[usize; 4]> = elements.iter().map(|element| element.nodes).collect();
         Self::of_tets(nodes, &tets, pins)
     }
@@ -49,7 +53,7 @@ impl Pattern {
     /// The pattern of tetrahedra that join these nodes, four different ones each.
     ///
     /// # Errors
-    /// As [`Pattern::new`].
+    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::OutOfMemory`].
     pub fn of_tets(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
         if let Some(&node) = tets.as_flattened().iter().chain(pins.nodes()).find(|&&node| node >= nodes) {
             return Err(LinearError::NoSuchNode { node, nodes });
@@ -60,7 +64,8 @@ impl Pattern {
             free_of_node[node] = Some(free);
         }
 
-        // One record per contribution, sorted by column, row and element: the order of summation, fixed for good.
+        // One record per contribution, sorted by column, row and element: the order of summation, fixed for
+        // good.
         let mut records = Vec::with_capacity(10 * tets.len());
         for (index, tet) in tets.iter().enumerate() {
             let index = u32::try_from(index).map_err(|_| LinearError::OutOfMemory)?;
@@ -69,7 +74,7 @@ impl Pattern {
                     if let (Some(row), Some(column)) = (free_of_node[tet[i]], free_of_node[tet[j]]) {
                         let transposed = row < column;
                         let contribution =
-                            Contribution { element: index, i: i as u8, j: j as u8, transposed };
+                            ElementBlock { element: index, i: i as u8, j: j as u8, transposed };
                         records.push((row.min(column), row.max(column), contribution));
                     }
                 }
@@ -83,7 +88,7 @@ impl Pattern {
             rows: Vec::new(),
             gather_starts: vec![0],
             gather: Vec::with_capacity(records.len()),
-            entries: SymbolicSparseColMat::new_checked(0, 0, vec![0], None, Vec::new()),
+            entries: Arc::new(SymbolicSparseColMat::new_checked(0, 0, vec![0], None, Vec::new())),
             free_of_node,
             node_of_free,
         };
@@ -94,11 +99,12 @@ impl Pattern {
             pattern.gather.extend(block.iter().map(|record| record.2));
             pattern.gather_starts.push(pattern.gather.len());
         }
-        pattern.entries = pattern.scalar_entries();
+        pattern.entries = Arc::new(pattern.scalar_entries());
         Ok(pattern)
     }
 
-    /// Column by column the entries of the lower triangle: for the block on the diagonal its own lower triangle.
+    /// The scalars of the lower triangle, column by column: of a block on the diagonal its own lower
+    /// triangle.
     fn scalar_entries(&self) -> SymbolicSparseColMat<usize> {
         let unknowns = self.unknowns();
         let (mut starts, mut rows) = (vec![0], Vec::new());
@@ -113,33 +119,48 @@ impl Pattern {
         SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)
     }
 
-    /// How many elements it was made of.
+    /// Number of elements that it was made of.
     pub(crate) fn elements(&self) -> usize {
         self.elements
     }
 
-    /// How many unknowns there are: three for each free node.
+    /// Number of unknowns: three for each free node.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         3 * self.node_of_free.len()
     }
 
-    /// The node to which a number among the free nodes belongs.
+    /// The node of each free number: unknowns 3k, 3k+1, 3k+2 are the coordinates of node `node_of_free()[k]`.
     #[must_use]
     pub fn node_of_free(&self) -> &[usize] {
         &self.node_of_free
     }
 
-    /// The number of a node among the free ones; `None` where it is pinned.
+    /// The number of each node among the free ones; `None` for a pinned node.
     #[must_use]
     pub fn free_of_node(&self) -> &[Option<usize>] {
         &self.free_of_node
     }
 
-    /// Rows and columns of the stored scalars.
+    /// Start of each column among the stored scalars, and the end of the last: compressed columns of the
+    /// lower triangle, as [`Cholesky::new`](super::Cholesky::new) takes them.
     #[must_use]
-    pub fn entries(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        self.entries.as_ref()
+    pub fn column_starts(&self) -> &[usize] {
+        self.entries().col_ptr()
+    }
+
+    /// Row of each stored scalar, ascending in each column from the diagonal.
+    #[must_use]
+    pub fn row_indices(&self) -> &[usize] {
+        self.entries().row_idx()
+    }
+
+    pub(crate) fn entries(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        (*self.entries).as_ref()
+    }
+
+    pub(crate) fn shared_entries(&self) -> &Arc<SymbolicSparseColMat<usize>> {
+        &self.entries
     }
 
     /// Index of the first block of each column of blocks.
@@ -147,24 +168,24 @@ impl Pattern {
         &self.columns
     }
 
-    /// What adds up to a block.
-    pub(crate) fn contributions(&self, block: usize) -> &[Contribution] {
+    /// The element blocks that add up to a block.
+    pub(crate) fn contributions(&self, block: usize) -> &[ElementBlock] {
         &self.gather[self.gather_starts[block]..self.gather_starts[block + 1]]
     }
 
-    /// The block of two free nodes, row ≥ column.
+    /// Index of the block of two free nodes, row ≥ column.
     pub(crate) fn block(&self, row: usize, column: usize) -> Option<usize> {
         let start = self.columns[column];
         self.rows[start..self.columns[column + 1]].binary_search(&row).ok().map(|position| start + position)
     }
 
-    /// Where the scalars of a column of blocks start.
+    /// Index of the first scalar of a column of blocks.
     pub(crate) fn column_start(&self, column: usize) -> usize {
         // The k-th block brings 9 scalars, the one on the diagonal 6.
         9 * self.columns[column] - 3 * column
     }
 
-    /// Where entry (r, c) of a block of this column is stored. On the diagonal only r ≥ c is.
+    /// Index of entry (r, c) of a block of this column. On the diagonal only r ≥ c is stored.
     pub(crate) fn scalar(&self, column: usize, block: usize, r: usize, c: usize) -> usize {
         let below = self.columns[column + 1] - self.columns[column] - 1;
         // Columns c' < c hold 3 − c' scalars of the diagonal block and 3 of each block below.
@@ -176,7 +197,7 @@ impl Pattern {
     }
 }
 
-/// The free nodes in an order that keeps a Cholesky factor sparse.
+/// Orders the free nodes so that a Cholesky factor stays sparse.
 fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, LinearError> {
     let mut pinned = vec![false; nodes];
     for &node in pins.nodes() {

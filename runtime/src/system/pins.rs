@@ -1,25 +1,25 @@
-//! Which nodes are held.
+//! Sets of nodes that are held.
 //!
-//! Pins say which; where they are held, and how they move, is told to the simulation.
+//! Where they are held, and how they move, belongs to the [simulation](crate::step::Simulation).
 
 use std::fmt;
 
 use crate::mesh::{Bounds, TetMesh};
 
-/// Nodes that go where they are told.
+/// Nodes with prescribed positions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pins {
     nodes: Vec<usize>,
 }
 
 impl Pins {
-    /// A free body.
+    /// No pins: a free body.
     #[must_use]
     pub fn none() -> Self {
         Self::default()
     }
 
-    /// These nodes, in any order.
+    /// Pins at these nodes, in any order.
     #[must_use]
     pub fn at(nodes: impl IntoIterator<Item = usize>) -> Self {
         let mut nodes: Vec<usize> = nodes.into_iter().collect();
@@ -28,20 +28,20 @@ impl Pins {
         Self { nodes }
     }
 
-    /// The nodes that lie in a box at rest.
+    /// Pins at the nodes that lie in a box at rest.
     ///
     /// # Errors
-    /// Where there are none.
+    /// [`PinError::EmptyBox`].
     pub fn in_box(mesh: &TetMesh, bounds: Bounds) -> Result<Self, PinError> {
         let inside = mesh.positions.iter().enumerate().filter(|&(_, &x)| bounds.contains(x));
         let pins = Self::at(inside.map(|(node, _)| node));
         if pins.nodes.is_empty() { Err(PinError::EmptyBox { bounds, body: mesh.bounds() }) } else { Ok(pins) }
     }
 
-    /// The nodes of a group of any dimension, such as a physical group of Gmsh.
+    /// Pins at the nodes of a group of any dimension, such as a physical group of Gmsh.
     ///
     /// # Errors
-    /// Where there is no such group, or none of its nodes belongs to a tetrahedron.
+    /// [`PinError::NoSuchGroup`], or [`PinError::EmptyGroup`] if none of its nodes belongs to a tetrahedron.
     pub fn of_group(mesh: &TetMesh, name: &str) -> Result<Self, PinError> {
         // Gmsh allows one name in each dimension.
         let nodes = mesh.groups.iter().filter(|group| group.name == name).flat_map(|group| &group.nodes);
@@ -56,40 +56,40 @@ impl Pins {
         }
     }
 
-    /// These and others.
+    /// Union with other pins.
     #[must_use]
     pub fn and(self, others: &Self) -> Self {
         Self::at(self.nodes.into_iter().chain(others.nodes.iter().copied()))
     }
 
-    /// The nodes, ascending.
+    /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn nodes(&self) -> &[usize] {
         &self.nodes
     }
 }
 
-/// Why there is nothing to pin.
+/// Reason why there is nothing to pin.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PinError {
     /// No node lies in the box.
     EmptyBox {
-        /// The box as given.
+        /// The box.
         bounds: Bounds,
         /// The box around the body.
         body: Bounds,
     },
     /// There is no group of this name.
     NoSuchGroup {
-        /// As given.
+        /// The missing group.
         name: String,
         /// The groups that exist.
         existing: Vec<String>,
     },
     /// A group without nodes.
     EmptyGroup {
-        /// Its name.
+        /// Name of the group.
         name: String,
     },
 }

@@ -1,8 +1,9 @@
-//! The stiffnesses of all elements, block by block, on their way into a matrix: see [assembly](super::assemble).
+//! The stiffnesses of all elements, block by block, on their way into a matrix: see
+//! [assembly](super::assemble).
 
-use super::Body;
 use super::assemble::Tangents;
-use super::element::{Element, Group, Stiffness, pair};
+use super::body::Body;
+use super::element::{ElementGroup, Stiffness, Tetrahedron, pair};
 use super::fill::{NodePairs, fill};
 use super::pattern::Pattern;
 use crate::batch::TileMaterial;
@@ -11,6 +12,7 @@ use crate::point::Filter;
 use crate::status::Status;
 
 /// The filtered stiffness of each element, 720 bytes, where they were evaluated last: zero before that.
+#[derive(Clone)]
 pub(crate) struct ElementStiffnesses {
     tiles: Vec<[Stiffness; TILE]>,
     /// The tile of each element and its lane there.
@@ -50,7 +52,7 @@ impl ElementStiffnesses {
         }
     }
 
-    /// Adds a factor times K d to `total` for the displacement d of each node; it may cost little to be zero.
+    /// Adds a factor times K d to `total` for the displacement d of each node. Nodes with d = 0 cost little.
     pub(crate) fn add_product(
         &self,
         body: &Body,
@@ -133,9 +135,9 @@ impl Tangents for ElementStiffnesses {
 
     fn evaluate(
         tile: &mut Self::Tile,
-        group: &mut Group,
+        group: &mut ElementGroup,
         material: &dyn TileMaterial<f64>,
-        elements: &[Element],
+        elements: &[Tetrahedron],
         filter: Filter,
     ) -> Status<u64> {
         group.evaluate_stiffnesses(material, elements, filter, tile)

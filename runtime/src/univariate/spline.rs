@@ -21,9 +21,16 @@ use crate::material::Inadmissible;
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "Vec<[f64; 2]>", try_from = "Vec<[f64; 2]>")
+)]
 pub struct Spline {
     /// Abscissae of the control points.
     knots: Vec<f64>,
+    /// φ′ at the control points.
+    forces: Vec<f64>,
     /// Piece k ends at knot k, and one more follows the last knot. The first and the last are straight lines.
     pieces: Vec<Piece>,
 }
@@ -55,7 +62,7 @@ impl Spline {
             ));
         }
         let moments = moments(points);
-        let knots: Vec<f64> = points.iter().map(|point| point[0]).collect();
+        let (knots, forces) = points.iter().map(|&[x, force]| (x, force)).unzip();
         let mut pieces = Vec::new();
         for (k, pair) in points.windows(2).enumerate() {
             let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
@@ -78,12 +85,17 @@ impl Spline {
         }
         let last = points.len() - 1;
         pieces.push(pieces[last].straight_from(points[last][0]));
-        let mut spline = Self { knots, pieces };
+        let mut spline = Self { knots, forces, pieces };
         let at_rest = spline.value(1.0);
         for piece in &mut spline.pieces {
             piece.coefficients[0] -= at_rest;
         }
         Ok(spline)
+    }
+
+    /// The control points (x, φ′) that it was made from.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
+        self.knots.iter().zip(&self.forces).map(|(&x, &force)| [x, force])
     }
 
     /// The coefficients of the piece that x lies in, for each lane, and the distance of x from its anchor.
@@ -100,6 +112,20 @@ impl Spline {
             anchor = R::select(is_before, anchor, R::splat(piece.anchor));
         }
         (coefficients, x - anchor)
+    }
+}
+
+impl From<Spline> for Vec<[f64; 2]> {
+    fn from(spline: Spline) -> Self {
+        spline.points().collect()
+    }
+}
+
+impl TryFrom<Vec<[f64; 2]>> for Spline {
+    type Error = Inadmissible;
+
+    fn try_from(points: Vec<[f64; 2]>) -> Result<Self, Inadmissible> {
+        Self::through(&points)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use piola::mesh::embed::Anchor;
+use piola::mesh::Anchor;
 use piola::step::StepReport;
 use serde::{Deserialize, Serialize};
 

@@ -10,9 +10,8 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use peak_alloc::PeakAlloc;
 use piola::material::Moduli;
-use piola::mesh::Bounds;
-use piola::mesh::boxes::tetrahedral_box;
-use piola::step::{self, LinearSolver, NewtonSettings, Simulation};
+use piola::mesh::{Bounds, tetrahedral_box};
+use piola::step::{LinearSolver, NewtonSettings, Simulation, SimulationSettings};
 use piola::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
 use rayon::ThreadPool;
@@ -164,8 +163,8 @@ impl Series {
         let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
         let (min, max) = ([-1.0; 3], [1e-9, 2.0, 2.0]);
         let pins = Pins::in_box(&mesh, Bounds { min, max })?;
-        let newton = NewtonSettings { linear: self.linear, ..NewtonSettings::single() };
-        let settings = step::Settings { gravity: [0.0, -9.81, 0.0], newton, ..step::Settings::default() };
+        let newton = NewtonSettings::single().with_linear(self.linear);
+        let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
         Ok(Simulation::new(body, &pins, settings)?)
     }
 }

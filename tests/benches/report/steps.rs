@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use piola::point::Filter;
-use piola::step::{self, Damping, Filtering, LinearSolver, NewtonSettings};
+use piola::step::{Damping, Filtering, LinearSolver, NewtonSettings, SimulationSettings};
 
 use crate::data::StepRow;
 
@@ -94,7 +94,7 @@ fn rows_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Vec<St
         progress.set_message(course.body.name());
         let reference = reference(course, FINE, progress)?;
         let finer = reference_row(course, &reference, progress)?;
-        let exact = NewtonSettings { tolerance: 1e-12, max_iterations: 100, ..NewtonSettings::default() };
+        let exact = NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100);
         let (solved, _) = follow(course, 1.0, exact).map_err(|error| named(course, &error))?;
         progress.inc(1);
         rows.push(finer);
@@ -138,16 +138,11 @@ fn ways() -> Vec<Way> {
         ways.push(way("h", "one iteration", division, NewtonSettings::single()));
     }
     for iterations in [2, 4] {
-        let newton = NewtonSettings { max_iterations: iterations, tolerance: 0.0, ..full };
+        let newton = full.with_max_iterations(iterations).with_tolerance(0.0);
         ways.push(way("newton", &format!("{iterations} iterations"), 1.0, newton));
     }
     for tolerance in [1e-1, 1e-2, 1e-4, 1e-8] {
-        ways.push(way(
-            "newton",
-            &format!("tolerance {tolerance:e}"),
-            1.0,
-            NewtonSettings { tolerance, ..full },
-        ));
+        ways.push(way("newton", &format!("tolerance {tolerance:e}"), 1.0, full.with_tolerance(tolerance)));
     }
     for (name, filtering) in [
         ("no filter", Filtering::Always(Filter::None)),
@@ -156,15 +151,15 @@ fn ways() -> Vec<Way> {
         ("on demand", Filtering::OnDemand),
         ("trust region", Filtering::TrustRegion { tolerance: 0.01 }),
     ] {
-        ways.push(way("filter", name, 1.0, NewtonSettings { filtering, ..full }));
+        ways.push(way("filter", name, 1.0, full.with_filtering(filtering)));
     }
     ways.push(way("solver", "Cholesky f64", 1.0, full));
     let refined = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
-    ways.push(way("solver", "Cholesky f32, refined", 1.0, NewtonSettings { linear: refined, ..full }));
+    ways.push(way("solver", "Cholesky f32, refined", 1.0, full.with_linear(refined)));
     for tolerance in [1e-1, 1e-2, 1e-4, 1e-8] {
         let linear = LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 };
         let setting = format!("conjugate gradients {tolerance:e}");
-        ways.push(way("solver", &setting, 1.0, NewtonSettings { linear, ..full }));
+        ways.push(way("solver", &setting, 1.0, full.with_linear(linear)));
     }
     ways
 }
@@ -179,7 +174,7 @@ fn follow(course: &Course, division: f64, newton: NewtonSettings) -> Result<(Tra
 }
 
 fn reference(course: &Course, fine: usize, progress: &ProgressBar) -> Result<Track, String> {
-    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let newton = NewtonSettings::default().with_tolerance(1e-10);
     let (track, _) = follow(course, fine as f64, newton).map_err(|error| named(course, &error))?;
     progress.inc(1);
     Ok(track)
@@ -250,6 +245,6 @@ impl StepRow {
 }
 
 /// What the scenes ask for, with another Newton.
-fn step_settings(damping: Damping, newton: NewtonSettings) -> step::Settings {
-    step::Settings { damping, newton, ..step::Settings::default() }
+fn step_settings(damping: Damping, newton: NewtonSettings) -> SimulationSettings {
+    SimulationSettings::default().with_damping(damping).with_newton(newton)
 }

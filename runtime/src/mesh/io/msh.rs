@@ -5,32 +5,34 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::{Cursor, Line, Problem, ReadError, keep_used_nodes, named, read};
+use super::text::{Cursor, Line, Problem, ReadError, named, read};
 use crate::mesh::{Group, TetMesh};
 
 mod version2;
 mod version4;
 
-/// Gmsh's number for a linear tetrahedron.
+/// Gmsh's type number of a linear tetrahedron.
 const TETRAHEDRON: usize = 4;
 
 /// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
 ///
-/// Nodes may have any tags; those that belong to no tetrahedron are dropped. Elements of other types count only for
-/// the nodes of their groups. A group without a name is called by its number. Rest volumes are judged later, by
-/// [`TetMesh::rest_shapes`].
+/// Nodes may have any tags; those that belong to no tetrahedron are dropped. Elements of other types count
+/// only for the nodes of their groups. A group without a name is called by its number. Rest volumes are
+/// checked later, by [`TetMesh::rest_shapes`].
 ///
 /// # Errors
-/// Where the file cannot be read or a line of it (named) is malformed; where it is binary, of another version,
+/// [`ReadError`], which names the line if it is malformed or if the file is binary, of another version,
 /// partitioned, or without linear tetrahedra.
 pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     read(path.as_ref(), parse)
 }
 
-/// The same from text already in memory, such as a file that is part of the program; `name` goes into complaints.
+/// Parses the linear tetrahedra of a Gmsh file from text in memory; `name` stands for the file in errors.
+///
+/// Otherwise like [`read_msh`].
 ///
 /// # Errors
-/// Where a line is malformed, as above.
+/// [`ReadError::Malformed`].
 pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     named(name.as_ref(), parse(text))
 }
@@ -75,7 +77,7 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
     file.into_mesh(cursor.number + 1)
 }
 
-/// Of the format.
+/// Version of the format.
 #[derive(Clone, Copy)]
 enum Version {
     /// 2.2.
@@ -84,7 +86,7 @@ enum Version {
     Four,
 }
 
-/// What the sections of a file say.
+/// Contents of the sections of a file.
 #[derive(Default)]
 struct File {
     /// Names of physical groups by dimension and tag.
@@ -138,7 +140,7 @@ impl File {
         Ok(())
     }
 
-    /// The next word of an element as the index of a node.
+    /// Parses the next word of an element as the index of a node.
     fn node(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
         let tag = line.number("the tag of a node")?;
         self.node_of_tag
@@ -147,12 +149,12 @@ impl File {
             .ok_or_else(|| line.problem(format!("the element names node {tag}, which is not given above")))
     }
 
-    /// The next four words of an element as the indices of its nodes.
+    /// Parses the next four words of an element as the indices of its nodes.
     fn tetrahedron(&self, line: &mut Line<'_>) -> Result<[usize; 4], Problem> {
         Ok([self.node(line)?, self.node(line)?, self.node(line)?, self.node(line)?])
     }
 
-    /// The remaining words of an element as the indices of its nodes.
+    /// Parses the remaining words of an element as the indices of its nodes.
     fn nodes_of_element(&self, line: &mut Line<'_>) -> Result<Vec<usize>, Problem> {
         let mut nodes = Vec::new();
         while line.words.clone().next().is_some() {
@@ -181,18 +183,18 @@ impl File {
             Group { name, dimension, ..group }
         });
         let (positions, groups) = (self.positions, groups.collect());
-        Ok(keep_used_nodes(TetMesh { positions, tets: self.tets, tags: self.tags, groups }))
+        Ok(TetMesh { positions, tets: self.tets, tags: self.tags, groups }.without_unused_nodes())
     }
 }
 
-/// Goes behind the end of a section of no interest.
+/// Skips a section.
 fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
     let end = format!("$End{name}");
     while cursor.next(&format!("`{end}`"))?.text.trim() != end {}
     Ok(())
 }
 
-/// At most 40 characters, for a complaint.
+/// Shortens a text to at most 40 characters, for a message.
 fn clip(text: &str) -> String {
     text.chars().take(40).collect()
 }

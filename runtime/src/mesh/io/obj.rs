@@ -1,24 +1,35 @@
-//! Surfaces from Wavefront OBJ files: `v` and `f` lines, everything else is passed over.
+//! Surfaces from Wavefront OBJ files: `v` and `f` lines, all others are skipped.
 
 use std::path::Path;
 
-use super::{Line, Problem, ReadError, Surface, named, read};
+use super::text::{Line, Problem, ReadError, named, read};
+
+/// Triangle surface, such as one that is drawn in place of the tetrahedra it is embedded in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Position of each vertex, m, in the order of the file.
+    pub positions: Vec<[f64; 3]>,
+    /// Vertices of each triangle, from 0, in the orientation of the file.
+    pub triangles: Vec<[usize; 3]>,
+}
 
 /// Reads the triangles of a Wavefront OBJ file.
 ///
-/// Polygons become fans around their first vertex. Indices may count from the end, and may carry texture and normal
-/// indices, which are passed over like every line other than `v` and `f`.
+/// Polygons become fans around their first vertex. Indices may count from the end, and may carry texture and
+/// normal indices, which are skipped like every line other than `v` and `f`.
 ///
 /// # Errors
-/// Where the file cannot be read, or a line of it (named) is malformed or names a vertex that does not precede it.
+/// [`ReadError`], which names the line if it is malformed or names a vertex that does not precede it.
 pub fn read_surface_obj(path: impl AsRef<Path>) -> Result<Surface, ReadError> {
     read(path.as_ref(), parse)
 }
 
-/// The same from text already in memory, such as a file that is part of the program; `name` goes into complaints.
+/// Parses the triangles of a Wavefront OBJ file from text in memory; `name` stands for the file in errors.
+///
+/// Otherwise like [`read_surface_obj`].
 ///
 /// # Errors
-/// Where a line is malformed, as above.
+/// [`ReadError::Malformed`].
 pub fn parse_surface_obj(text: &str, name: impl AsRef<Path>) -> Result<Surface, ReadError> {
     named(name.as_ref(), parse(text))
 }
@@ -55,7 +66,7 @@ fn parse(text: &str) -> Result<Surface, Problem> {
     Ok(surface)
 }
 
-/// A word such as `7`, `7/1`, `7//3` or `-1`, as an index from 0.
+/// Parses a word such as `7`, `7/1`, `7//3` or `-1` as an index from 0.
 fn vertex(line: &Line<'_>, word: &str, vertices: usize) -> Result<usize, Problem> {
     let index: i64 = word
         .split('/')

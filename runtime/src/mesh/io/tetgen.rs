@@ -1,28 +1,30 @@
 //! Tetrahedral meshes from TetGen's pairs of files, `.node` and `.ele`.
 //!
-//! \[Si15\] Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, 2015; formats in the manual, "File formats".
+//! \[Si15\] Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, 2015; formats in the manual,
+//! "File formats".
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::{Cursor, Line, Problem, ReadError, keep_used_nodes, read};
+use super::text::{Cursor, Line, Problem, ReadError, read};
 use crate::mesh::{Group, TetMesh};
 
-/// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file beside it; either may be named.
+/// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file beside it; either may be
+/// named.
 ///
-/// Nodes are numbered from 0, from 1, or in any other way. Of tetrahedra with ten nodes the four corners count; one whose
-/// corners are in the other order is turned, since the format promises none. The first attribute of a tetrahedron, the
-/// number of its region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of dimension 2;
-/// both are called by their numbers. Nodes that belong to no tetrahedron are dropped.
+/// Nodes may be numbered in any way. Of tetrahedra with ten nodes the four corners count. The format promises
+/// no orientation: negative tetrahedra are turned. The first attribute of a tetrahedron, the number of its
+/// region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of dimension
+/// 2; both are called by their numbers. Nodes that belong to no tetrahedron are dropped.
 ///
 /// # Errors
-/// Where one of the files cannot be read or a line of it (named) is malformed, or there is no tetrahedron.
+/// [`ReadError`], which names the line if it is malformed or if there is no tetrahedron.
 pub fn read_tetgen(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     let nodes = read(&path.as_ref().with_extension("node"), parse_nodes)?;
     read(&path.as_ref().with_extension("ele"), |text| parse_tets(text, nodes))
 }
 
-/// What a `.node` file says.
+/// Contents of a `.node` file.
 #[derive(Debug, Default, PartialEq)]
 struct Nodes {
     positions: Vec<[f64; 3]>,
@@ -106,18 +108,18 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
         tets: members,
     });
     let groups = marked.chain(regions).collect();
-    Ok(keep_used_nodes(TetMesh { positions: nodes.positions, tets, tags, groups }))
+    Ok(TetMesh { positions: nodes.positions, tets, tags, groups }.without_unused_nodes())
 }
 
 impl Nodes {
-    /// The next word of a line as the index of a node.
+    /// Parses the next word of a line as the index of a node.
     fn named(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
         let number: usize = line.number("the number of a node")?;
         let index = self.index.get(&number).copied();
         index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
     }
 
-    /// The corners in the order in which their volume is positive, if they have any.
+    /// The corners in the order of positive volume, unless it is zero.
     fn turned(&self, [a, b, c, d]: [usize; 4]) -> [usize; 4] {
         let edge = |node: usize| -> [f64; 3] {
             std::array::from_fn(|i| self.positions[node][i] - self.positions[a][i])

@@ -2,6 +2,7 @@
 
 use super::differences::{check_slope, flat};
 use super::*;
+use crate::convert::{from_nalgebra, to_nalgebra};
 use crate::hand_written::ExtendedNeoHookean;
 use crate::material::Material;
 use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};

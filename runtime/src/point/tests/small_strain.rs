@@ -4,6 +4,7 @@
 //! are judged in single precision by closed forms in double.
 
 use super::*;
+use crate::convert::{from_nalgebra, to_nalgebra};
 use crate::material::Material;
 use crate::point::twice::Twice;
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::Bounds;
 use crate::random::Random;
-use crate::step::{LinearSolver, NewtonSettings, Settings, Simulation};
+use crate::step::{LinearSolver, NewtonSettings, Simulation, SimulationSettings};
 use crate::system::Pins;
 use crate::system::factored::FactoredStiffness;
 use crate::system::testing::{KIRCHHOFF, beam, shake};
@@ -16,7 +16,7 @@ fn shaken(damping: Damping, linear: LinearSolver) -> Simulation {
     let pins = Pins::in_box(&mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end");
     let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
     let newton = NewtonSettings { tolerance: 1e-11, linear, ..NewtonSettings::default() };
-    let settings = Settings { gravity: GRAVITY, damping, newton, ..Settings::default() };
+    let settings = SimulationSettings { gravity: GRAVITY, damping, newton, ..SimulationSettings::default() };
     let mut simulation = Simulation::new(body, &pins, settings).expect("a simulation");
     let mut random = Random::new(11);
     let mut positions = shake(&mut random, &mesh.positions, 0.02);
@@ -27,7 +27,8 @@ fn shaken(damping: Damping, linear: LinearSolver) -> Simulation {
     simulation
 }
 
-/// The equation of motion, with K from the products of conjugate gradients, which share no sum with the matrix.
+/// The equation of motion, with K from the products of conjugate gradients, which share no sum with the
+/// matrix.
 #[test]
 fn a_step_balances_momentum_with_the_damping_force() {
     let mut simulation = shaken(Damping::Stiffness { time: BETA }, LinearSolver::Cholesky);
@@ -98,7 +99,8 @@ fn it_takes_energy_and_leaves_a_flight() {
 
     let mesh = beam(2);
     let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
-    let settings = Settings { damping: Damping::Stiffness { time: 10.0 }, ..Settings::default() };
+    let settings =
+        SimulationSettings { damping: Damping::Stiffness { time: 10.0 }, ..SimulationSettings::default() };
     let mut flying = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     flying.set_velocities(&vec![[1.0, 2.0, 3.0]; mesh.positions.len()]).expect("finite");
     for _ in 0..10 {

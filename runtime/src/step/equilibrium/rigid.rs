@@ -1,20 +1,24 @@
-//! The rigid motions that are left to a body.
+//! Rigid motions that pins, springs and gravity leave to a body.
 
-use nalgebra::{Matrix6, SymmetricEigen};
-
-use crate::step::Simulation;
+use crate::step::implicit_euler::Simulation;
+use crate::system::linear::LinearError;
+use crate::system::linear::dense::eigen;
 use crate::system::linear::lanczos::{add, dot, norm};
 
 /// A held point forbids a motion that moves it by more than this share of the body's size.
 const HELD: f64 = 1e-6;
 
-/// A motion that is no more than this share of its parts is none: that of a body in one line or point.
+/// A motion smaller than this share of its parts counts as zero: a turn of a body in one line or point about
+/// it.
 const NO_MOTION: f64 = 1e-9;
 
-/// Motions of the free nodes that deform nothing and change no energy, three entries for each node, orthonormal in the inner
-/// product of the masses: those of the six that leave pinned nodes and pulled points alone. Gravity lets bodies turn about its
-/// own direction only.
-pub(super) fn motions(simulation: &Simulation, free: &[usize]) -> Vec<Vec<f64>> {
+/// Motions of the free nodes that deform nothing and change no energy, three entries for each node,
+/// orthonormal in the inner product of the masses: those rigid motions that leave pinned nodes and the ends
+/// of springs in place. Gravity lets bodies turn about its own direction only.
+///
+/// # Errors
+/// [`LinearError::NoEigenvalues`] for positions out of all bounds.
+pub(super) fn motions(simulation: &Simulation, free: &[usize]) -> Result<Vec<Vec<f64>>, LinearError> {
     let positions = simulation.positions();
     let centre: [f64; 3] =
         std::array::from_fn(|c| positions.iter().map(|x| x[c]).sum::<f64>() / positions.len().max(1) as f64);
@@ -31,27 +35,30 @@ pub(super) fn motions(simulation: &Simulation, free: &[usize]) -> Vec<Vec<f64>> 
         let turns = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], turns[0], turns[1], turns[2]]
     };
-    let mut constraints = Matrix6::zeros();
+    let mut constraints = [[0.0; 6]; 6];
     let pinned = simulation.pinned().iter().map(|&node| positions[node]);
-    let pulled = simulation.pulls().iter().filter(|pull| pull.stiffness > 0.0);
-    for point in pinned.chain(pulled.map(|pull| pull.anchor.position(positions))) {
+    let sprung = simulation.springs().iter().filter(|spring| spring.stiffness > 0.0);
+    for point in pinned.chain(sprung.map(|spring| spring.anchor.position(positions))) {
         let six = six(point);
-        constraints += Matrix6::from_fn(|i, j| (0..3).map(|c| six[i][c] * six[j][c]).sum::<f64>());
+        for i in 0..6 {
+            for j in 0..6 {
+                constraints[i][j] += (0..3).map(|c| six[i][c] * six[j][c]).sum::<f64>();
+            }
+        }
     }
-    // A turn that gravity resists is one that is not about its direction.
+    // Gravity resists a turn that is not about its direction.
     let weight = gravity.iter().map(|g| g * g).sum::<f64>();
     if weight > 0.0 {
-        let across = |i: usize, j: usize| f64::from(i == j) - gravity[i] * gravity[j] / weight;
-        constraints
-            .fixed_view_mut::<3, 3>(3, 3)
-            .iter_mut()
-            .enumerate()
-            .for_each(|(k, entry)| *entry += across(k % 3, k / 3));
+        for i in 0..3 {
+            for j in 0..3 {
+                constraints[3 + i][3 + j] += f64::from(i == j) - gravity[i] * gravity[j] / weight;
+            }
+        }
     }
-    let eigen = SymmetricEigen::new(constraints);
+    let (values, vectors) = eigen(6, |i, j| constraints[i][j])?;
     let masses: Vec<f64> = free.iter().flat_map(|&node| [simulation.body().masses()[node]; 3]).collect();
     let mut motions: Vec<Vec<f64>> = Vec::new();
-    for (value, weights) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+    for (value, weights) in values.iter().zip(&vectors) {
         if value.abs() > HELD * HELD {
             continue;
         }
@@ -69,5 +76,5 @@ pub(super) fn motions(simulation: &Simulation, free: &[usize]) -> Vec<Vec<f64>> 
             motions.push(motion);
         }
     }
-    motions
+    Ok(motions)
 }

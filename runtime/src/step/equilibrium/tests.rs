@@ -3,7 +3,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::*;
 use crate::batch::TileMaterial;
 use crate::mesh::TetMesh;
-use crate::step::{Pull, Settings};
+use crate::step::{SimulationSettings, Spring};
 use crate::system::StiffnessOperator;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam};
 
@@ -11,10 +11,11 @@ const DENSITY: f64 = 1000.0;
 
 fn simulation(mesh: &TetMesh, material: impl TileMaterial<f64> + 'static, pins: &Pins) -> Simulation {
     let body = Body::new(mesh, material, DENSITY).expect("a body");
-    Simulation::new(body, pins, Settings::default()).expect("a simulation")
+    Simulation::new(body, pins, SimulationSettings::default()).expect("a simulation")
 }
 
-/// All eigenvalues of M⁻¹K over the free nodes, ascending, by a dense method from products with single displacements.
+/// All eigenvalues of M⁻¹K over the free nodes, ascending, by a dense method from products with single
+/// displacements.
 fn dense(simulation: &Simulation) -> Vec<f64> {
     let (body, nodes) = (simulation.body(), simulation.positions().len());
     let mut operator = StiffnessOperator::new(body);
@@ -27,9 +28,9 @@ fn dense(simulation: &Simulation) -> Vec<f64> {
         x.as_flattened_mut()[j] = 1.0;
         operator.multiply(&x, &mut product).expect("one displacement for each node");
         x.as_flattened_mut()[j] = 0.0;
-        for pull in simulation.pulls() {
-            if pull.anchor.nodes[0] == j / 3 {
-                product[j / 3][j % 3] += pull.stiffness;
+        for spring in simulation.springs() {
+            if spring.anchor.nodes[0] == j / 3 {
+                product[j / 3][j % 3] += spring.stiffness;
             }
         }
         for (row, &i) in free.iter().enumerate() {
@@ -44,7 +45,7 @@ fn dense(simulation: &Simulation) -> Vec<f64> {
 
 /// The eigenvalue must be that of the dense method, behind so many zeros of rigid motions.
 #[track_caller]
-fn check(simulation: &Simulation, rigid: usize, verdict: Verdict) -> Equilibrium {
+fn check(simulation: &Simulation, rigid: usize, stability: Stability) -> Equilibrium {
     let equilibrium = Equilibrium::of(simulation).expect("finite");
     let values = dense(simulation);
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -59,7 +60,7 @@ fn check(simulation: &Simulation, rigid: usize, verdict: Verdict) -> Equilibrium
     let Eigenvalue { value, error } = equilibrium.smallest_eigenvalue.expect("something moves");
     assert!((value - others[0]).abs() <= error + noise, "{value:e} ± {error:e}, but {:e}", others[0]);
     assert!(error <= 1e-6 * value.abs() + noise, "{value:e} ± {error:e} says little");
-    assert_eq!((equilibrium.rigid_motions, equilibrium.verdict()), (rigid, verdict), "{equilibrium:?}");
+    assert_eq!((equilibrium.rigid_motions, equilibrium.stability()), (rigid, stability), "{equilibrium:?}");
     equilibrium
 }
 
@@ -70,7 +71,7 @@ fn a_held_body_at_rest_is_stable() {
         // The four nodes of an end, two nodes and the axis through them, one node.
         let pins = Pins::at((0..[4, 2, 1][rigid]).collect::<Vec<_>>());
         let rigid = [0, 1, 3][rigid];
-        let equilibrium = check(&simulation(&mesh, ROTATED, &pins), rigid, Verdict::Stable);
+        let equilibrium = check(&simulation(&mesh, ROTATED, &pins), rigid, Stability::Stable);
         assert!(equilibrium.is_stress_free());
         assert_eq!(equilibrium.inverted, 0);
         // A few roundings of stretches of 1.
@@ -81,10 +82,10 @@ fn a_held_body_at_rest_is_stable() {
 #[test]
 fn a_free_body_at_rest_is_stable_but_for_six_motions() {
     let mut free = simulation(&beam(3), NEO_HOOKEAN, &Pins::none());
-    check(&free, 6, Verdict::Stable);
+    check(&free, 6, Stability::Stable);
     let turned: Vec<[f64; 3]> = free.positions().iter().map(|&[x, y, z]| [5.0 - y, x, z]).collect();
     free.set_positions(&turned).expect("finite");
-    check(&free, 6, Verdict::Stable);
+    check(&free, 6, Stability::Stable);
 }
 
 #[test]
@@ -92,7 +93,7 @@ fn a_body_that_is_blind_to_reflection_is_stable_inside_out() {
     let mut body = simulation(&beam(2), KIRCHHOFF, &Pins::none());
     let mirrored: Vec<[f64; 3]> = body.positions().iter().map(|x| x.map(|c| -c)).collect();
     body.set_positions(&mirrored).expect("finite");
-    let equilibrium = check(&body, 6, Verdict::Stable);
+    let equilibrium = check(&body, 6, Stability::Stable);
     assert!(equilibrium.is_stress_free());
     assert_eq!((equilibrium.inverted, equilibrium.smallest_sum), (12, 0.0));
 }
@@ -101,16 +102,16 @@ fn a_body_that_is_blind_to_reflection_is_stable_inside_out() {
 fn a_point_without_forces_is_a_saddle() {
     let mut body = simulation(&beam(2), KIRCHHOFF, &Pins::none());
     body.set_positions(&vec![[0.3; 3]; body.positions().len()]).expect("finite");
-    let equilibrium = check(&body, 3, Verdict::Saddle);
+    let equilibrium = check(&body, 3, Stability::Saddle);
     assert_eq!((equilibrium.residual, equilibrium.inverted), (0.0, 0));
 }
 
 #[test]
-fn a_pull_holds_a_point_and_stiffens_it() {
+fn a_spring_holds_a_point_and_stiffens_it() {
     let mut body = simulation(&beam(2), ROTATED, &Pins::none());
     let target = body.positions()[0];
-    body.set_pulls(&[Pull::on_node(0, target, 100.0)]).expect("a pull");
-    check(&body, 3, Verdict::Stable);
+    body.set_springs(&[Spring::on_node(0, target, 100.0)]).expect("a spring");
+    check(&body, 3, Stability::Stable);
 }
 
 #[test]
@@ -118,7 +119,7 @@ fn unbalanced_forces_are_no_equilibrium() {
     let mut body = simulation(&beam(2), ROTATED, &Pins::at([0, 1, 2, 3]));
     let stretched: Vec<[f64; 3]> = body.positions().iter().map(|&[x, y, z]| [1.1 * x, y, z]).collect();
     body.set_positions(&stretched).expect("finite");
-    let equilibrium = check(&body, 0, Verdict::Unbalanced);
+    let equilibrium = check(&body, 0, Stability::Unbalanced);
     assert!(equilibrium.residual > 0.1 * equilibrium.largest_force && !equilibrium.is_stress_free());
 }
 
@@ -127,5 +128,5 @@ fn where_nothing_is_free_nothing_is_said() {
     let mesh = beam(1);
     let body = simulation(&mesh, ROTATED, &Pins::at(0..mesh.positions.len()));
     let equilibrium = Equilibrium::of(&body).expect("finite");
-    assert_eq!((equilibrium.smallest_eigenvalue, equilibrium.verdict()), (None, Verdict::Stable));
+    assert_eq!((equilibrium.smallest_eigenvalue, equilibrium.stability()), (None, Stability::Stable));
 }

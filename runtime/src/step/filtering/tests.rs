@@ -1,18 +1,19 @@
 use super::*;
 use crate::mesh::Bounds;
-use crate::step::{Convergence, NewtonReport, NewtonSettings, Settings, Simulation};
+use crate::step::{Convergence, NewtonReport, NewtonSettings, Simulation, SimulationSettings};
 use crate::system::Pins;
 use crate::system::testing::{NEO_HOOKEAN, beam};
 
 const TRUST: Filtering = Filtering::TrustRegion { tolerance: 0.01 };
 
-/// A beam of which one end is held and the rest is scaled along x and thrown aside: its report and positions after a step.
+/// A beam of which one end is held and the rest is scaled along x and thrown aside: its report and positions
+/// after a step.
 fn stepped(filtering: Filtering, scale: f64, max_iterations: usize) -> (NewtonReport, Vec<[f64; 3]>) {
     let mesh = beam(6);
     let pins = Pins::in_box(&mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end");
     let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
     let newton = NewtonSettings { filtering, max_iterations, tolerance: 1e-9, ..NewtonSettings::default() };
-    let settings = Settings { newton, ..Settings::default() };
+    let settings = SimulationSettings { newton, ..SimulationSettings::default() };
     let mut simulation = Simulation::new(body, &pins, settings).expect("a simulation");
     let bent: Vec<_> =
         mesh.positions.iter().map(|&[x, y, z]| [scale * x, y + 0.3 * scale * x * x, z]).collect();

@@ -1,20 +1,20 @@
 use super::*;
 use crate::batch::TileMaterial;
-use crate::mesh::{Bounds, TetMesh, read_msh};
+use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
 use crate::random::Random;
-use crate::step::{Convergence, Filtering, Guess, LinearSolver, NewtonSettings};
+use crate::step::{Convergence, Filtering, InitialGuess, LinearSolver, NewtonSettings};
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
-fn settings(newton: NewtonSettings) -> Settings {
-    Settings { newton, ..Settings::default() }
+fn settings(newton: NewtonSettings) -> SimulationSettings {
+    SimulationSettings { newton, ..SimulationSettings::default() }
 }
 
 fn simulation(
     mesh: &TetMesh,
     material: impl TileMaterial<f64> + 'static,
     pins: &Pins,
-    settings: Settings,
+    settings: SimulationSettings,
 ) -> Simulation {
     Simulation::new(Body::new(mesh, material, 1000.0).expect("a body"), pins, settings).expect("a simulation")
 }
@@ -37,7 +37,11 @@ fn a_free_body_falls_without_deforming() {
         &mesh,
         ROTATED,
         &Pins::none(),
-        Settings { gravity, damping: Damping::Mass { rate }, ..settings(NewtonSettings::default()) },
+        SimulationSettings {
+            gravity,
+            damping: Damping::Mass { rate },
+            ..settings(NewtonSettings::default())
+        },
     );
     let (mut v, mut fall) = ([0.0; 3], [0.0; 3]);
     for _ in 0..10 {
@@ -93,7 +97,8 @@ fn energy_never_grows_without_loads() {
         for _ in 0..60 {
             let report = body.step(0.02).expect("a step");
             let next = report.energies.total();
-            // The minimised objective bounds the energy by that of the state before, up to the rounding of both.
+            // The minimised objective bounds the energy by that of the state before, up to the rounding of
+            // both.
             assert!(next <= energy * (1.0 + 1e-12), "{energy} grew to {next}");
             energy = next;
         }
@@ -111,8 +116,12 @@ fn full_newton_converges_quadratically() {
             tolerance: 1e-15,
             ..Default::default()
         };
-        let mut body =
-            simulation(&mesh, KIRCHHOFF, &left_end(&mesh), Settings { gravity, ..settings(newton) });
+        let mut body = simulation(
+            &mesh,
+            KIRCHHOFF,
+            &left_end(&mesh),
+            SimulationSettings { gravity, ..settings(newton) },
+        );
         body.step(0.05).expect("a step").newton.residual
     };
     // The residual of a report is the one before its last iteration.
@@ -131,8 +140,12 @@ fn a_report_says_why_newton_ended() {
     let mesh = beam(3);
     let gravity = [0.0, -9.81, 0.0];
     let run = |newton: NewtonSettings| {
-        let mut body =
-            simulation(&mesh, KIRCHHOFF, &left_end(&mesh), Settings { gravity, ..settings(newton) });
+        let mut body = simulation(
+            &mesh,
+            KIRCHHOFF,
+            &left_end(&mesh),
+            SimulationSettings { gravity, ..settings(newton) },
+        );
         body.step(0.05).expect("a step").newton
     };
     assert_eq!(run(NewtonSettings::default()).convergence, Convergence::Tolerance);
@@ -166,7 +179,7 @@ fn pins_hold_and_move_as_told() {
             &mesh,
             ROTATED,
             &pins,
-            Settings { damping: Damping::Mass { rate: 5.0 }, ..settings(newton) },
+            SimulationSettings { damping: Damping::Mass { rate: 5.0 }, ..settings(newton) },
         );
         for step in 1..=40 {
             let shift = 0.01 * step as f64;
@@ -210,18 +223,18 @@ fn moving_pins_enter_the_right_side() {
 }
 
 #[test]
-fn a_pull_stretches_until_forces_balance() {
+fn a_spring_stretches_until_forces_balance() {
     let mesh = beam(2);
     let mut body = simulation(
         &mesh,
         ROTATED,
         &Pins::none(),
-        Settings { damping: Damping::Mass { rate: 10.0 }, ..settings(NewtonSettings::default()) },
+        SimulationSettings { damping: Damping::Mass { rate: 10.0 }, ..settings(NewtonSettings::default()) },
     );
     let element = body.body().elements()[3];
-    let anchor = crate::mesh::embed::Anchor { nodes: element.nodes, weights: [0.25; 4] };
+    let anchor = crate::mesh::Anchor { nodes: element.nodes, weights: [0.25; 4] };
     let target = [0.3, 0.4, -0.2];
-    body.set_pulls(&[Pull { anchor, target, stiffness: 500.0 }]).expect("one element");
+    body.set_springs(&[Spring { anchor, target, stiffness: 500.0 }]).expect("one element");
     for _ in 0..400 {
         body.step(0.05).expect("a step");
     }
@@ -229,11 +242,12 @@ fn a_pull_stretches_until_forces_balance() {
     for c in 0..3 {
         assert!((point[c] - target[c]).abs() <= 1e-6, "{point:?}");
     }
-    body.set_pulls(&[Pull::on_node(0, [0.0; 3], 1.0), Pull::on_node(11, [0.0; 3], 0.0)]).expect("nodes");
-    let far = crate::mesh::embed::Anchor { nodes: [0, 11, 0, 0], weights: [0.5, 0.5, 0.0, 0.0] };
-    let error = body.set_pulls(&[Pull { anchor: far, target, stiffness: 1.0 }]).expect_err("two ends");
-    assert_eq!(error, SetupError::PullAcrossElements { index: 0 });
-    assert_eq!(body.pulls().len(), 2, "the pulls before are still there");
+    body.set_springs(&[Spring::on_node(0, [0.0; 3], 1.0), Spring::on_node(11, [0.0; 3], 0.0)])
+        .expect("nodes");
+    let far = crate::mesh::Anchor { nodes: [0, 11, 0, 0], weights: [0.5, 0.5, 0.0, 0.0] };
+    let error = body.set_springs(&[Spring { anchor: far, target, stiffness: 1.0 }]).expect_err("two ends");
+    assert_eq!(error, SetupError::SpringAcrossElements { index: 0 });
+    assert_eq!(body.springs().len(), 2, "the springs before are still there");
 }
 
 #[test]
@@ -248,7 +262,7 @@ fn a_collapsed_body_recovers_without_nan() {
             &mesh,
             ROTATED,
             &pins,
-            Settings { damping: Damping::Mass { rate: 2.0 }, ..settings(NewtonSettings::single()) },
+            SimulationSettings { damping: Damping::Mass { rate: 2.0 }, ..settings(NewtonSettings::single()) },
         );
         let start =
             mesh.positions.iter().enumerate().map(|(node, x)| if node < 4 { *x } else { collapse(x) });
@@ -266,8 +280,12 @@ fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
     let mesh = beam(3);
     let pins = left_end(&mesh);
     let gravity = [-400.0, 0.0, 0.0];
-    let mut body =
-        simulation(&mesh, NEO_HOOKEAN, &pins, Settings { gravity, ..settings(NewtonSettings::single()) });
+    let mut body = simulation(
+        &mesh,
+        NEO_HOOKEAN,
+        &pins,
+        SimulationSettings { gravity, ..settings(NewtonSettings::single()) },
+    );
     let mut refused = 0;
     for _ in 0..20 {
         let report = body.step(0.05).expect("a shorter step");
@@ -326,8 +344,8 @@ fn an_indefinite_matrix_is_shifted_and_reported() {
 fn nonsense_is_refused_with_a_reason() {
     let mesh = beam(1);
     let body = || Body::new(&mesh, ROTATED, 1000.0).expect("a body");
-    let message = |change: &dyn Fn(&mut Settings)| {
-        let mut settings = Settings::default();
+    let message = |change: &dyn Fn(&mut SimulationSettings)| {
+        let mut settings = SimulationSettings::default();
         change(&mut settings);
         Simulation::new(body(), &Pins::none(), settings).expect_err("nonsense").to_string()
     };
@@ -340,13 +358,18 @@ fn nonsense_is_refused_with_a_reason() {
     assert_eq!(message(&|s| s.newton.tolerance = f64::NAN), "the tolerance must be at least 0 and below 1");
     assert_eq!(message(&|s| s.line_search.shrink = 1.0), "the shrinking factor must be between 0 and 1");
 
-    let error = Simulation::new(body(), &Pins::at([8]), Settings::default()).expect_err("no such node");
+    let error =
+        Simulation::new(body(), &Pins::at([8]), SimulationSettings::default()).expect_err("no such node");
     assert_eq!(error.to_string(), "there is no node 8 (from 0) among 8");
-    let mut simulation = Simulation::new(body(), &Pins::at([1]), Settings::default()).expect("a simulation");
+    let mut simulation =
+        Simulation::new(body(), &Pins::at([1]), SimulationSettings::default()).expect("a simulation");
     assert_eq!(simulation.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));
     assert_eq!(simulation.set_positions(&[[0.0; 3]]), Err(SetupError::Length { expected: 8, found: 1 }));
     assert_eq!(simulation.set_velocities(&[[f64::INFINITY; 3]; 8]), Err(SetupError::NotFinite { node: 0 }));
-    assert_eq!(simulation.set_pulls(&[Pull::on_node(0, [0.0; 3], -1.0)]), Err(SetupError::Pull { index: 0 }));
+    assert_eq!(
+        simulation.set_springs(&[Spring::on_node(0, [0.0; 3], -1.0)]),
+        Err(SetupError::Spring { index: 0 })
+    );
     let error = simulation.step(0.0).expect_err("no time");
     assert_eq!(error.to_string(), "the time step is 0 s; it must be a positive number");
 }
@@ -363,8 +386,8 @@ fn a_body_with_every_node_pinned_moves_as_told() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/assets/dinosaur.msh");
-    let mesh = read_msh(path).expect("a committed mesh");
+    // 2400 elements: several pieces of work for each thread in every parallel loop.
+    let mesh = tetrahedral_box([16, 5, 5], [3.2, 1.0, 1.0]).expect("a box");
     let start = shake(&mut Random::new(5), &mesh.positions, 0.05);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -384,7 +407,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     assert_eq!(one, run(3));
 }
 
-/// Forces balance to the last digits, under gravity and a pull.
+/// Forces balance to the last digits, under gravity and a spring.
 #[test]
 fn statics_finds_an_equilibrium() {
     let mesh = beam(6);
@@ -392,10 +415,10 @@ fn statics_finds_an_equilibrium() {
     for linear in
         [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
     {
-        let settings = Settings {
+        let settings = SimulationSettings {
             gravity: [0.0, -9.81, 0.0],
             newton: NewtonSettings { linear, ..newton },
-            ..Settings::default()
+            ..SimulationSettings::default()
         };
         let mut body = simulation(&mesh, KIRCHHOFF, &left_end(&mesh), settings);
         body.set_velocities(&vec![[1.0, 0.0, 0.0]; mesh.positions.len()]).expect("finite");
@@ -429,7 +452,8 @@ fn statics_of_a_free_body_leaves_it_where_it_is() {
     let after = total(body.body().masses(), body.positions());
     let mass: f64 = body.body().masses().iter().sum();
     for c in 0..3 {
-        // What rounding leaves of the sum of the forces, 10⁻¹³ N, meets the guard alone, 10⁻⁸ of a stiffness of 10⁴ N/m.
+        // What rounding leaves of the sum of the forces, 10⁻¹³ N, meets the guard alone, 10⁻⁸ of a stiffness
+        // of 10⁴ N/m.
         assert!((after[c] - before[c]).abs() <= 1e-8 * mass, "{before:?} became {after:?}");
     }
     for (x, rest) in body.positions().iter().zip(&mesh.positions) {
@@ -442,7 +466,7 @@ fn statics_of_a_free_body_leaves_it_where_it_is() {
 #[test]
 fn velocities_are_a_good_guess_in_flight_and_harmless_elsewhere() {
     let mesh = beam(4);
-    let newton = NewtonSettings { start: Guess::Velocity, ..NewtonSettings::default() };
+    let newton = NewtonSettings { start: InitialGuess::Velocity, ..NewtonSettings::default() };
     let mut flying = simulation(&mesh, ROTATED, &Pins::none(), settings(newton));
     flying.set_velocities(&vec![[1.0, 2.0, 0.0]; mesh.positions.len()]).expect("finite");
     let report = flying.step(0.5).expect("a step").newton;
@@ -481,12 +505,12 @@ fn no_setting_returns_nan() {
         ];
         let damping =
             [Damping::None, Damping::Mass { rate: number() }, Damping::Stiffness { time: number() }];
-        let settings = Settings {
+        let settings = SimulationSettings {
             gravity: [0.0, if case % 5 == 0 { number() } else { -9.81 }, 0.0],
             damping: damping[case % 3],
             newton: NewtonSettings {
                 filtering: if case % 2 == 0 { filters[case / 2 % 3] } else { filtering[case / 2 % 2] },
-                start: [Guess::Position, Guess::Velocity][case / 3 % 2],
+                start: [InitialGuess::Position, InitialGuess::Velocity][case / 3 % 2],
                 max_iterations: 1 + case % 7,
                 tolerance: if case % 11 == 0 { number() } else { 1e-8 },
                 linear: linear[case / 5 % 3],
@@ -539,9 +563,56 @@ fn the_solver_fits_the_body_and_may_be_chosen() {
             &mesh,
             ROTATED,
             &left_end(&mesh),
-            Settings { gravity: [0.0, -9.81, 0.0], ..settings(newton) },
+            SimulationSettings { gravity: [0.0, -9.81, 0.0], ..settings(newton) },
         );
         body.step(0.05).expect("a step")
     };
     assert_eq!(run(LinearSolver::Automatic), run(LinearSolver::Cholesky));
+}
+
+/// A copy taken in the middle of a motion goes on with the same bits, and does not move the original.
+#[test]
+fn a_clone_is_independent_and_exact() {
+    let mesh = beam(4);
+    for linear in [
+        LinearSolver::Cholesky,
+        LinearSolver::RefinedCholesky { tolerance: 1e-8 },
+        LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
+    ] {
+        let newton = NewtonSettings::default()
+            .with_linear(linear)
+            .with_filtering(Filtering::TrustRegion { tolerance: 0.01 });
+        let settings = SimulationSettings::default()
+            .with_gravity([0.0, -9.81, 0.0])
+            .with_damping(Damping::Stiffness { time: 1e-3 })
+            .with_newton(newton);
+        let mut body = simulation(&mesh, NEO_HOOKEAN, &left_end(&mesh), settings);
+        body.step(0.01).expect("a step");
+        let before = body.positions().to_vec();
+        let mut copy = body.clone();
+        let first: Vec<_> = (0..3).map(|_| copy.step(0.01).expect("a step")).collect();
+        assert_eq!(body.positions(), before);
+        let second: Vec<_> = (0..3).map(|_| body.step(0.01).expect("a step")).collect();
+        assert_eq!((first, copy.positions()), (second, body.positions()));
+    }
+}
+
+#[test]
+fn simulations_go_to_other_threads() {
+    fn check<T: Clone + Send + Sync + 'static>() {}
+    check::<Body>();
+    check::<Simulation>();
+    check::<TetMesh>();
+    check::<crate::system::StiffnessOperator>();
+    check::<crate::system::Cholesky>();
+    check::<crate::system::BlockMatrix>();
+}
+
+#[test]
+fn errors_convert_and_name_their_source() {
+    use std::error::Error;
+    let error = StepError::from(NewtonError::from(LinearError::OutOfMemory));
+    let newton = error.source().expect("the minimisation failed");
+    assert_eq!(newton.source().map(ToString::to_string), Some(LinearError::OutOfMemory.to_string()));
+    assert!(SetupError::from(LinearError::OutOfMemory).source().is_some());
 }

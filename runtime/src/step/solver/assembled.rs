@@ -3,17 +3,17 @@
 use faer::sparse::SparseColMatRef;
 
 use crate::point::Filter;
+use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::pattern::Pattern;
 use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Pins};
 
-use super::super::newton::NewtonError;
-use super::super::objective::Objective;
-use super::{Demand, Solution, Solver};
+use super::interface::{Definiteness, Solution, SolveError, Solver};
 
 /// A solver that fills a matrix and hands it to a factorisation.
+#[derive(Clone)]
 pub(super) struct Assembled<F> {
     stiffnesses: ElementStiffnesses,
     matrix: Matrix,
@@ -22,22 +22,25 @@ pub(super) struct Assembled<F> {
     factorisation: F,
 }
 
-/// The entries of the second derivatives.
+/// The second derivatives: a pattern and its values.
+#[derive(Clone)]
 pub(super) struct Matrix {
     pattern: Pattern,
     values: Vec<f64>,
 }
 
-/// What is done with the matrix.
-pub(super) trait Factorisation: Send + Sync {
-    /// Replaces b by the solution, or leaves it where the matrix is indefinite and must not be; `fill` puts the second derivatives into the matrix, regularised so many times.
+/// A way to factor the matrix and to solve with the factor.
+pub(super) trait Factorisation: Clone + Send + Sync + 'static {
+    /// Solves in place. Leaves `b` unchanged and returns `None` if the matrix is indefinite and definiteness
+    /// is required. `fill(k, matrix)` assembles the Hessian plus k diagonal shifts.
     fn solve(
         &mut self,
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-        demand: Demand,
-    ) -> Result<Option<Solution>, NewtonError>;
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError>;
 }
 
 impl Matrix {
@@ -45,9 +48,13 @@ impl Matrix {
         SparseColMatRef::new(self.pattern.entries(), &self.values)
     }
 
-    /// A pivot of this column fails, whatever is added.
-    pub(super) fn not_positive(&self, column: usize, shift: f64) -> NewtonError {
-        NewtonError::NotPositive { node: self.pattern.node_of_free()[column / 3], shift }
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The error for a pivot of this column that fails whatever is added.
+    pub(super) fn not_positive(&self, column: usize, shift: f64) -> SolveError {
+        SolveError::NotPositive { node: self.pattern.node_of_free()[column / 3], shift }
     }
 }
 
@@ -96,8 +103,9 @@ impl<F: Factorisation> Solver for Assembled<F> {
         objective: &Objective<'_>,
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
-        demand: Demand,
-    ) -> Result<Option<Solution>, NewtonError> {
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
         let Self { stiffnesses, matrix, unknowns, factorisation } = self;
         let nodes = matrix.pattern.node_of_free();
         for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(nodes) {
@@ -110,15 +118,20 @@ impl<F: Factorisation> Solver for Assembled<F> {
             let diagonal =
                 |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
             stiffnesses.fill(pattern, diagonal, values);
-            quadratic.add_pulls(pattern, values);
+            quadratic.add_springs(pattern, values);
         };
-        let Some(solution) = factorisation.solve(matrix, fill, unknowns, demand)? else { return Ok(None) };
+        let solution = factorisation.solve(matrix, fill, unknowns, tolerance, definiteness)?;
+        let Some(solution) = solution else { return Ok(None) };
         if unknowns.iter().any(|x| !x.is_finite()) {
-            return Err(NewtonError::NotFinite);
+            return Err(SolveError::NotFinite);
         }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.pattern.node_of_free()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];
         }
         Ok(Some(solution))
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
     }
 }

@@ -1,20 +1,21 @@
 //! Conjugate gradients on products of the elements.
 
 use crate::point::Filter;
+use crate::step::damping::Viscosity;
+use crate::step::objective::{Objective, Quadratic};
 use crate::system::element::Evaluated;
 use crate::system::factored::FactoredStiffness;
 use crate::system::linear::block_jacobi::BlockJacobi;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
 use crate::system::{Body, Pins};
 
-use super::super::damping::Viscosity;
-use super::super::newton::NewtonError;
-use super::super::objective::{Objective, Quadratic};
-use super::{Demand, Solution, Solver};
+use super::interface::{Definiteness, Solution, SolveError, Solver};
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
 ///
-/// Unknowns are those of all nodes: right sides, and products with what is zero at pinned nodes, are set to zero there.
+/// Unknowns are the coordinates of all nodes, pinned ones too: right sides and products are set to zero
+/// there.
+#[derive(Clone)]
 pub(super) struct MatrixFree {
     stiffness: FactoredStiffness,
     pinned: Vec<usize>,
@@ -69,8 +70,9 @@ impl Solver for MatrixFree {
         objective: &Objective<'_>,
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
-        demand: Demand,
-    ) -> Result<Option<Solution>, NewtonError> {
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
         let Self { stiffness, pinned, blocks, preconditioner, conjugate_gradients, .. } = self;
         stiffness.diagonal_blocks(blocks);
         objective.quadratic.add_to_blocks(blocks);
@@ -86,14 +88,18 @@ impl Solver for MatrixFree {
         let Objective { body, quadratic, viscosity, .. } = objective;
         let mut system =
             Linearised { stiffness, quadratic, body, viscosity: *viscosity, pinned, preconditioner };
-        let tolerance = self.tolerance.min(demand.tolerance);
+        let tolerance = tolerance.min(self.tolerance);
         let unknowns = direction.as_flattened_mut();
         let iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, self.max_iterations);
-        let solution = Solution::of(iteration, demand)?;
+        let solution = Solution::of(iteration, definiteness)?;
         if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
-            return Err(NewtonError::NotFinite);
+            return Err(SolveError::NotFinite);
         }
         Ok(solution)
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
     }
 }
 
@@ -123,7 +129,7 @@ impl System for Linearised<'_> {
     }
 }
 
-/// Three numbers for each node.
-fn vectors(numbers: &[f64]) -> &[[f64; 3]] {
-    numbers.as_chunks().0
+/// Entries as vectors, one for each node.
+fn vectors(entries: &[f64]) -> &[[f64; 3]] {
+    entries.as_chunks().0
 }

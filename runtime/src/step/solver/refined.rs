@@ -3,11 +3,11 @@
 use crate::system::linear::LinearError;
 use crate::system::linear::refined::RefinedCholesky;
 
-use super::super::newton::NewtonError;
 use super::assembled::{Factorisation, Matrix};
-use super::{Demand, Solution};
+use super::interface::{Definiteness, Solution, SolveError};
 
 /// [`LinearSolver::RefinedCholesky`](super::LinearSolver::RefinedCholesky).
+#[derive(Clone)]
 pub(super) struct Refined {
     pub(super) factor: RefinedCholesky,
     pub(super) tolerance: f64,
@@ -20,16 +20,17 @@ impl Factorisation for Refined {
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-        demand: Demand,
-    ) -> Result<Option<Solution>, NewtonError> {
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
         fill(0.0, matrix);
         match self.factor.factor(matrix.entries()) {
             Ok(()) => {
-                let tolerance = self.tolerance.min(demand.tolerance);
-                Solution::of(self.factor.solve(matrix.entries(), b, tolerance), demand)
+                let tolerance = tolerance.min(self.tolerance);
+                Solution::of(self.factor.solve(matrix.entries(), b, tolerance), definiteness)
             }
             Err(LinearError::NotPositive { column }) => Err(matrix.not_positive(column, 0.0)),
-            Err(error) => Err(NewtonError::Linear(error)),
+            Err(error) => Err(error.into()),
         }
     }
 }

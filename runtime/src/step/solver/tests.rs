@@ -1,10 +1,13 @@
 use super::*;
 use crate::batch::TileMaterial;
 use crate::hand_written::RotatedLinear;
-use crate::mesh::embed::Anchor;
+use crate::mesh::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
+use crate::point::Filter;
 use crate::random::Random;
-use crate::step::{Damping, Filtering, NewtonReport, NewtonSettings, Pull, Settings, SetupError, Simulation};
+use crate::step::{
+    Damping, Filtering, NewtonReport, NewtonSettings, SetupError, Simulation, SimulationSettings, Spring,
+};
 use crate::system::testing::{KIRCHHOFF, ROTATED, Scaled, beam, shake};
 
 const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
@@ -12,7 +15,11 @@ const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e
 const INEXACT: [LinearSolver; 2] = [REFINED, GRADIENTS];
 const ALL: [LinearSolver; 3] = [LinearSolver::Cholesky, REFINED, GRADIENTS];
 
-fn simulation(mesh: &TetMesh, material: impl TileMaterial<f64> + 'static, settings: Settings) -> Simulation {
+fn simulation(
+    mesh: &TetMesh,
+    material: impl TileMaterial<f64> + 'static,
+    settings: SimulationSettings,
+) -> Simulation {
     let left = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
     let pins = Pins::in_box(mesh, left).expect("the left end");
     let body = Body::new(mesh, material, 1000.0).expect("a body");
@@ -25,16 +32,16 @@ fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec
     let mut body = simulation(
         mesh,
         ROTATED,
-        Settings {
+        SimulationSettings {
             gravity: [0.0, -9.81, 0.0],
             damping: Damping::Mass { rate: 0.5 },
             newton,
-            ..Settings::default()
+            ..SimulationSettings::default()
         },
     );
     let last = body.body().elements().len() - 1;
     let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
-    body.set_pulls(&[Pull { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
+    body.set_springs(&[Spring { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
     let mut reports = Vec::new();
     for step in 1..=steps {
         let angle = 0.05 * step as f64;
@@ -110,7 +117,8 @@ fn negative_curvature_is_left_aside_and_reported() {
             max_iterations: 200,
             ..NewtonSettings::default()
         };
-        let mut body = simulation(&mesh, KIRCHHOFF, Settings { newton, ..Settings::default() });
+        let mut body =
+            simulation(&mesh, KIRCHHOFF, SimulationSettings { newton, ..SimulationSettings::default() });
         let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
         let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();
         body.set_positions(&shake(&mut Random::new(6), &start, 1e-3)).expect("finite");
@@ -126,8 +134,11 @@ fn a_limit_of_iterations_leaves_a_direction_of_descent() {
     let mesh = beam(10);
     let linear = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 3 };
     let newton = NewtonSettings { linear, ..NewtonSettings::single() };
-    let mut body =
-        simulation(&mesh, ROTATED, Settings { gravity: [0.0, -9.81, 0.0], newton, ..Settings::default() });
+    let mut body = simulation(
+        &mesh,
+        ROTATED,
+        SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() },
+    );
     for _ in 0..5 {
         let report = body.step(0.02).expect("a step").newton;
         assert_eq!((report.linear_iterations, report.truncated), (3, 1));
@@ -135,7 +146,8 @@ fn a_limit_of_iterations_leaves_a_direction_of_descent() {
     }
 }
 
-/// From rubber foam to what is stiffer than diamond: with time steps that scale along, the motion is the same.
+/// From rubber foam to what is stiffer than diamond: with time steps that scale along, the motion is the
+/// same.
 #[test]
 fn stiffness_of_any_unit_is_as_good() {
     let mesh = beam(8);
@@ -145,7 +157,11 @@ fn stiffness_of_any_unit_is_as_good() {
         let mut body = simulation(
             &mesh,
             material,
-            Settings { gravity: [0.0, -factor / 3e3, 0.0], newton, ..Settings::default() },
+            SimulationSettings {
+                gravity: [0.0, -factor / 3e3, 0.0],
+                newton,
+                ..SimulationSettings::default()
+            },
         );
         let reports: Vec<_> =
             (0..3).map(|_| body.step(3.0 / factor.sqrt()).expect("a step").newton).collect();
@@ -172,7 +188,8 @@ fn moving_pins_enter_the_right_side() {
     let mesh = beam(3);
     for linear in ALL {
         let newton = NewtonSettings { linear, ..NewtonSettings::single() };
-        let mut body = simulation(&mesh, ROTATED, Settings { newton, ..Settings::default() });
+        let mut body =
+            simulation(&mesh, ROTATED, SimulationSettings { newton, ..SimulationSettings::default() });
         for node in body.pinned().to_vec() {
             let [x, y, z] = mesh.positions[node];
             body.prescribe(node, [x + 1.0, y, z]).expect("pinned");
@@ -187,25 +204,26 @@ fn moving_pins_enter_the_right_side() {
 }
 
 #[test]
-fn solvers_are_exchanged_between_steps_and_know_the_same_pulls() {
+fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
     let mesh = beam(4);
     let gravity = [0.0, -9.81, 0.0];
-    let settings = |linear| Settings {
+    let settings = |linear| SimulationSettings {
         gravity,
         newton: NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() },
-        ..Settings::default()
+        ..SimulationSettings::default()
     };
     let mut exchanged = simulation(&mesh, ROTATED, settings(ALL[0]));
     let mut exact = simulation(&mesh, ROTATED, settings(ALL[0]));
     // Nodes 8 and 19 share no element; of nodes 0 and 19 the first is pinned.
-    let pull = |nodes, weights| Pull { anchor: Anchor { nodes, weights }, target: [0.5; 3], stiffness: 10.0 };
-    let across = pull([8, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
-    let to_a_pin = pull([0, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
-    exact.set_pulls(&[to_a_pin]).expect("one free node");
+    let spring =
+        |nodes, weights| Spring { anchor: Anchor { nodes, weights }, target: [0.5; 3], stiffness: 10.0 };
+    let across = spring([8, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    let to_a_pin = spring([0, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    exact.set_springs(&[to_a_pin]).expect("one free node");
     for linear in ALL {
         exchanged.set_settings(settings(linear)).expect("a solver");
-        assert_eq!(exchanged.set_pulls(&[across]), Err(SetupError::PullAcrossElements { index: 0 }));
-        exchanged.set_pulls(&[to_a_pin]).expect("one free node");
+        assert_eq!(exchanged.set_springs(&[across]), Err(SetupError::SpringAcrossElements { index: 0 }));
+        exchanged.set_springs(&[to_a_pin]).expect("one free node");
         exchanged.step(0.02).expect("a step");
         exact.step(0.02).expect("a step");
     }
@@ -221,8 +239,10 @@ fn solvers_are_exchanged_between_steps_and_know_the_same_pulls() {
 fn a_body_with_every_node_pinned_has_nothing_to_solve() {
     let mesh = beam(1);
     for linear in ALL {
-        let settings =
-            Settings { newton: NewtonSettings { linear, ..Default::default() }, ..Default::default() };
+        let settings = SimulationSettings {
+            newton: NewtonSettings { linear, ..Default::default() },
+            ..Default::default()
+        };
         let body = Body::new(&mesh, ROTATED, 1000.0).expect("a body");
         let mut body = Simulation::new(body, &Pins::at(0..8), settings).expect("a simulation");
         body.prescribe(3, [0.2, 0.2, 0.2]).expect("pinned");
@@ -234,12 +254,14 @@ fn a_body_with_every_node_pinned_has_nothing_to_solve() {
 #[test]
 fn tolerances_and_limits_that_make_no_sense_are_refused() {
     let mesh = beam(1);
-    let mut body = simulation(&mesh, ROTATED, Settings::default());
+    let mut body = simulation(&mesh, ROTATED, SimulationSettings::default());
     let mut message = |linear| {
-        let settings =
-            Settings { newton: NewtonSettings { linear, ..Default::default() }, ..Default::default() };
+        let settings = SimulationSettings {
+            newton: NewtonSettings { linear, ..Default::default() },
+            ..Default::default()
+        };
         let error = body.set_settings(settings).expect_err("nonsense").to_string();
-        assert_eq!(body.settings(), &Settings::default(), "the settings before are still there");
+        assert_eq!(body.settings(), &SimulationSettings::default(), "the settings before are still there");
         error
     };
     for tolerance in [0.0, 1.0, -1e-3, f64::NAN] {

@@ -98,7 +98,7 @@ fn what_does_not_fit_is_an_error() {
     let error = matrix.assemble(&[0.0; 78], Layout::Points, |_| 0.0).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`stiffnesses` has 78 numbers; 1 points of 144 numbers each would make 144"
+        "`stiffnesses` has 78 entries; 1 points of 144 entries each would make 144"
     );
     let error = matrix.assemble_packed(&[0.0; 78], Layout::Lines, |_| 0.0).unwrap_err();
     assert_eq!((error.points, error.group), (8, 8));

@@ -6,26 +6,26 @@ use crate::system::Body;
 use crate::system::testing::{KIRCHHOFF, ROTATED, beam, shake};
 
 /// A tetrahedron of a beam with its nodes moved at random.
-fn sample(seed: u64, amplitude: f64) -> (Element, Vec<[f64; 3]>) {
+fn sample(seed: u64, amplitude: f64) -> (Tetrahedron, Vec<[f64; 3]>) {
     let mesh = beam(2);
     let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
     let element = body.elements()[(seed % 12) as usize];
     (element, shake(&mut Random::new(seed), &mesh.positions, amplitude))
 }
 
-fn energy(material: &dyn TileMaterial<f64>, element: &Element, positions: &[[f64; 3]]) -> f64 {
-    let mut group = Group::new(&[*element]);
+fn energy(material: &dyn TileMaterial<f64>, element: &Tetrahedron, positions: &[[f64; 3]]) -> f64 {
+    let mut group = ElementGroup::new(&[*element]);
     group.evaluate(material, &[*element], positions);
     group.energies[0]
 }
 
 fn derivatives(
     material: &dyn TileMaterial<f64>,
-    element: &Element,
+    element: &Tetrahedron,
     positions: &[[f64; 3]],
     filter: Filter,
 ) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
-    let mut group = Group::new(&[*element]);
+    let mut group = ElementGroup::new(&[*element]);
     group.evaluate(material, &[*element], positions);
     let mut stiffness = [[[[0.0; 3]; 3]; 10]];
     let status = group.evaluate_stiffnesses(material, &[*element], filter, &mut stiffness);
@@ -45,7 +45,7 @@ pub(crate) fn to_matrix(stiffness: &Stiffness) -> [[f64; 12]; 12] {
     })
 }
 
-fn moved(element: &Element, positions: &[[f64; 3]], unknown: usize, by: f64) -> Vec<[f64; 3]> {
+fn moved(element: &Tetrahedron, positions: &[[f64; 3]], unknown: usize, by: f64) -> Vec<[f64; 3]> {
     let mut positions = positions.to_vec();
     positions[element.nodes[unknown / 3]][unknown % 3] += by;
     positions
@@ -92,7 +92,7 @@ fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients()
 }
 
 /// Whether λ2 + λ3 is so large that steps of a hundredth do not reach the pole.
-fn positions_are_tame(element: &Element, positions: &[[f64; 3]]) -> bool {
+fn positions_are_tame(element: &Tetrahedron, positions: &[[f64; 3]]) -> bool {
     let [_, second, third] = svd(&element.deformation_gradient(positions)).stretches;
     second + third > 0.3
 }
@@ -137,7 +137,8 @@ fn a_filtered_stiffness_is_semidefinite_and_counted() {
     assert!(filtered > 0, "some of these elements are compressed so much that the filter has work");
 }
 
-/// Stretched tenfold along one axis and collapsed to a line: λ(λ1 − 3) > 2μ, and the twist is N/(λ2 + λ3) with N > 0.
+/// Stretched tenfold along one axis and collapsed to a line: λ(λ1 − 3) > 2μ, and the twist is N/(λ2 + λ3)
+/// with N > 0.
 #[test]
 fn a_convex_kink_is_cut_to_what_a_factorisation_resolves() {
     let (element, positions) = sample(0, 0.0);
@@ -184,8 +185,8 @@ fn an_affine_map_gives_every_element_the_same_stress() {
             }
         }
     }
-    // Equal stress everywhere leaves inner nodes without a force; this beam has none, but the total is zero too, and
-    // so is the total moment of a symmetric Cauchy stress.
+    // Equal stress everywhere leaves inner nodes without a force; this beam has none, but the total is zero
+    // too, and so is the total moment of a symmetric Cauchy stress.
     let mut force = [0.0; 3];
     let mut moment = [0.0; 3];
     for (x, g) in positions.iter().zip(&total) {
@@ -206,19 +207,20 @@ fn an_affine_map_gives_every_element_the_same_stress() {
 fn an_element_with_nan_positions_is_not_finite() {
     let (element, mut positions) = sample(3, 0.0);
     positions[element.nodes[1]][2] = f64::NAN;
-    let (status, _) = Group::new(&[element]).evaluate(&KIRCHHOFF, &[element], &positions);
+    let (status, _) = ElementGroup::new(&[element]).evaluate(&KIRCHHOFF, &[element], &positions);
     assert_eq!(Survey::of(status, 7), Survey { nonfinite: 1, first: Some(7), ..Survey::default() });
 }
 
 #[test]
 fn forces_and_stiffnesses_that_overflow_are_not_finite() {
     let (element, positions) = sample(3, 0.0);
-    // A stiffness goes with Dm⁻²: rest edges shrunk to 1e-160 m at the same F and the same volume leave the energy as it is.
+    // A stiffness goes with Dm⁻²: rest edges shrunk to 1e-160 m at the same F and the same volume leave the
+    // energy as it is.
     let check = |size: f64, expected: usize| {
         let mut element = element;
         element.shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * size));
         let positions: Vec<_> = positions.iter().map(|x| x.map(|x| x / size)).collect();
-        let mut group = Group::new(&[element]);
+        let mut group = ElementGroup::new(&[element]);
         let (status, _) = group.evaluate(&KIRCHHOFF, &[element], &positions);
         assert!(Survey::of(status, 0).is_clean(), "{status:?}");
         let status =

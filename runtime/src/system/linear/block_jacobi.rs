@@ -5,13 +5,13 @@ use rayon::prelude::*;
 /// Blocks that one thread takes without a further division.
 const BLOCKS: usize = 1024;
 
-/// A block as L D Lᵀ with D > 0: 1/D on the diagonal, L below it. Whatever rounding did to it, it stands for something
-/// positive definite.
+/// A block as L D Lᵀ with D > 0: 1/D on the diagonal, L below it. Positive definite whatever rounding did to
+/// the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Factor([[f64; 3]; 3]);
 
 impl Factor {
-    /// Of a symmetric block, of which the lower triangle counts; where that is not positive definite, of the unit matrix
+    /// Factors the lower triangle of a symmetric block; if that is not positive definite, the unit matrix
     /// times its norm.
     fn new(block: &[[f64; 3]; 3]) -> Self {
         let [[a00, ..], [a10, a11, _], [a20, a21, a22]] = *block;
@@ -39,23 +39,24 @@ impl Factor {
 }
 
 /// The blocks on the diagonal of a matrix, factored.
+#[derive(Clone)]
 pub(crate) struct BlockJacobi {
     factors: Vec<Factor>,
 }
 
 impl BlockJacobi {
-    /// Of the unit matrix.
+    /// The preconditioner of the unit matrix.
     pub(crate) fn new(blocks: usize) -> Self {
         Self { factors: vec![Factor::new(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]); blocks] }
     }
 
-    /// Takes these blocks.
+    /// Factors these blocks.
     pub(crate) fn factor(&mut self, blocks: &[[[f64; 3]; 3]]) {
         let factors = self.factors.par_iter_mut().zip(blocks).with_min_len(BLOCKS);
         factors.for_each(|(factor, block)| *factor = Factor::new(block));
     }
 
-    /// Divides each part of r by its block.
+    /// Computes z, each part of r divided by its block.
     pub(crate) fn solve(&self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         let parts = self.factors.par_iter().zip(r).zip(z).with_min_len(BLOCKS);
         parts.for_each(|((factor, r), z)| *z = factor.solve(*r));

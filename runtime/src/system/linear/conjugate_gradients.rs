@@ -1,13 +1,15 @@
-//! Conjugate gradients [HS52] for A x = b with a preconditioner, stopped where a minimisation wants it [NW06 §7.1].
+//! Conjugate gradients [HS52] for A x = b with a preconditioner, stopped where a minimisation wants it [NW06
+//! §7.1].
 //!
-//! From x = 0 on, each iterate x of a positive definite system is a minimum of ½ xᵀA x − bᵀx over more directions than the one
-//! before, and bᵀx > 0: wherever the iteration stops, x is a direction of descent for a gradient −b. If a search direction
-//! p meets pᵀA p ≤ 0, A is not positive definite; the iteration stops with what it has, and in the first iteration with p
-//! itself, which is the preconditioned direction of steepest descent.
+//! From x = 0 on, each iterate x of a positive definite system is a minimum of ½ xᵀA x − bᵀx over more
+//! directions than the one before, and bᵀx > 0: wherever the iteration stops, x is a direction of descent for
+//! a gradient −b. If a search direction p meets pᵀA p ≤ 0, A is not positive definite; the iteration stops
+//! with what it has, and in the first iteration with p itself, which is the preconditioned direction of
+//! steepest descent.
 //!
-//! The residual b − A x is carried along, not computed anew: it departs from the true one by about u ‖A‖ ‖x‖, which is what
-//! a factorisation leaves too. Sums are made in chunks of fixed size, so that they have the same bits for any number of
-//! threads. This module knows no nodes.
+//! The residual b − A x is carried along, not computed anew: it departs from the true one by about u ‖A‖ ‖x‖,
+//! which is what a factorisation leaves too. Sums are made in chunks of fixed size, so that they have the
+//! same bits for any number of threads. This module knows no nodes.
 //!
 //! \[HS52\] Hestenes, Stiefel, *Methods of Conjugate Gradients for Solving Linear Systems*, 1952.
 //! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006: "line search Newton–CG".
@@ -16,19 +18,20 @@
 
 use rayon::prelude::*;
 
-/// How many numbers one thread takes without a further division.
+/// Number of entries that one thread takes without a further division.
 const CHUNK: usize = 4096;
 
-/// A symmetric matrix, and something positive definite like its inverse.
+/// A symmetric matrix, and a positive definite approximation of its inverse.
 pub(crate) trait System {
-    /// A x.
+    /// Computes A x.
     fn apply(&mut self, x: &[f64], product: &mut [f64]);
 
-    /// About A⁻¹ r.
+    /// Computes about A⁻¹ r.
     fn precondition(&mut self, r: &[f64], z: &mut [f64]);
 }
 
 /// Memory of the iteration.
+#[derive(Clone)]
 pub(crate) struct ConjugateGradients {
     /// r = b − A x.
     residual: Vec<f64>,
@@ -42,15 +45,15 @@ pub(crate) struct ConjugateGradients {
     sums: Vec<f64>,
 }
 
-/// What an iteration did.
+/// Outcome of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Iteration {
-    /// How many products with A it took.
+    /// Number of products with A.
     pub(crate) iterations: usize,
     pub(crate) end: End,
 }
 
-/// Why an iteration ended.
+/// Reason why an iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
     /// ‖r‖ ≤ tolerance ‖b‖.
@@ -59,7 +62,7 @@ pub(crate) enum End {
     Limit,
     /// A is not positive definite.
     NegativeCurvature,
-    /// A number is infinite or NaN, or the preconditioner not positive definite; x means nothing.
+    /// An entry is infinite or NaN, or the preconditioner not positive definite; x is meaningless.
     NotFinite,
 }
 
@@ -75,7 +78,8 @@ impl ConjugateGradients {
         }
     }
 
-    /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖, Euclidean norms, or by what there is before that.
+    /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖, Euclidean norms, or by the last iterate if it ends
+    /// before that.
     pub(crate) fn solve(
         &mut self,
         system: &mut impl System,
@@ -137,7 +141,7 @@ fn dot(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// Replaces each number of `to` by what becomes of it and one of `from`.
+/// Replaces each entry of `to` by a function of it and the entry of `from`.
 fn combine(to: &mut [f64], with: impl Fn(f64, f64) -> f64 + Sync, from: &[f64]) {
     to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK)).for_each(|(to, from)| {
         for (to, from) in to.iter_mut().zip(from) {

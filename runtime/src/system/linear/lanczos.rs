@@ -1,34 +1,38 @@
 //! The largest eigenvalue of a symmetric operator, by Lanczos' method \[Par98, chapter 13\].
 //!
-//! The vectors are kept, a hundred at most, and each new one is made orthogonal to all before it twice, which is enough
-//! \[Par98, §6.9\]: no eigenvalue is found twice, and vectors to be left out stay out. This module knows no matrix.
+//! The vectors are kept, a hundred at most, and each new one is made orthogonal to all before it twice, which
+//! is enough \[Par98, §6.9\]: no eigenvalue is found twice, and vectors to be left out stay out. This module
+//! knows no matrix.
 //!
 //! \[Par98\] Parlett, *The Symmetric Eigenvalue Problem*, 1998.
 
-use nalgebra::{DMatrix, SymmetricEigen};
-
+use super::LinearError;
+use super::dense::eigen;
 use crate::random::Random;
 
-/// After how many products to stop.
+/// Number of products after which to stop.
 const MAX_STEPS: usize = 100;
 
-/// Products between two looks at the eigenvalue.
+/// Number of products between two tests of convergence.
 const STRIDE: usize = 5;
 
-/// Where the residual has fallen to this share of the eigenvalue, it is found to twice as many digits.
+/// Residual, as a share of the eigenvalue, at which to stop: the eigenvalue then has twice as many digits.
 const TOLERANCE: f64 = 1e-9;
 
-/// The eigenvector of the largest eigenvalue of an operator, as well as a hundred products give it; `None` where no
-/// direction is left.
+/// Eigenvector of the largest eigenvalue of an operator, as accurate as a hundred products give it; `None` if
+/// no direction is left.
 ///
-/// The operator is symmetric in the inner product Σ mᵢ xᵢ yᵢ of the positive `masses`, in which the vector has the norm 1.
-/// Left out is the span of `deflated` vectors, orthonormal in that product. `apply` replaces its second argument by the product
-/// with the first.
+/// The operator is symmetric in the inner product Σ mᵢ xᵢ yᵢ of the positive `masses`, in which the vector
+/// has the norm 1. The span of the `deflated` vectors, orthonormal in that product, is left out. `apply`
+/// replaces its second argument by the product with the first.
+///
+/// # Errors
+/// [`LinearError::NoEigenvalues`].
 pub(crate) fn largest(
     masses: &[f64],
     deflated: &[Vec<f64>],
     mut apply: impl FnMut(&[f64], &mut [f64]),
-) -> Option<Vec<f64>> {
+) -> Result<Option<Vec<f64>>, LinearError> {
     let mut random = Random::new(1);
     let mut next: Vec<f64> = masses.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
     let mut vectors: Vec<Vec<f64>> = Vec::new();
@@ -36,7 +40,7 @@ pub(crate) fn largest(
     let scale = norm(masses, &next);
     let mut length = orthogonalize(masses, deflated, &vectors, &mut next);
     if length <= 1e-12 * scale {
-        return None;
+        return Ok(None);
     }
     loop {
         next.iter_mut().for_each(|x| *x /= length);
@@ -47,36 +51,34 @@ pub(crate) fn largest(
         let before = norm(masses, &product);
         length = orthogonalize(masses, deflated, &vectors, &mut product);
         next = product;
-        // The span of all that is left: what remains is rounding.
+        // The vectors span all that is left: the rest is rounding.
         let exhausted = length <= 1e-12 * before || vectors.len() == MAX_STEPS;
         if exhausted || vectors.len().is_multiple_of(STRIDE) {
-            let (value, weights) = largest_of_tridiagonal(&diagonal, &beside);
+            let (value, weights) = largest_of_tridiagonal(&diagonal, &beside)?;
             let residual = length * weights.last().map_or(0.0, |weight: &f64| weight.abs());
             if exhausted || residual <= TOLERANCE * value.abs() {
                 let mut vector = vec![0.0; masses.len()];
                 for (weight, part) in weights.iter().zip(&vectors) {
                     add(*weight, part, &mut vector);
                 }
-                return Some(vector);
+                return Ok(Some(vector));
             }
         }
         beside.push(length);
     }
 }
 
-/// Largest eigenvalue and its vector.
-fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> (f64, Vec<f64>) {
-    let matrix = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
+/// Largest eigenvalue of a symmetric tridiagonal matrix, and its vector.
+fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> Result<(f64, Vec<f64>), LinearError> {
+    let (mut values, mut vectors) = eigen(diagonal.len(), |i, j| match i.abs_diff(j) {
         0 => diagonal[i],
         1 => beside[i.min(j)],
         _ => 0.0,
-    });
-    let eigen = SymmetricEigen::new(matrix);
-    let index = eigen.eigenvalues.imax();
-    (eigen.eigenvalues[index], eigen.eigenvectors.column(index).iter().copied().collect())
+    })?;
+    values.pop().zip(vectors.pop()).ok_or(LinearError::NoEigenvalues)
 }
 
-/// Takes the parts along orthonormal vectors away, twice, and returns the norm of what is left.
+/// Removes the parts along orthonormal vectors, twice, and returns the norm of the rest.
 fn orthogonalize(masses: &[f64], deflated: &[Vec<f64>], vectors: &[Vec<f64>], x: &mut [f64]) -> f64 {
     for vector in deflated.iter().chain(vectors).chain(deflated).chain(vectors) {
         add(-dot(masses, vector, x), vector, x);
@@ -106,11 +108,12 @@ mod tests {
         largest(&masses, deflated, |x, y| {
             y.iter_mut().zip(x.iter().zip(values)).for_each(|(y, (x, value))| *y = value * x);
         })
+        .expect("finite")
     }
 
     fn unit(length: usize, index: usize) -> Vec<f64> {
         let mut vector = vec![0.0; length];
-        // Of the norm 1 for masses of 4.
+        // The norm is 1 for masses of 4.
         vector[index] = 0.5;
         vector
     }

@@ -1,33 +1,39 @@
-//! A factor of half the digits, and a solution of all of them.
+//! Cholesky factor in f32, refined to solutions in f64.
 //!
-//! A Cholesky factor in f32 takes half the memory and half the traffic of one in f64, and is a nearly perfect preconditioner
-//! for [conjugate gradients](super::conjugate_gradients) in f64 with the matrix itself. On a well-conditioned matrix these
-//! do what iterative refinement does, a few digits for each iteration; on one whose condition is beyond the 10⁷ that f32
-//! resolves, where refinement diverges, they need an iteration for each eigenvalue that the factor misses, and converge.
+//! A Cholesky factor in f32 takes half the memory and half the traffic of one in f64, and is a nearly perfect
+//! preconditioner for [conjugate gradients](super::conjugate_gradients) in f64 with the matrix itself. On a
+//! well-conditioned matrix these gain a few digits in each iteration, like iterative refinement; on one whose
+//! condition is beyond the 10⁷ that f32 resolves, where refinement diverges, they need an iteration for each
+//! eigenvalue that the factor misses, and converge.
 //! \[CH18\] do the same with GMRES for matrices that are not symmetric.
 //!
-//! *Range.* The matrix is scaled to a unit diagonal first, and right sides to a largest entry of one, so that no unit of
-//! stiffness is beyond f32.
+//! *Range.* The matrix is scaled to a unit diagonal first, and right sides to a largest entry of one, so that
+//! no unit of stiffness is beyond f32.
 //!
-//! *Failure.* What is not positive definite in f32, be it for rounding or for being indefinite, gets a larger diagonal until
-//! it is. The factor alone does: it is then a worse preconditioner, of the same system.
+//! *Failure.* A matrix that is not positive definite in f32, because of rounding or because it is indefinite,
+//! is factored with a larger diagonal. The system to be solved stays the same; the factor is then a worse
+//! preconditioner of it.
 //!
-//! \[CH18\] Carson, Higham, *Accelerating the Solution of Linear Systems by Iterative Refinement in Three Precisions*, 2018.
+//! \[CH18\] Carson, Higham, *Accelerating the Solution of Linear Systems by Iterative Refinement in Three
+//! Precisions*, 2018.
 
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use std::sync::Arc;
+
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use super::conjugate_gradients::{ConjugateGradients, Iteration, System};
 use super::{Cholesky, LinearError, symmetric_product};
 
-/// After how many iterations to stop. A few are the rule.
+/// Number of iterations after which to stop; usually there are a few.
 const MAX_ITERATIONS: usize = 100;
 
-/// What a diagonal of ones grows by where the factor fails: eight times as much each time, from a few roundings of f32 up to
-/// what outweighs any row.
+/// Growth of the diagonal, scaled to ones, where the factor fails: eight times as much each time, from a few
+/// roundings of f32 up to a diagonal that outweighs any row.
 const FIRST_GROWTH: f64 = 8.0 * f32::EPSILON as f64;
 const LAST_GROWTH: f64 = 1e4;
 
-/// A factorisation in f32 and the memory for the next one, and for solutions in f64.
+/// A factorisation in f32, and memory for the next one and for solutions in f64.
+#[derive(Clone)]
 pub(crate) struct RefinedCholesky {
     cholesky: Cholesky<f32>,
     /// 1/√|a| for each entry a on the diagonal.
@@ -40,15 +46,15 @@ pub(crate) struct RefinedCholesky {
 }
 
 impl RefinedCholesky {
-    /// Analyses the lower triangle of a symmetric pattern, of which each column begins on the diagonal, and allocates all
-    /// that later calls need.
+    /// Analyses the lower triangle of a symmetric pattern, each column of which begins on the diagonal, and
+    /// allocates all memory that later calls need.
     ///
     /// # Errors
-    /// Where the factor does not fit into memory.
-    pub(crate) fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, LinearError> {
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn new(pattern: &Arc<SymbolicSparseColMat<usize>>) -> Result<Self, LinearError> {
         let unknowns = pattern.ncols();
         Ok(Self {
-            cholesky: Cholesky::new(pattern)?,
+            cholesky: Cholesky::of_pattern(pattern)?,
             scales: vec![1.0; unknowns],
             values: vec![0.0; pattern.row_idx().len()],
             single: vec![0.0; unknowns],
@@ -56,10 +62,10 @@ impl RefinedCholesky {
         })
     }
 
-    /// Factors a matrix of the analysed pattern, or one with a larger diagonal.
+    /// Factors a matrix of the analysed pattern, with a larger diagonal if need be.
     ///
     /// # Errors
-    /// Where no diagonal makes it positive definite: an entry is not finite.
+    /// [`LinearError::NotPositive`] if no diagonal makes it positive definite: an entry is not finite.
     pub(crate) fn factor(&mut self, matrix: SparseColMatRef<'_, usize, f64>) -> Result<(), LinearError> {
         let Self { cholesky, scales, values, .. } = self;
         for (column, scale) in scales.iter_mut().enumerate() {
@@ -78,7 +84,7 @@ impl RefinedCholesky {
                 let unit = (scales[column] * scales[column]) * matrix.val_of_col(column)[0];
                 values[matrix.col_range(column).start] = (unit + growth) as f32;
             }
-            match cholesky.factor(SparseColMatRef::new(matrix.symbolic(), values)) {
+            match cholesky.factor(values) {
                 Err(LinearError::NotPositive { .. }) if growth < LAST_GROWTH => {
                     growth = if growth == 0.0 { FIRST_GROWTH } else { 8.0 * growth };
                 }

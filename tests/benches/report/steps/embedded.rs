@@ -10,8 +10,7 @@ use std::time::Instant;
 use piola::batch::{Batch, Layout, Stages};
 use piola::point::Filter;
 use piola::step::NewtonSettings;
-use piola::system::linear::Cholesky;
-use piola::system::{BlockMatrix, Body, Pins};
+use piola::system::{BlockMatrix, Body, Cholesky, Pins};
 use piola_materials::StableNeoHookean;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::scene::DINOSAUR;
@@ -90,7 +89,7 @@ impl<'a, E: Stages> Flight<'a, E> {
         let (nodes, elements) = (body.rest().len(), body.elements().len());
         let tets: Vec<[usize; 4]> = body.elements().iter().map(|element| element.nodes).collect();
         let matrix = BlockMatrix::new(nodes, &tets, &Pins::none())?;
-        let cholesky = Cholesky::new(matrix.pattern().entries())?;
+        let cholesky = Cholesky::new(matrix.pattern().column_starts(), matrix.pattern().row_indices())?;
         let rest = body.elements().iter().flat_map(|element| {
             let inverse = element.shape.inverse.into_iter().flatten();
             inverse.chain([element.shape.volume]).map(narrow)
@@ -182,7 +181,7 @@ impl<'a, E: Stages> Flight<'a, E> {
         }
         let masses = self.body.masses();
         self.matrix.assemble_packed(&self.widened, Layout::Points, |node| masses[node] * per_square)?;
-        self.cholesky.factor(self.matrix.entries())?;
+        self.cholesky.factor(self.matrix.values())?;
         for (unknown, &node) in self.direction.chunks_exact_mut(3).zip(self.matrix.pattern().node_of_free()) {
             for c in 0..3 {
                 unknown[c] = -self.gradient[node][c];

@@ -11,7 +11,8 @@ use ::faer::traits::RealField as FaerField;
 use ::faer::{MatMut, MatRef, Par, Spec};
 use ::nalgebra::{RealField, SVD};
 use piola::Real;
-use piola::point::{Matrix3, Svd, from_nalgebra, to_nalgebra};
+use piola::convert::{from_nalgebra, to_nalgebra};
+use piola::point::{Matrix3, Svd};
 
 use super::descending;
 use crate::baselines::matrix::{cofactor, dot, transpose};

@@ -23,12 +23,14 @@ pub struct Options {
     pub prestressed: bool,
     /// Derivatives by the parameters are asked for.
     pub fit: bool,
+    /// The material is written and read by serde.
+    pub serde: bool,
     /// The names of the arguments as written.
     pub words: Vec<Ident>,
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 7] = [
+const FORMS: [(&str, &str); 8] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
@@ -36,6 +38,7 @@ const FORMS: [(&str, &str); 7] = [
     ("prestressed", "prestressed"),
     ("part", "part"),
     ("fit", "fit"),
+    ("serde", "serde"),
 ];
 
 impl Options {
@@ -67,6 +70,7 @@ impl Options {
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
             ("prestressed" | "part", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
+            ("serde", Meta::Path(_)) => self.serde = true,
             (text, _) => {
                 return diagnostics.error(name, unknown(text));
             }

@@ -9,7 +9,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// What every material has by name, which a parameter's own method would hide.
-const MEMBERS: [&str; 31] = [
+const MEMBERS: [&str; 25] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",

@@ -1,8 +1,8 @@
-//! What is particular to MSH 2.2: flat lists of nodes and elements, which name their groups themselves.
+//! Sections particular to MSH 2.2: flat lists of nodes and elements, which name their groups themselves.
 
 use std::collections::HashMap;
 
-use super::super::{Cursor, Problem};
+use super::super::text::{Cursor, Problem};
 use super::{File, TETRAHEDRON};
 
 impl File {
@@ -20,8 +20,8 @@ impl File {
         Ok(())
     }
 
-    /// `count`, then `tag type number-of-tags physical-group …, node …` each; an element of several groups is written once for
-    /// each of them.
+    /// `count`, then `tag type number-of-tags physical-group …, node …` each; an element of several groups is
+    /// written once for each of them.
     pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count: usize = cursor.next("the number of elements")?.number("the number of elements")?;
         let mut seen = HashMap::new();
@@ -58,7 +58,7 @@ impl File {
     }
 }
 
-/// Of the element types of the manual, by which the names of groups are told apart.
+/// Dimension of each element type of the manual, which distinguishes groups of one name.
 fn dimension(kind: usize) -> Option<usize> {
     match kind {
         15 => Some(0),

@@ -1,10 +1,11 @@
-//! What is particular to MSH 4.1: entities, and blocks of nodes and elements.
+//! Sections particular to MSH 4.1: entities, and blocks of nodes and elements.
 
-use super::super::{Cursor, Problem};
+use super::super::text::{Cursor, Problem};
 use super::{File, TETRAHEDRON};
 
 impl File {
-    /// Counts of points, curves, surfaces, volumes; then for each its tag, a point or a box, and its physical groups.
+    /// Counts of points, curves, surfaces, volumes; then for each its tag, a point or a box, and its physical
+    /// groups.
     pub(super) fn entities_4(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let mut line = cursor.next("the numbers of entities")?;
         let mut counts = [0usize; 4];
@@ -30,7 +31,8 @@ impl File {
         Ok(())
     }
 
-    /// `blocks nodes min max`, then for each block `dimension entity parametric count`, its tags, its coordinates.
+    /// `blocks nodes min max`, then for each block `dimension entity parametric count`, its tags, its
+    /// coordinates.
     pub(super) fn nodes_4(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let blocks: usize = cursor.next("the number of node blocks")?.number("the number of node blocks")?;
         let mut tags = Vec::new();

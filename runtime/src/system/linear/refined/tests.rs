@@ -15,7 +15,8 @@ struct Example {
 }
 
 impl Example {
-    /// `squeezed` along x to this part of its length, unfiltered; `diagonal` is a multiple of modulus times length.
+    /// `squeezed` along x to this part of its length, unfiltered; `diagonal` is a multiple of modulus times
+    /// length.
     fn new(modulus: f64, squeezed: f64, diagonal: f64) -> Self {
         let mesh = beam(20);
         let material = Scaled { material: SaintVenantKirchhoff, factor: modulus };
@@ -38,7 +39,7 @@ impl Example {
     /// b − A x for a right side of ones, relative to b, with what the iteration says.
     #[track_caller]
     fn residual(&self, tolerance: f64) -> (f64, Iteration) {
-        let mut refined = RefinedCholesky::new(self.pattern.entries()).expect("small");
+        let mut refined = RefinedCholesky::new(self.pattern.shared_entries()).expect("small");
         refined.factor(self.matrix()).expect("positive definite");
         let mut x = vec![1.0; self.pattern.unknowns()];
         let iteration = refined.solve(self.matrix(), &mut x, tolerance);
@@ -82,6 +83,6 @@ fn an_indefinite_matrix_is_found_out() {
 fn what_is_not_finite_is_an_error() {
     let mut example = Example::new(1e6, 1.0, 1.0);
     example.values[7] = f64::NAN;
-    let mut refined = RefinedCholesky::new(example.pattern.entries()).expect("small");
+    let mut refined = RefinedCholesky::new(example.pattern.shared_entries()).expect("small");
     assert!(matches!(refined.factor(example.matrix()), Err(LinearError::NotPositive { .. })));
 }

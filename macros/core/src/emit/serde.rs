@@ -1,0 +1,81 @@
+//! Serialisation by serde: a material is written as its parameters and read through the constructor that
+//! checks them.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::generics;
+use crate::read::parse::{Declaration, Kind};
+
+/// `impl Serialize` and `impl Deserialize`, if the attribute asks for them.
+///
+/// Both go through a struct of the parameters with lists as vectors, because serde has no arrays of any
+/// length. Nothing but the two implementations leaves the block.
+pub(super) fn serde(declaration: &Declaration) -> TokenStream {
+    if !declaration.options.serde {
+        return TokenStream::new();
+    }
+    let name = &declaration.name;
+    let text = name.to_string();
+    let (bounds, arguments) = generics(declaration);
+    let lengths = &declaration.generics;
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
+        Kind::Number => quote!(f64),
+        Kind::List(_) => quote!(::std::vec::Vec<f64>),
+        Kind::Function(ty) => quote!(#ty),
+    });
+    let plain = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Kind::Number => quote!(self.#name),
+            Kind::List(_) => quote!(self.#name.to_vec()),
+            Kind::Function(_) => quote!(::core::clone::Clone::clone(&self.#name)),
+        }
+    });
+    let arrays = declaration.parameters.iter().filter_map(|parameter| {
+        let Kind::List(length) = &parameter.kind else { return None };
+        let (name, length) = (&parameter.name, &declaration.lengths[*length]);
+        let format = format!("`{name}` must have {{}} entries, not {{}}");
+        Some(quote! {
+            let #name = <[f64; #length]>::try_from(#name).map_err(|list| {
+                <D::Error as serde::de::Error>::custom(::std::format!(#format, #length, list.len()))
+            })?;
+        })
+    });
+    let extends = declaration.options.extend.is_some();
+    let inversion = extends.then(|| quote!(inversion));
+    let field = extends.then(|| quote!(#[serde(default)] inversion: ::piola::Inversion,));
+    let own_inversion = extends.then(|| quote!(inversion: self.inversion,));
+    let extended = extends.then(|| quote!(.and_then(|material| material.with_inversion(inversion))));
+    quote! {
+        #[allow(non_snake_case)]
+        const _: () = {
+            use ::piola::__private::serde;
+
+            #[derive(serde::Serialize, serde::Deserialize)]
+            #[serde(crate = "::piola::__private::serde", rename = #text, deny_unknown_fields)]
+            struct Parameters {
+                #(#names: #types,)*
+                #field
+            }
+
+            impl #bounds serde::Serialize for #name #arguments {
+                fn serialize<S: serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
+                    let parameters = Parameters { #(#names: #plain,)* #own_inversion };
+                    serde::Serialize::serialize(&parameters, serializer)
+                }
+            }
+
+            impl<'de, #(const #lengths: usize),*> serde::Deserialize<'de> for #name #arguments {
+                fn deserialize<D: serde::Deserializer<'de>>(
+                    deserializer: D,
+                ) -> ::core::result::Result<Self, D::Error> {
+                    let Parameters { #(#names,)* #inversion } = serde::Deserialize::deserialize(deserializer)?;
+                    #(#arrays)*
+                    Self::new(#(#names),*)#extended.map_err(<D::Error as serde::de::Error>::custom)
+                }
+            }
+        };
+    }
+}

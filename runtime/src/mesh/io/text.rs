@@ -1,0 +1,153 @@
+//! Text files read line by line and word by word, with errors that name the line.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Reason why a file cannot be read as a mesh or a surface.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: std::io::Error,
+    },
+    /// The contents do not follow the format.
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1; one past the last where the file ends too early.
+        line: usize,
+        /// Description of the problem.
+        problem: String,
+    },
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", path.display()),
+            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Unreadable { source, .. } => Some(source),
+            Self::Malformed { .. } => None,
+        }
+    }
+}
+
+/// Reads a file and parses its text; errors name the file.
+pub(super) fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Result<T, ReadError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
+    // Names in other encodings are no reason to refuse a mesh.
+    named(path, parse(&String::from_utf8_lossy(&bytes)))
+}
+
+/// Adds the name of the file to an error.
+pub(super) fn named<T>(path: &Path, parsed: Result<T, Problem>) -> Result<T, ReadError> {
+    parsed.map_err(|Problem { line, text }| ReadError::Malformed {
+        path: path.to_owned(),
+        line,
+        problem: text,
+    })
+}
+
+/// A problem and its line, from 1.
+#[derive(Debug, PartialEq)]
+pub(super) struct Problem {
+    pub(super) line: usize,
+    pub(super) text: String,
+}
+
+/// A line with its number, read word by word.
+pub(super) struct Line<'a> {
+    number: usize,
+    pub(super) text: &'a str,
+    pub(super) words: std::str::SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(number: usize, text: &'a str) -> Self {
+        Self { number, text, words: text.split_ascii_whitespace() }
+    }
+
+    pub(super) fn problem(&self, text: impl Into<String>) -> Problem {
+        Problem { line: self.number, text: text.into() }
+    }
+
+    /// Parses the next word as a number, which errors call `what`.
+    pub(super) fn number<N: FromStr>(&mut self, what: &str) -> Result<N, Problem> {
+        match self.words.next() {
+            None => Err(self.problem(format!("{what} is missing"))),
+            Some(word) => word.parse().map_err(|_| self.problem(format!("expected {what}, found `{word}`"))),
+        }
+    }
+
+    /// Parses the next word as a number; `None` at the end of the line.
+    pub(super) fn number_if_any<N: FromStr>(&mut self, what: &str) -> Result<Option<N>, Problem> {
+        if self.words.clone().next().is_none() { Ok(None) } else { self.number(what).map(Some) }
+    }
+
+    /// Parses the next word as a finite number.
+    pub(super) fn coordinate(&mut self, what: &str) -> Result<f64, Problem> {
+        let x: f64 = self.number(what)?;
+        if x.is_finite() { Ok(x) } else { Err(self.problem(format!("{what} is {x}; it must be finite"))) }
+    }
+
+    /// Parses the next three words as a point.
+    pub(super) fn point(&mut self) -> Result<[f64; 3], Problem> {
+        Ok([
+            self.coordinate("the x coordinate")?,
+            self.coordinate("the y coordinate")?,
+            self.coordinate("the z coordinate")?,
+        ])
+    }
+}
+
+/// The lines of a file, in order.
+pub(super) struct Cursor<'a> {
+    lines: std::str::Lines<'a>,
+    /// Number of the line last read, from 1.
+    pub(super) number: usize,
+    /// The start of a comment, which is skipped.
+    comment: Option<char>,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { lines: text.lines(), number: 0, comment: None }
+    }
+
+    pub(super) fn with_comments(text: &'a str, comment: char) -> Self {
+        Self { comment: Some(comment), ..Self::new(text) }
+    }
+
+    /// Reads the next line that is not blank.
+    pub(super) fn next_filled(&mut self) -> Option<Line<'a>> {
+        loop {
+            let text = self.lines.next()?;
+            self.number += 1;
+            let text = self.comment.and_then(|comment| text.split(comment).next()).unwrap_or(text);
+            if !text.trim().is_empty() {
+                return Some(Line::new(self.number, text));
+            }
+        }
+    }
+
+    /// Reads the next line that is not blank; at the end of the file an error that `what` is expected.
+    pub(super) fn next(&mut self, what: &str) -> Result<Line<'a>, Problem> {
+        self.next_filled().ok_or_else(|| Problem {
+            line: self.number + 1,
+            text: format!("the file ends where {what} is expected"),
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Settings, reports, moduli and splines come back from JSON with the same bits (feature `serde`).
+#![cfg(all(feature = "serde", feature = "system"))]
+
+use std::fmt::Debug;
+
+use piola::material::Moduli;
+use piola::mesh::tetrahedral_box;
+use piola::point::Filter;
+use piola::step::{
+    Damping, Equilibrium, Filtering, InitialGuess, LineSearchSettings, LinearSolver, NewtonReport,
+    NewtonSettings, Simulation, SimulationSettings, Spring, StepReport,
+};
+use piola::system::{Body, Pins};
+use piola::{Inversion, Spline, material};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Neo-Hookean solid.
+#[material(domain(J > 0.0), extend)]
+fn Rubber(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    mu: f64,
+    /** Pa. */
+    lambda: f64,
+) -> f64 {
+    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+}
+
+/// The text of a value that comes back equal, and as the same text: the same bits but for NaN, which JSON has
+/// not.
+#[track_caller]
+fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> String {
+    let text = serde_json::to_string(value).expect("serialises");
+    let back: T = serde_json::from_str(&text).expect("deserialises");
+    assert_eq!(back, *value);
+    assert_eq!(serde_json::to_string(&back).expect("serialises"), text);
+    text
+}
+
+#[test]
+fn settings_come_back() {
+    let third = 1.0 / 3.0;
+    for linear in [
+        LinearSolver::Automatic,
+        LinearSolver::Cholesky,
+        LinearSolver::RefinedCholesky { tolerance: 0.1 * third },
+        LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
+    ] {
+        let newton = NewtonSettings::default().with_linear(linear).with_tolerance(third);
+        for filtering in [Filtering::Always(Filter::Absolute), Filtering::TrustRegion { tolerance: 0.01 }] {
+            let newton = newton.with_filtering(filtering).with_start(InitialGuess::Velocity);
+            for damping in [Damping::None, Damping::Mass { rate: third }, Damping::Stiffness { time: 1e-3 }] {
+                check(&SimulationSettings::default().with_newton(newton).with_damping(damping));
+            }
+        }
+    }
+    assert_eq!(check(&Filtering::TrustRegion { tolerance: 0.01 }), r#"{"trust_region":{"tolerance":0.01}}"#);
+    check(&Spring::on_node(3, [0.1, 0.2, third], 1e3));
+}
+
+#[test]
+fn what_is_left_out_of_settings_is_the_default_and_what_is_unknown_an_error() {
+    let read = |text: &str| serde_json::from_str::<SimulationSettings>(text);
+    let settings =
+        read(r#"{"newton": {"tolerance": 1e-9}, "gravity": [0, 0, -1.62]}"#).expect("good settings");
+    let newton = NewtonSettings::default().with_tolerance(1e-9);
+    assert_eq!(settings, SimulationSettings::default().with_newton(newton).with_gravity([0.0, 0.0, -1.62]));
+    assert_eq!(settings.line_search, LineSearchSettings::default());
+    let error = read(r#"{"newton": {"tolerence": 1e-9}}"#).expect_err("a slip of the pen");
+    assert!(error.to_string().contains("unknown field `tolerence`"), "{error}");
+}
+
+#[test]
+fn reports_come_back() -> Result<(), Box<dyn std::error::Error>> {
+    let mesh = tetrahedral_box([3, 1, 1], [0.3, 0.1, 0.1])?;
+    let pins = Pins::at([0, 1, 2, 3]);
+    let body = Body::new(&mesh, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+    let mut simulation = Simulation::new(body, &pins, settings)?;
+    let report = simulation.step(1.0 / 30.0)?;
+    assert!(report.energies.kinetic > 0.0 && !report.newton.step_lengths.is_empty());
+    check::<StepReport>(&report);
+    check::<NewtonReport>(&report.newton);
+    simulation.equilibrate()?;
+    check(&Equilibrium::of(&simulation)?);
+    Ok(())
+}
+
+#[test]
+fn materials_are_written_as_their_parameters() -> Result<(), Box<dyn std::error::Error>> {
+    check(&Moduli::from_young_poisson(1e6, 0.3)?);
+    assert_eq!(check(&Inversion::Refuse), r#""refuse""#);
+    assert_eq!(check(&Inversion::Extend { epsilon: 0.1 }), r#"{"extend":{"epsilon":0.1}}"#);
+    let spline = Spline::through(&[[0.5, -2e5 / 3.0], [1.0, 0.0], [2.0, 1e5]])?;
+    assert_eq!(check(&spline), "[[0.5,-66666.66666666667],[1.0,0.0],[2.0,100000.0]]");
+    let error = serde_json::from_str::<Spline>("[[1.0, 0.0], [0.5, 2.0]]").expect_err("not in order");
+    assert!(error.to_string().contains("increasing order of x"), "{error}");
+    Ok(())
+}
+
+/// Ogden's sum, with a list of any length.
+#[material(domain(J > 0.0), admissible(mu[p] * alpha[p] > 0.0), extend, serde)]
+fn Mixed<const N: usize>(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    mu: [f64; N],
+    /** Exponents. */
+    alpha: [f64; N],
+    /** Pa. */
+    K: f64,
+) -> f64 {
+    sum(|p| mu[p] / alpha[p] * (l1.powf(alpha[p]) + l2.powf(alpha[p]) + l3.powf(alpha[p]) - 3.0))
+        - sum(|p| mu[p]) * J.ln()
+        + K / 2.0 * (J - 1.0).powi(2)
+}
+
+/// Forces in each stretch.
+#[material(serde)]
+fn Drawn(
+    [l1, l2, l3]: [f64; 3],
+    /** Force of a stretch, Pa. */
+    f: Spline,
+) -> f64 {
+    f(l1) + f(l2) + f(l3)
+}
+
+#[test]
+fn declared_materials_come_back_checked() -> Result<(), Box<dyn std::error::Error>> {
+    let inversion = Inversion::Extend { epsilon: 0.1 };
+    let material = Mixed::new([6.3e5, -1e4 / 3.0], [1.3, -2.0], 2e7)?.with_inversion(inversion)?;
+    let text = check(&material);
+    let expected = r#"{"mu":[630000.0,-3333.3333333333335],"alpha":[1.3,-2.0],"K":20000000.0,"inversion":{"extend":{"epsilon":0.1}}}"#;
+    assert_eq!(text, expected);
+    let read = |text: &str| serde_json::from_str::<Mixed<1>>(text).map_err(|error| error.to_string());
+    assert_eq!(read(r#"{"mu": [1e5], "alpha": [2], "K": 1e6}"#), Ok(Mixed::new([1e5], [2.0], 1e6)?));
+    for (text, complaint) in [
+        (r#"{"mu": [1e5], "alpha": [-2], "K": 1e6}"#, "mu[p] * alpha[p] > 0"),
+        (r#"{"mu": [1e5, 2e5], "alpha": [2], "K": 1e6}"#, "`mu` must have 1 entries, not 2"),
+        (r#"{"mu": [1e5], "alpha": [2]}"#, "missing field `K`"),
+        (r#"{"mu": [1e5], "alpha": [2], "K": 1e6, "kappa": 1}"#, "unknown field `kappa`"),
+        (r#"{"mu": [1e5], "alpha": [2], "K": 1e6, "inversion": {"extend": {"epsilon": 2}}}"#, "2"),
+    ] {
+        let error = read(text).expect_err(complaint);
+        assert!(error.contains(complaint), "{error}");
+    }
+    check(&Drawn::new(Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5 / 3.0]])?)?);
+    Ok(())
+}
