@@ -1,4 +1,4 @@
-//! What a run leaves behind in its folder: surfaces, a picture, a summary. All or nothing.
+//! What a run leaves behind in its folder: surfaces and a summary. All or nothing.
 //!
 //! This module knows files only: no bodies, no scenes.
 
@@ -28,9 +28,6 @@ pub fn cage_file(frame: usize) -> String {
 
 /// The times of the tetrahedra's files.
 pub const CAGES_FILE: &str = "frames.pvd";
-
-/// The contact sheet.
-pub const PICTURE_FILE: &str = "frames.png";
 
 /// The summary.
 pub const SUMMARY_FILE: &str = "summary.json";

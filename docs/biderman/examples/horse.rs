@@ -7,8 +7,8 @@ use piola::Inversion;
 use piola::mesh::Bounds;
 use piola::step::{Damping, NewtonSettings, Settings, Simulation};
 use piola::system::{Body, Pins};
+use piola_cli::render::{Frame, contact_sheet};
 use piola_scenes::geometry::Geometry;
-use piola_scenes::render::{Frame, contact_sheet};
 use piola_scenes::scene::body::HORSE;
 
 /// Up to here, m, the hooves are held.

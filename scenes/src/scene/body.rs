@@ -4,7 +4,6 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::Error;
-use crate::render::Style;
 
 /// A body and what it looks like in pictures. In files it is its name.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +26,17 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }
+}
+
+/// What a picture looks like, beside the motion itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Linear RGB reflectance of the body, each in [0, 1].
+    pub colour: [f32; 3],
+    /// Where the camera looks from, degrees: about the vertical axis y, from z towards x.
+    pub azimuth: f32,
+    /// Where the camera looks from, degrees: above the horizon.
+    pub elevation: f32,
 }
 
 /// Where the tetrahedra of a body and its surface come from.

@@ -8,16 +8,16 @@ use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
+use piola_cli::view::protocol::Act;
+use piola_cli::view::recording::{Recorder, Recording};
+use piola_cli::view::session::Session;
+use piola_cli::view::state::State;
+use piola_cli::view::{Begin, Options, Viewer};
 use piola_scenes::error::Error;
 use piola_scenes::measure;
 use piola_scenes::output::Summary;
 use piola_scenes::scene;
 use piola_scenes::settings::Settings;
-use piola_scenes::view::protocol::Act;
-use piola_scenes::view::recording::{Recorder, Recording};
-use piola_scenes::view::session::Session;
-use piola_scenes::view::state::State;
-use piola_scenes::view::{Begin, Options, Viewer};
 
 /// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
 const TAIL: usize = 5;

@@ -7,11 +7,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::session::Held;
-use crate::clock::Clock;
-use crate::energy::Energy;
-use crate::error::Error;
-use crate::output::write_whole;
-use crate::settings::Settings;
+use piola_scenes::clock::Clock;
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
+use piola_scenes::output::write_whole;
+use piola_scenes::settings::Settings;
 
 /// The first field of a file, by which it is known for what it is, and what its version is.
 const FORMAT: &str = "piola state 1";

@@ -8,9 +8,9 @@ use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::fit::Difference;
 use piola_laboratory::stability;
 
+use crate::laboratory::{CheckSettings, CurveSettings, FitSettings, Source};
 use piola_scenes::energy::Energy;
 use piola_scenes::error::Error;
-use piola_scenes::laboratory::{CheckSettings, CurveSettings, FitSettings, Source};
 
 use super::{inversion, parameter};
 

@@ -9,12 +9,12 @@ use piola_laboratory::curve::{Mode, NoResponse, Response, Volume, curve as point
 use piola_laboratory::data::{Agreement, Measured, Unanswered};
 
 use super::{FINE, Source, as_options, draw, measured_range, spaced};
-use crate::energy::Energy;
-use crate::error::Error;
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
 
 /// What to compute.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CurveSettings {
+pub(crate) struct CurveSettings {
     /// The material.
     pub energy: Energy,
     /// The tests; where none is named, those of the data, or else uniaxial, equibiaxial and pure shear.
@@ -40,7 +40,7 @@ const ROWS: usize = 11;
 ///
 /// # Errors
 /// Where material, data or range make no sense, or the chart cannot be written.
-pub fn curve(settings: &CurveSettings) -> Result<CurveReport, Error> {
+pub(crate) fn curve(settings: &CurveSettings) -> Result<CurveReport, Error> {
     let energy = settings.energy.clone().inverting(Inversion::Refuse);
     let substance = energy.build()?;
     let specimen = energy.specimen()?;
@@ -117,7 +117,7 @@ fn check_range(mode: Mode, from: f64, to: f64) -> Result<(), Error> {
 
 /// Test curves as tables.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CurveReport {
+pub(crate) struct CurveReport {
     title: String,
     given: String,
     tables: Vec<Table>,

@@ -13,7 +13,7 @@ mod raster;
 mod sheet;
 
 pub use image::Image;
-pub use sheet::{Frame, Style, contact_sheet};
+pub use sheet::{Frame, contact_sheet};
 
 type Vector = nalgebra::Vector3<f32>;
 

@@ -1,5 +1,6 @@
 //! Frames of a motion side by side.
 
+use piola_scenes::scene::body::Style;
 use rayon::prelude::*;
 
 use super::camera::Camera;
@@ -22,17 +23,6 @@ const INK: [u8; 3] = [92, 92, 100];
 /// Linear RGB of the floor near the body and of the haze that it fades into.
 const FLOOR: [f32; 3] = [0.80, 0.80, 0.795];
 const HAZE: [f32; 3] = [0.90, 0.915, 0.94];
-
-/// What a picture looks like, beside the motion itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Style {
-    /// Linear RGB reflectance of the body, each in [0, 1].
-    pub colour: [f32; 3],
-    /// Where the camera looks from, degrees: about the vertical axis y, from z towards x.
-    pub azimuth: f32,
-    /// Where the camera looks from, degrees: above the horizon.
-    pub elevation: f32,
-}
 
 /// One frame of a motion.
 #[derive(Clone, Debug, PartialEq)]

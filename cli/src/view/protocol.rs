@@ -1,7 +1,7 @@
 //! What a page may say: JSON of one of the forms of [`Message`], and nothing else.
 //!
 //! ```
-//! use piola_scenes::view::protocol::{Act, Message};
+//! use piola_cli::view::protocol::{Act, Message};
 //!
 //! let text = r#"{"act": {"pull": {"hand": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
 //! let pull = Act::Pull { hand: 1, vertex: 7, target: [0.0, 1.0, 0.5] };

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
 use super::state::State;
-use crate::error::Error;
+use piola_scenes::error::Error;
 
 /// So much of the end is lost at most where a viewer is ended from outside.
 const MARKS: Duration = Duration::from_secs(1);

@@ -15,7 +15,7 @@ use super::protocol::{Act, Run};
 use super::recording::{Recorder, Recording};
 use super::session::Session;
 use super::show::{self, Frame, Tally};
-use crate::error::Error;
+use piola_scenes::error::Error;
 
 /// At most so many orders are taken between two steps.
 const ORDERS: usize = 256;

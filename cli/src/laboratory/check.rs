@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use piola_laboratory::stability::{Report, Settings, map, survey};
 
-use crate::energy::Energy;
-use crate::error::Error;
-use crate::output::write_whole;
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
+use piola_scenes::output::write_whole;
 
 /// What is to be checked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CheckSettings {
+pub(crate) struct CheckSettings {
     /// The material, every parameter given.
     pub energy: Energy,
     /// Which stretches are looked at.
@@ -22,7 +22,7 @@ pub struct CheckSettings {
 
 /// A report with the material that it is about.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CheckReport {
+pub(crate) struct CheckReport {
     /// Name and parameters, as they are given on the command line.
     pub material: String,
     /// ψ in one line.
@@ -35,7 +35,7 @@ pub struct CheckReport {
 ///
 /// # Errors
 /// Where the material or the stretches make no sense, and where the file cannot be written.
-pub fn check(settings: &CheckSettings) -> Result<CheckReport, Error> {
+pub(crate) fn check(settings: &CheckSettings) -> Result<CheckReport, Error> {
     let CheckSettings { energy, stretches, svg } = settings;
     let description = energy.description()?;
     let parameters = description.parameters.iter().map(|parameter| {

@@ -7,15 +7,17 @@ use std::process::ExitCode;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use piola_cli::view::Viewer;
 use piola_scenes::energy;
 use piola_scenes::error::Error;
-use piola_scenes::laboratory;
 use piola_scenes::run::run;
-use piola_scenes::view::Viewer;
 
 mod command;
+mod laboratory;
+mod picture;
 
 use command::{Cli, Command, Run, View};
+use picture::{PICTURE_FILE, Picture};
 
 fn main() -> ExitCode {
     // A command line that makes no sense ends here, with status 2.
@@ -53,9 +55,17 @@ fn play(arguments: Run) -> Result<(), Error> {
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps") {
         bar.set_style(style);
     }
-    let result = run(&settings, &output, &mut || bar.inc(1));
+    let mut picture = Picture::new(&settings);
+    let result = run(&settings, &output, &mut |snapshot| {
+        bar.set_position(snapshot.frame as u64);
+        picture.add(snapshot);
+    });
     bar.finish_and_clear();
-    say(result?);
+    let mut finished = result?;
+    let picture = picture.draw(&finished.geometry, &settings);
+    finished.folder.write(PICTURE_FILE, |file| picture.write_png(file).map_err(Into::into))?;
+    finished.folder.publish()?;
+    say(finished.summary);
     say(format_args!("  surfaces, frames.png and summary.json are in {}", output.folder.display()));
     Ok(())
 }

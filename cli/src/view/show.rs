@@ -16,9 +16,9 @@ use tungstenite::{Bytes, Utf8Bytes};
 
 use super::protocol::Act;
 use super::session::Session;
-use crate::energy;
-use crate::geometry::Geometry;
-use crate::measure;
+use piola_scenes::energy;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::measure;
 
 /// One look at the body.
 #[derive(Clone, Debug)]

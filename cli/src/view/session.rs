@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
 use super::state::State;
-use crate::energy::Energy;
-use crate::error::Error;
-use crate::geometry::Geometry;
-use crate::play::Play;
-use crate::settings::Settings;
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::play::Play;
+use piola_scenes::settings::Settings;
 
 /// More would be no pulls by people.
 const MAX_PULLS: usize = 64;

@@ -11,16 +11,16 @@ use piola_laboratory::chart::{self, Curve};
 use piola_laboratory::curve::Mode;
 use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
 
-use crate::error::Error;
-use crate::output::write_whole;
+use piola_scenes::error::Error;
+use piola_scenes::output::write_whole;
 
-pub use check::{CheckReport, CheckSettings, check};
-pub use curve::{CurveReport, CurveSettings, curve};
-pub use fit::{FitReport, FitSettings, fit};
+pub(crate) use check::{CheckSettings, check};
+pub(crate) use curve::{CurveSettings, curve};
+pub(crate) use fit::{FitSettings, fit};
 
 /// Where measured points come from.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Source {
+pub(crate) enum Source {
     /// [`TRELOAR_1944`].
     Treloar,
     /// A file.

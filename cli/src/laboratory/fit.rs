@@ -10,12 +10,12 @@ use piola_laboratory::fit::{self, Candidate, Difference, Fit, Standing, Warning}
 
 use super::curve::titled;
 use super::{FINE, Source, as_options, draw, measured_range, rounded, spaced};
-use crate::energy::Energy;
-use crate::error::Error;
+use piola_scenes::energy::Energy;
+use piola_scenes::error::Error;
 
 /// What to fit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FitSettings {
+pub(crate) struct FitSettings {
     /// The material with the parameters to start from.
     pub energy: Energy,
     /// The measured points.
@@ -38,7 +38,7 @@ pub struct FitSettings {
 ///
 /// # Errors
 /// Where material or data make no sense or do not go together, or the chart cannot be written.
-pub fn fit(settings: &FitSettings) -> Result<FitReport, Error> {
+pub(crate) fn fit(settings: &FitSettings) -> Result<FitReport, Error> {
     let energy = settings.energy.clone().inverting(Inversion::Refuse);
     let material = energy.build()?.name;
     let candidate = energy.candidate()?;
@@ -79,7 +79,7 @@ pub fn fit(settings: &FitSettings) -> Result<FitReport, Error> {
 
 /// What a fit says, to be read and to be pasted.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FitReport {
+pub(crate) struct FitReport {
     material: &'static str,
     names: Vec<&'static str>,
     volume: Volume,

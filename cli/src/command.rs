@@ -8,15 +8,15 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use piola::Inversion;
 
+use piola_cli::view::recording::Recording;
+use piola_cli::view::state::State;
+use piola_cli::view::{Begin, Options};
 use piola_scenes::energy::Energy;
 use piola_scenes::error::Error;
 use piola_scenes::output::Newton;
 use piola_scenes::run::Output;
 use piola_scenes::scene::{self, Amplitude, Scene, Start, body};
 use piola_scenes::settings::{Files, Settings};
-use piola_scenes::view::recording::Recording;
-use piola_scenes::view::state::State;
-use piola_scenes::view::{Begin, Options};
 
 pub(crate) use laboratory::{Check, Curve, Fit};
 

@@ -26,9 +26,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread::{self, JoinHandle};
 
-use crate::error::Error;
-use crate::settings::Settings;
 use driver::{Driver, Order};
+use piola_scenes::error::Error;
+use piola_scenes::settings::Settings;
 use recording::{Recorder, Recording};
 use server::Server;
 use session::Session;
