@@ -1,24 +1,20 @@
 //! The command line.
 
-mod laboratory;
-
-use std::fmt;
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 use piola::Inversion;
-
-use piola_cli::view::recording::Recording;
-use piola_cli::view::state::State;
-use piola_cli::view::{Begin, Options};
-use piola_scenes::energy::Energy;
-use piola_scenes::error::Error;
+use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::Newton;
 use piola_scenes::run::Output;
-use piola_scenes::scene::{self, Amplitude, Scene, Start, body};
+use piola_scenes::scene::{Amplitude, Body, SCENES, Scene, Start};
 use piola_scenes::settings::{Files, Settings};
 
-pub(crate) use laboratory::{Check, Curve, Fit};
+use crate::bench::{Check, Curve, Fit};
+use crate::error::Error;
+use crate::view::recording::Recording;
+use crate::view::state::State;
+use crate::view::{Begin, Options};
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -46,7 +42,7 @@ pub(crate) enum Command {
     Curve(Box<Curve>),
     /// Fit the parameters of a material to measured curves.
     Fit(Box<Fit>),
-    /// Say where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
+    /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
     ///
     /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from rest.
     Check(Box<Check>),
@@ -81,15 +77,15 @@ pub(crate) struct View {
     #[arg(long, default_value_t = 8017)]
     port: u16,
 
-    /// File that the page's button saves the state to [default: it is kept in memory].
+    /// File for the state that the page's button saves [default: kept in memory].
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 
-    /// Go on from a saved state, to the last bit; it names its scene and options itself.
+    /// Continue a saved state, to the last bit; it names its scene and options itself.
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     load: Option<PathBuf>,
 
-    /// Record all that is done to the body in a file.
+    /// Record every pull and every change in a file.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
@@ -98,7 +94,7 @@ pub(crate) struct View {
     replay: Option<PathBuf>,
 }
 
-/// A scene, and what is to be different from it.
+/// A scene and overrides of its defaults.
 #[derive(Debug, PartialEq, Parser)]
 struct Choice {
     /// The scene.
@@ -139,7 +135,7 @@ struct Choice {
     #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
     body: Option<String>,
 
-    /// Of the random numbers of a scene that scrambles: the same seed gives the same start [default: the scene's, 1].
+    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default: the scene's, 1].
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
@@ -148,7 +144,8 @@ struct Choice {
     #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
     amplitude: Option<Amplitude>,
 
-    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places become shares of its bounding box.
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places become shares
+    /// of its bounding box.
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
 
@@ -157,42 +154,27 @@ struct Choice {
     surface: Option<PathBuf>,
 
     /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
-    #[arg(long, value_enum, default_value_t = Iterations::Single)]
-    newton: Iterations,
+    #[arg(long, value_enum, default_value_t = Newton::Single)]
+    newton: Newton,
 
     /// Threads for the solver; 0 for one per core.
     #[arg(long, value_name = "N", default_value_t = 1)]
     threads: usize,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-enum Iterations {
-    Single,
-    Full,
-}
-
-impl fmt::Display for Iterations {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Single => "single",
-            Self::Full => "full",
-        })
-    }
-}
-
 impl Run {
-    /// What is asked for, and the folder for it.
+    /// Settings of the run, and the files that it leaves.
     pub(crate) fn settings(self) -> Result<(Settings, Output), Error> {
         let mut settings = self.choice.settings()?;
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
         let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
-        Ok((settings, Output { folder, vtu: self.vtu }))
+        Ok((settings, Output::new(folder).with_vtu(self.vtu)))
     }
 }
 
 impl View {
-    /// What is asked for.
+    /// Options of the viewer.
     pub(crate) fn options(self) -> Result<Options, Error> {
         let begin = match (&self.load, &self.replay) {
             (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
@@ -200,50 +182,41 @@ impl View {
             (Some(path), _) => Begin::State(Box::new(State::read(path)?)),
             (None, Some(path)) => Begin::Replay(Box::new(Recording::read(path)?)),
         };
-        Ok(Options { begin, port: self.port, save: self.save, record: self.record })
+        Ok(Options::new(begin).with_port(self.port).with_save(self.save).with_record(self.record))
     }
 }
 
 impl Choice {
-    /// The scene with what is to be different.
+    /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
-        let scene = scene::find(&self.scene)?;
-        let described = Settings::of(scene);
-        let mut energy = match self.material {
-            Some(name) if !described.energy.is(&name) => {
-                Energy::like(&name, described.energy.build()?.moduli)
-            }
-            _ => described.energy,
-        };
+        let scene = Scene::find(&self.scene)?;
+        let mut settings = Settings::new(scene);
+        if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
+            settings.material = MaterialSpec::matching(&name, settings.material.build()?.moduli);
+        }
         for (name, values) in self.parameters {
-            energy = energy.with(&name, values);
+            settings.material = settings.material.with_parameter(&name, values);
         }
         if let Some(inversion) = self.inversion {
-            energy = energy.inverting(inversion);
+            settings.material = settings.material.with_inversion(inversion);
         }
-        let body = self.body.map_or(Ok(described.body), |name| body::find(&name))?;
-        let surface = self.surface;
-        Ok(Settings {
-            scene,
-            body,
-            start: start(scene, self.seed, self.amplitude)?,
-            files: self.mesh.map(|mesh| Files { mesh, surface }),
-            energy,
-            density: self.density.unwrap_or(described.density),
-            gravity: self.gravity.unwrap_or(described.gravity),
-            dt: self.dt.unwrap_or(described.dt),
-            frames: described.frames,
-            pins: self.pins,
-            newton: match self.newton {
-                Iterations::Single => Newton::Single,
-                Iterations::Full => Newton::Full,
-            },
-            threads: self.threads,
-        })
+        if let Some(name) = self.body {
+            settings.body = Body::find(&name)?;
+        }
+        settings.start = start(scene, self.seed, self.amplitude)?;
+        settings.density = self.density.unwrap_or(settings.density);
+        settings.gravity = self.gravity.unwrap_or(settings.gravity);
+        settings.dt = self.dt.unwrap_or(settings.dt);
+        let files = self.mesh.map(|mesh| Files { mesh, surface: self.surface });
+        Ok(settings
+            .with_files(files)
+            .with_pins(self.pins)
+            .with_newton(self.newton)
+            .with_threads(self.threads))
     }
 }
 
-/// The scene's start with another seed or amplitude where it is a random one.
+/// The scene's start, with another seed or amplitude if it is a random one.
 fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
     let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
     match (scene.start, seed, amplitude) {
@@ -255,28 +228,28 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
         (_, seed, _) => Err(Error::NotScrambled {
             option: if seed.is_some() { "--seed" } else { "--amplitude" },
             scene: scene.name,
-            known: scene::SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
+            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
         }),
     }
 }
 
 fn scenes() -> String {
     let mut text = String::from("Scenes:\n");
-    for scene in scene::SCENES {
+    for scene in SCENES {
         text += &format!("  {:24} {}\n", scene.name, scene.about);
     }
     text
 }
 
 /// Reads `NAME=V,V,V`.
-fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
+pub(crate) fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
     let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
     let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
     Ok((name.trim().into(), values.split(',').map(number).collect::<Result<_, _>>()?))
 }
 
 /// Reads `refuse` or the stretch where an extension begins.
-fn inversion(text: &str) -> Result<Inversion, String> {
+pub(crate) fn inversion(text: &str) -> Result<Inversion, String> {
     if text == "refuse" {
         return Ok(Inversion::Refuse);
     }

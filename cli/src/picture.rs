@@ -1,10 +1,11 @@
 //! The frames of a run that its picture shows.
 
-use piola_cli::render::{Frame, Image, contact_sheet};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::measure;
 use piola_scenes::run::Snapshot;
 use piola_scenes::settings::Settings;
+
+use crate::render::{Frame, Image, contact_sheet};
 
 /// The contact sheet.
 pub(crate) const PICTURE_FILE: &str = "frames.png";

@@ -1,12 +1,12 @@
 //! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
 //!
 //! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same acts;
-//! `driver` makes its steps on a thread of its own and waits for nobody; `connection` passes between it and a page what
+//! `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between it and a page what
 //! [`protocol`] allows in one direction and `show` says in the other; `server` and `request` decide who comes in, and
 //! `page` is what they get. [`state`] and [`recording`] are the files.
 //!
-//! Nothing is loaded from elsewhere, and nobody but pages from this viewer is listened to. There is no other
-//! protection: whoever can open the page on this machine can pull.
+//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. There is no other protection: anyone
+//! who can open the page on this machine can pull.
 
 mod connection;
 mod driver;
@@ -27,8 +27,10 @@ use std::sync::mpsc::sync_channel;
 use std::thread::{self, JoinHandle};
 
 use driver::{Driver, Order};
-use piola_scenes::error::Error;
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::settings::Settings;
+
+use crate::error::Error;
 use recording::{Recorder, Recording};
 use server::Server;
 use session::Session;
@@ -37,10 +39,11 @@ use state::State;
 /// Orders that wait for the driver; a connection with more of them waits itself.
 const ORDERS: usize = 256;
 
-/// What to show, and where.
+/// Settings of a viewer.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Options {
-    /// What happens.
+    /// The beginning.
     pub begin: Begin,
     /// The port on 127.0.0.1; 0 for any that is free.
     pub port: u16,
@@ -50,18 +53,47 @@ pub struct Options {
     pub record: Option<PathBuf>,
 }
 
-/// Where a viewer begins.
+impl Options {
+    /// A viewer at any free port, which writes no files.
+    #[must_use]
+    pub fn new(begin: Begin) -> Self {
+        Self { begin, port: 0, save: None, record: None }
+    }
+
+    /// Serves at this port on 127.0.0.1; 0 for any that is free.
+    #[must_use]
+    pub fn with_port(mut self, port: u16) -> Self {
+        self.port = port;
+        self
+    }
+
+    /// Saves the state to a file when the page's button is pressed.
+    #[must_use]
+    pub fn with_save(mut self, file: impl Into<Option<PathBuf>>) -> Self {
+        self.save = file.into();
+        self
+    }
+
+    /// Records every act in a file.
+    #[must_use]
+    pub fn with_record(mut self, file: impl Into<Option<PathBuf>>) -> Self {
+        self.record = file.into();
+        self
+    }
+}
+
+/// Beginning of a viewer.
 #[derive(Clone, Debug)]
 pub enum Begin {
-    /// Before the first step of a scene.
+    /// A scene before its first step.
     Scene(Box<Settings>),
-    /// Where a state was saved.
+    /// A saved state.
     State(Box<State>),
-    /// Where a recording began; it is played back, and then the page takes over.
+    /// A recording, which is played back before the page takes over.
     Replay(Box<Recording>),
 }
 
-/// A page that is being served. Once dropped it lets nobody in, and the body plays on until the last page is closed.
+/// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is closed.
 #[derive(Debug)]
 pub struct Viewer {
     address: SocketAddr,
@@ -73,32 +105,29 @@ impl Viewer {
     /// Starts to play and to serve.
     ///
     /// # Errors
-    /// Where the settings make no sense, the state does not fit its body, the port is taken, a file cannot be written, or there
-    /// are no threads to be had.
+    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], or that of a file that cannot be written.
     pub fn start(options: Options) -> Result<Self, Error> {
         let (session, replay) = match options.begin {
             Begin::Scene(settings) => (Session::new(*settings)?, None),
             Begin::State(state) => (Session::resume(*state)?, None),
             Begin::Replay(recording) => (Session::resume(recording.start().clone())?, Some(*recording)),
         };
-        let no_port = |error: std::io::Error| Error::Port { port: options.port, reason: error.to_string() };
+        let no_port = |source| Error::Port { port: options.port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(no_port)?;
         let address = listener.local_addr().map_err(no_port)?;
         let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
 
-        let no_threads = |reason: String| Error::Threads { reason };
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
-        let threads = threads.map_err(|error| no_threads(error.to_string()))?;
+        let threads = threads.map_err(SceneError::from)?;
         let topology = show::topology(session.geometry());
-        let first = connection::after(session.pulls().map(|(hand, _)| hand));
+        let first = connection::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let driver = Driver { session, threads, save: options.save, recorder, replay };
         let server =
             Server { listener, port: address.port(), topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
-            let thread = thread::Builder::new().name(name.into()).spawn(work);
-            thread.map_err(|error| no_threads(error.to_string()))
+            thread::Builder::new().name(name.into()).spawn(work).map_err(Error::Thread)
         };
         // The driver ends when the server and all its connections have.
         start("driver", Box::new(move || driver.run(&taken)))?;
@@ -106,7 +135,7 @@ impl Viewer {
         Ok(Self { address, is_over, server })
     }
 
-    /// Where the page is.
+    /// Address of the page.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address

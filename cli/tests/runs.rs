@@ -52,9 +52,9 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     let object = summary.as_object().expect("an object");
     // A body that is not back is looked at.
-    let standing = object["recovered"] == false;
-    assert_eq!(object.contains_key("standing"), standing, "{text}");
-    assert_eq!(object.len(), KEYS.len() + more.len() + usize::from(standing), "{text}");
+    let is_examined = object["recovered"] == false;
+    assert_eq!(object.contains_key("final_state"), is_examined, "{text}");
+    assert_eq!(object.len(), KEYS.len() + more.len() + usize::from(is_examined), "{text}");
     for key in KEYS.iter().chain(more) {
         // What is not finite would be null.
         assert!(object.get(*key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
@@ -202,9 +202,9 @@ fn an_energy_blind_to_reflection_stays_inside_out() {
     assert_eq!(summary["inverted_at_start"], summary["tets"]);
     assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&false.into(), &true.into()));
     assert!(summary["energy"].as_f64().is_some_and(|energy| energy.abs() < 1e-12), "{summary}");
-    let standing = &summary["standing"];
-    assert_eq!((&standing["place"], &standing["stress_free"]), (&"stable_elsewhere".into(), &true.into()));
-    assert_eq!(standing["inverted"], summary["tets"]);
+    let state = &summary["final_state"];
+    assert_eq!((&state["place"], &state["stress_free"]), (&"stable_elsewhere".into(), &true.into()));
+    assert_eq!(state["inverted"], summary["tets"]);
 }
 
 #[test]
@@ -217,8 +217,8 @@ fn a_point_without_forces_is_called_a_saddle() {
     let text = fs::read_to_string(folder.path().join("out/point/summary.json")).expect("a summary");
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(summary["stationary_start"], true);
-    assert_eq!(summary["standing"]["place"], "saddle", "{summary}");
-    let eigenvalue = summary["standing"]["smallest_eigenvalue"].as_f64();
+    assert_eq!(summary["final_state"]["place"], "saddle", "{summary}");
+    let eigenvalue = summary["final_state"]["smallest_eigenvalue"].as_f64();
     assert!(eigenvalue.is_some_and(|value| value < 0.0), "{summary}");
 }
 
@@ -227,7 +227,7 @@ fn a_body_stuck_inside_out_is_certified() {
     let arguments = ["run", "inside_out", "--material", "ogden", "--body", "dinosaur"];
     let summary = check(&arguments, "inside_out", 300);
     assert_eq!(summary["recovered"], false, "{summary}");
-    assert_eq!(summary["standing"]["place"], "stable_elsewhere", "{summary}");
+    assert_eq!(summary["final_state"]["place"], "stable_elsewhere", "{summary}");
 }
 
 #[test]

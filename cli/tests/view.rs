@@ -8,15 +8,15 @@ use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
+use piola_cli::error::Error;
 use piola_cli::view::protocol::Act;
 use piola_cli::view::recording::{Recorder, Recording};
 use piola_cli::view::session::Session;
 use piola_cli::view::state::State;
 use piola_cli::view::{Begin, Options, Viewer};
-use piola_scenes::error::Error;
 use piola_scenes::measure;
 use piola_scenes::output::Summary;
-use piola_scenes::scene;
+use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
 
 /// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
@@ -25,7 +25,7 @@ const BACK: usize = 5000;
 const LEG: usize = 2925;
 
 fn settings() -> Settings {
-    Settings::of(scene::find("dinosaur").expect("a scene"))
+    Settings::new(Scene::find("dinosaur").expect("a scene"))
 }
 
 fn session() -> Session {
@@ -33,7 +33,7 @@ fn session() -> Session {
 }
 
 fn pull(vertex: usize, target: [f64; 3]) -> Act {
-    Act::Pull { hand: 1, vertex, target }
+    Act::Pull { drag: 1, vertex, target }
 }
 
 fn steps(session: &mut Session, count: usize) {
@@ -63,7 +63,7 @@ fn a_saved_state_goes_on_to_the_last_bit() {
     steps(&mut rest, 9);
     assert!(bits(&rest) == bits(&whole), "the state went on in another way");
 
-    whole.apply(&Act::Release { hand: 1 }).expect("a release");
+    whole.apply(&Act::Release { drag: 1 }).expect("a release");
     steps(&mut whole, 3);
     rest.apply(&Act::Restore {}).expect("the state that it was loaded from");
     steps(&mut rest, 9);
@@ -96,7 +96,7 @@ fn what_is_no_state_is_refused() {
     check(&|state| state["pulls"] = json!({ "1": held(1, 1e9) }), "target");
     check(&|state| state["pulls"] = json!({ u64::MAX.to_string(): held(1, 0.0) }), "too many pulls");
     std::fs::write(&file, "{").expect("a scratch file");
-    assert!(matches!(State::read(&file), Err(Error::File { .. })));
+    assert!(matches!(State::read(&file), Err(Error::NotState { .. })));
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn a_recording_gives_the_same_motion_again() {
         Act::Material { name: "stable_neo_hookean".into(), as_stiff: true },
         Act::TimeStep { seconds: 0.01 },
         Act::Restore {},
-        Act::Release { hand: 1 },
+        Act::Release { drag: 1 },
         Act::Parameter { name: "kappa".into(), values: vec![1e6] },
         Act::Reset {},
     ];
@@ -180,11 +180,11 @@ fn another_material_takes_over_where_the_body_is() {
 #[test]
 fn pulls_are_numbered_and_limited() {
     let mut session = session();
-    for hand in 0..64 {
-        session.apply(&Act::Pull { hand, vertex: BACK, target: [0.0, 2.0, 0.0] }).expect("a pull");
+    for drag in 0..64 {
+        session.apply(&Act::Pull { drag, vertex: BACK, target: [0.0, 2.0, 0.0] }).expect("a pull");
     }
-    session.apply(&Act::Pull { hand: 7, vertex: BACK, target: [0.0, 2.1, 0.0] }).expect("the same hand");
-    let error = session.apply(&Act::Pull { hand: 64, vertex: BACK, target: [0.0; 3] }).expect_err("too many");
+    session.apply(&Act::Pull { drag: 7, vertex: BACK, target: [0.0, 2.1, 0.0] }).expect("the same drag");
+    let error = session.apply(&Act::Pull { drag: 64, vertex: BACK, target: [0.0; 3] }).expect_err("too many");
     assert!(error.to_string().contains("64"), "{error}");
     session.apply(&Act::ReleaseAll {}).expect("a release");
     assert_eq!(session.pulls().count(), 0);
@@ -212,7 +212,7 @@ fn pulled_several_heights_far_and_inside_out_it_comes_back() {
             far > distance && (inverted > 0) == inside_out,
             "{vertex}: {far} heights, {inverted} inverted"
         );
-        session.apply(&Act::Release { hand: 1 }).expect("a release");
+        session.apply(&Act::Release { drag: 1 }).expect("a release");
         steps(&mut session, 300);
         let (far, inverted) = judge(&session);
         // As `piola run` judges it.
@@ -223,7 +223,7 @@ fn pulled_several_heights_far_and_inside_out_it_comes_back() {
 /// A viewer of the dinosaur at a port of its own.
 fn viewer() -> Viewer {
     let begin = Begin::Scene(Box::new(settings()));
-    Viewer::start(Options { begin, port: 0, save: None, record: None }).expect("a viewer")
+    Viewer::start(Options::new(begin)).expect("a viewer")
 }
 
 /// A page without a browser.
@@ -323,12 +323,12 @@ fn a_vertex_is_dragged_and_comes_back() {
     page.wait("a reset", |page| page.frame() == 0);
     let rest = page.vertex(TAIL);
     assert_eq!(page.setup["scene"], "dinosaur");
-    assert_eq!(page.setup["materials"].as_array().map(Vec::len), Some(piola_scenes::energy::pages().count()));
+    assert_eq!(page.setup["materials"].as_array().map(Vec::len), Some(piola_materials::CATALOGUE.len()));
 
     // One body height to the side.
     let height = page.setup["bounds"][1][1].as_f64().expect("a height") as f32;
     let target = [rest[0], rest[1], rest[2] + height];
-    page.send(json!({ "act": { "pull": { "hand": 3, "vertex": TAIL, "target": target } } }));
+    page.send(json!({ "act": { "pull": { "drag": 3, "vertex": TAIL, "target": target } } }));
     page.send(json!({ "run": { "pace": { "real_time": false } } }));
     page.send(json!({ "run": { "pause": { "paused": false } } }));
     page.wait("a pull", |page| page.vertex(TAIL)[2] > rest[2] + 0.8 * height);
@@ -337,7 +337,7 @@ fn a_vertex_is_dragged_and_comes_back() {
     assert!(page.figures["steps_per_second"].as_f64().is_some_and(|speed| speed > 1.0));
     assert_eq!(page.figures["newton_iterations"], 1);
 
-    page.send(json!({ "act": { "release": { "hand": 3 } } }));
+    page.send(json!({ "act": { "release": { "drag": 3 } } }));
     // The scene's own pull has ended then, too; a body is back as `piola run` judges it.
     page.wait("the way back", |page| {
         page.figures["from_rest"].as_f64().is_some_and(|far| far < 1e-3) && page.frame() > 60
@@ -372,8 +372,8 @@ fn malformed_messages_end_a_connection_and_nothing_else() {
     let mut witness = Page::open(viewer.address());
     let messages = [
         (Message::text("nonsense"), 1008),
-        (Message::text(r#"{"act": {"pull": {"hand": 1, "vertex": 1, "target": [1e999, 0, 0]}}}"#), 1008),
-        (Message::text(r#"{"act": {"pull": {"hand": 4294967296, "vertex": 1, "target": [0, 0, 0]}}}"#), 1008),
+        (Message::text(r#"{"act": {"pull": {"drag": 1, "vertex": 1, "target": [1e999, 0, 0]}}}"#), 1008),
+        (Message::text(r#"{"act": {"pull": {"drag": 4294967296, "vertex": 1, "target": [0, 0, 0]}}}"#), 1008),
         (Message::text(r#"{"run": {"jump": {}}}"#), 1008),
         (Message::binary(vec![1, 2, 3]), 1003),
         (Message::text("a".repeat(20_000)), 1009),
@@ -397,7 +397,7 @@ fn a_page_that_goes_away_lets_go() {
     let viewer = viewer();
     let mut witness = Page::open(viewer.address());
     let mut page = Page::open(viewer.address());
-    page.send(json!({ "act": { "pull": { "hand": 0, "vertex": BACK, "target": [0.0, 2.0, 0.0] } } }));
+    page.send(json!({ "act": { "pull": { "drag": 0, "vertex": BACK, "target": [0.0, 2.0, 0.0] } } }));
     witness.wait("a pull", |page| page.figures["pulls"] != json!([]));
     drop(page);
     witness.wait("a release", |page| page.figures["pulls"] == json!([]));
@@ -454,7 +454,7 @@ fn strangers_are_not_let_in() {
     let long = ask(format!("GET / HTTP/1.1\r\nHost: {own}\r\nCookie: {}", "a".repeat(17_000)));
     assert!(long.starts_with("HTTP/1.1 431"), "{long}");
     // The page names no place but its own.
-    for file in ["/", "/page.js", "/link.js", "/stage.js", "/grip.js", "/orbit.js", "/panel.js", "/slider.js"]
+    for file in ["/", "/page.js", "/link.js", "/stage.js", "/drag.js", "/orbit.js", "/panel.js", "/slider.js"]
     {
         let text = ask(format!("GET {file} HTTP/1.1\r\nHost: {own}\r\n\r\n"));
         assert!(text.starts_with("HTTP/1.1 200"), "{file}");
@@ -467,7 +467,7 @@ fn a_port_that_is_taken_is_named() {
     let viewer = viewer();
     let port = viewer.address().port();
     let begin = Begin::Scene(Box::new(settings()));
-    let error = Viewer::start(Options { begin, port, save: None, record: None }).expect_err("taken");
+    let error = Viewer::start(Options::new(begin).with_port(port)).expect_err("taken");
     assert!(error.to_string().contains(&port.to_string()), "{error}");
     assert_eq!(error.exit_code(), 2);
 }
@@ -477,10 +477,10 @@ fn a_viewer_records_saves_and_plays_back() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let (save, record) = (folder.path().join("state.json"), folder.path().join("recording.jsonl"));
     let begin = Begin::Scene(Box::new(settings()));
-    let options = Options { begin, port: 0, save: Some(save.clone()), record: Some(record.clone()) };
+    let options = Options::new(begin).with_save(save.clone()).with_record(record.clone());
     let viewer = Viewer::start(options).expect("a viewer");
     let mut page = Page::open(viewer.address());
-    page.send(json!({ "act": { "pull": { "hand": 0, "vertex": TAIL, "target": [-3.0, 2.0, 0.0] } } }));
+    page.send(json!({ "act": { "pull": { "drag": 0, "vertex": TAIL, "target": [-3.0, 2.0, 0.0] } } }));
     page.wait("steps", |page| page.frame() > 5);
     page.send(json!({ "act": { "save": {} } }));
     page.wait("a saved state", |page| page.setup["is_saved"] == true);
@@ -490,7 +490,7 @@ fn a_viewer_records_saves_and_plays_back() {
     let recording = Recording::read(&record).expect("a recording");
     let begin = Begin::Replay(Box::new(recording));
     let again = folder.path().join("again.json");
-    let options = Options { begin, port: 0, save: Some(again.clone()), record: None };
+    let options = Options::new(begin).with_save(again.clone());
     let viewer = Viewer::start(options).expect("a viewer");
     let mut page = Page::open(viewer.address());
     page.wait("the end", |page| page.figures["replays"] == false && page.figures["paused"] == true);

@@ -1,4 +1,4 @@
-//! From settings to files: plays a scene.
+//! A scene played to its end, with files.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -7,25 +7,41 @@ use piola::batch::Energy;
 
 use crate::error::Error;
 use crate::fields;
-use crate::gauge;
 use crate::geometry::Geometry;
 use crate::measure;
 use crate::output::{CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_file, write_ply, write_pvd};
 use crate::play::Play;
 use crate::settings::Settings;
-use crate::settle::settle;
+use crate::statics::find_equilibrium;
+use crate::tensile_reading::tensile_reading;
 
 /// Forces on a body that are together below this share of Young's modulus times the square of its size are rounding:
 /// those of ten thousand elements of its size, each with an error of a few roundings, are smaller still.
 const NO_FORCE: f64 = 1e-11;
 
-/// Where a run leaves its files, and which.
+/// Files that a run leaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Output {
     /// The folder for surfaces and the summary.
     pub folder: PathBuf,
     /// Whether the tetrahedra are written with [`crate::fields`], too.
     pub vtu: bool,
+}
+
+impl Output {
+    /// Surfaces and the summary, in a folder.
+    #[must_use]
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), vtu: false }
+    }
+
+    /// Writes the tetrahedra as well, or not.
+    #[must_use]
+    pub fn with_vtu(mut self, vtu: bool) -> Self {
+        self.vtu = vtu;
+        self
+    }
 }
 
 /// The body in one frame of a run.
@@ -42,7 +58,7 @@ pub struct Snapshot<'a> {
 /// A run whose files are complete, but not yet in their place.
 #[derive(Debug)]
 pub struct Finished {
-    /// The run in numbers.
+    /// Results of the run.
     pub summary: Summary,
     /// The files: add others, then [publish](Folder::publish) them all.
     pub folder: Folder,
@@ -53,7 +69,7 @@ pub struct Finished {
 /// Plays a scene to its end, calling `on_frame` at the start and after every time step.
 ///
 /// # Errors
-/// Where the settings make no sense, the folder cannot be written to, or a step or a file fails. Then nothing is written.
+/// An error of the settings, the body, the folder, a step or a file. Then nothing is written.
 pub fn run(
     settings: &Settings,
     output: &Output,
@@ -61,10 +77,9 @@ pub fn run(
 ) -> Result<Finished, Error> {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings, &geometry)?;
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build();
-    let threads = threads.map_err(|error| Error::Threads { reason: error.to_string() })?;
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
 
-    let cages_of = if output.vtu { Some(settings.energy.build()?.elements) } else { None };
+    let cages_of = if output.vtu { Some(settings.material.build()?.elements) } else { None };
     let folder = Folder::prepare(&output.folder)?;
     let mut files = Files { geometry: &geometry, folder, min_det_f: f64::INFINITY, cages_of, on_frame };
     files.frame(0, &play)?;
@@ -96,8 +111,8 @@ pub fn run(
     let distance = measure::distance_from_rest(mesh, play.simulation().positions(), pinned);
     let reading = match settings.scene.gauge {
         Some(marks) => {
-            let material = settings.energy.specimen()?;
-            Some(gauge::read(mesh, play.simulation(), marks, material.as_ref()))
+            let material = settings.material.specimen()?;
+            Some(tensile_reading(mesh, play.simulation(), marks, material.as_ref()))
         }
         None => None,
     };
@@ -122,10 +137,10 @@ pub fn run(
         newton: settings.newton,
         recovered,
         reading,
-        standing: None,
+        final_state: None,
     };
     if !recovered {
-        summary.standing = Some(threads.install(|| settle(&mut play, mesh))?);
+        summary.final_state = Some(threads.install(|| find_equilibrium(&mut play, mesh))?);
     }
     let mut folder = files.folder;
     if output.vtu {
@@ -162,7 +177,7 @@ impl Files<'_> {
     }
 }
 
-/// The middle one of all times, the mean of the two in the middle where their number is even.
+/// The median of times; the mean of the two in the middle if their number is even.
 fn median(times: &[Duration]) -> Duration {
     let mut times = times.to_vec();
     times.sort_unstable();

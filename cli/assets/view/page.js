@@ -1,6 +1,6 @@
-// The page: a stage with a body, a panel, hands, and the line to the program that all of it hangs on.
+// The page: a stage with a body, a panel, drags, and the line to the program that all of it hangs on.
 
-import { Grip } from "./grip.js";
+import { Drags } from "./drag.js";
 import { connect } from "./link.js";
 import { Orbit } from "./orbit.js";
 import { Panel } from "./panel.js";
@@ -37,13 +37,13 @@ const panel = new Panel(link, (isVisible) => {
   stage.cage.visible = isVisible;
   stage.isStale = true;
 });
-const grip = new Grip(stage, orbit, link);
+const drags = new Drags(stage, orbit, link);
 new ResizeObserver(() => stage.resize()).observe(canvas);
 
 const drawn = []; // when the last pictures were drawn
 function picture(now) {
   link.turn();
-  grip.hover();
+  drags.hover();
   if (stage.draw()) drawn.push(now);
   while (drawn.length > 0 && drawn[0] < now - COUNTED) drawn.shift();
   panel.setFramesPerSecond(drawn.length > 1 ? 1000 * (drawn.length - 1) / (drawn.at(-1) - drawn[0]) : null);
@@ -58,7 +58,7 @@ globalThis.piola = {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     return [left + 0.5 * (1 + place.x) * width, top + 0.5 * (1 - place.y) * height];
   },
-  vertexAt: (x, y) => grip.vertexAt(x, y),
+  vertexAt: (x, y) => drags.vertexAt(x, y),
   positions: () => stage.body.geometry.attributes.position?.array ?? null,
   figures: () => panel.figures,
 };

@@ -1,6 +1,6 @@
 //! Frames of a motion side by side.
 
-use piola_scenes::scene::body::Style;
+use piola_scenes::scene::Style;
 use rayon::prelude::*;
 
 use super::camera::Camera;

@@ -1,25 +1,25 @@
-//! One page's socket: its messages become orders, and what it asked for goes back.
+//! The socket of a page: passes its messages on as orders, and answers back.
 //!
 //! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise in long ones.
 
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read};
 use std::net::TcpStream;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
 use std::time::{Duration, Instant};
 
+use tungstenite::handshake::server::{Response, write_response};
 use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
 use tungstenite::{Bytes, Error as SocketError, Message as Envelope, WebSocket};
 
 use super::driver::{Answer, Order};
-use super::page;
 use super::protocol::{Act, Message};
 
 /// The longest message that makes sense is a long list of parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
-/// A page's hands have numbers below this; with the number of its connection they are told from those of others.
-const HANDS: u64 = 1 << 32;
+/// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other pages.
+const DRAGS: u64 = 1 << 32;
 /// How long a page that waits for a frame waits longer than it must.
 const TURN: Duration = Duration::from_millis(3);
 /// How long a page that does not may wait for anything else.
@@ -29,10 +29,10 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// How long the last words of a page that is shut out are listened to, so that it gets to hear why.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
-/// Serves a page until it is closed, goes away or talks nonsense; none of which is an error.
+/// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
 pub(super) fn serve(
     mut stream: TcpStream,
-    key: &str,
+    response: &Response,
     number: u64,
     topology: Bytes,
     orders: &SyncSender<Order>,
@@ -40,7 +40,8 @@ pub(super) fn serve(
     let greeting = stream
         .set_write_timeout(Some(PATIENCE))
         .and_then(|()| stream.set_nodelay(true))
-        .and_then(|()| stream.write_all(page::accepted(key).as_bytes()));
+        .map_err(SocketError::from)
+        .and_then(|()| write_response(&mut stream, response));
     if greeting.is_err() {
         return;
     }
@@ -50,37 +51,37 @@ pub(super) fn serve(
         .read_buffer_size(MAX_MESSAGE);
     let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
     let (answer, answers) = channel();
-    let hands = number * HANDS..(number + 1) * HANDS;
-    let _leave = Leave { hands: hands.clone(), orders };
+    let drags = number * DRAGS..(number + 1) * DRAGS;
+    let _leave = Leave { drags: drags.clone(), orders };
     let mut connection =
-        Connection { socket, hands, orders, answer, answers, waits: false, seen: 0, revision: 0 };
+        Connection { socket, drags, orders, answer, answers, waits: false, seen: 0, revision: 0 };
     if connection.send(Envelope::Binary(topology)).is_ok() {
         let end = connection.talk();
         connection.part(end);
     }
 }
 
-/// Lets go at the end, however it comes.
+/// Releases the drags of a page at the end of its connection.
 struct Leave<'a> {
-    hands: Range<u64>,
+    drags: Range<u64>,
     orders: &'a SyncSender<Order>,
 }
 
 impl Drop for Leave<'_> {
     fn drop(&mut self) {
         // Where the driver is gone, so are its pulls.
-        let _ = self.orders.send(Order::Leave { hands: self.hands.clone() });
+        let _ = self.orders.send(Order::Leave { drags: self.drags.clone() });
     }
 }
 
-/// The first number for a connection none of whose hands is among these.
-pub(super) fn after(hands: impl Iterator<Item = u64>) -> u64 {
-    hands.map(|hand| hand / HANDS + 1).max().unwrap_or(0)
+/// The first number for a connection none of whose drags is among these.
+pub(super) fn after(drags: impl Iterator<Item = u64>) -> u64 {
+    drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
 }
 
 struct Connection<'a> {
     socket: WebSocket<TcpStream>,
-    hands: Range<u64>,
+    drags: Range<u64>,
     orders: &'a SyncSender<Order>,
     answer: Sender<Answer>,
     answers: Receiver<Answer>,
@@ -142,15 +143,15 @@ impl Connection<'_> {
         self.orders.send(order).map_err(|_| End::Because(CloseCode::Away, "the viewer ends".into()))
     }
 
-    /// With the hand of this page, not that of another.
+    /// Numbers the drag so that it belongs to this page.
     fn as_own(&self, act: Act) -> Result<Act, End> {
-        let own = |hand: u64| match hand < HANDS {
-            true => Ok(self.hands.start + hand),
-            false => Err(End::Because(CloseCode::Policy, format!("the hand {hand} is not below {HANDS}"))),
+        let own = |drag: u64| match drag < DRAGS {
+            true => Ok(self.drags.start + drag),
+            false => Err(End::Because(CloseCode::Policy, format!("the drag {drag} is not below {DRAGS}"))),
         };
         Ok(match act {
-            Act::Pull { hand, vertex, target } => Act::Pull { hand: own(hand)?, vertex, target },
-            Act::Release { hand } => Act::Release { hand: own(hand)? },
+            Act::Pull { drag, vertex, target } => Act::Pull { drag: own(drag)?, vertex, target },
+            Act::Release { drag } => Act::Release { drag: own(drag)? },
             act => act,
         })
     }

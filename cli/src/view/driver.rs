@@ -1,6 +1,6 @@
-//! The thread that owns the body: takes orders between steps, steps by the clock on the wall, and answers whoever looks.
+//! The thread that owns the body: takes orders between steps, steps in real time, and answers pages that ask for frames.
 //!
-//! It waits for nobody. A page gets a frame for each time it asks, made of the state at that moment; for one that does not
+//! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one that does not
 //! ask nothing is made and nothing is kept.
 
 use std::collections::VecDeque;
@@ -14,12 +14,12 @@ use tungstenite::Utf8Bytes;
 use super::protocol::{Act, Run};
 use super::recording::{Recorder, Recording};
 use super::session::Session;
-use super::show::{self, Frame, Tally};
-use piola_scenes::error::Error;
+use super::show::{self, Frame, FrameStats};
+use crate::error::Error;
 
-/// At most so many orders are taken between two steps.
+/// Most orders that are taken between two steps.
 const ORDERS: usize = 256;
-/// The speed is the mean over so many steps.
+/// Number of steps over which the speed is averaged.
 const TIMED: usize = 32;
 /// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real time is
 /// played slowly, and does not race when it could.
@@ -27,7 +27,7 @@ const LAG: Duration = Duration::from_millis(100);
 /// How long to wait for an order where no step is due in any time that a clock can name.
 const FOREVER: Duration = Duration::from_secs(3600);
 
-/// What the connections want.
+/// A request of a connection.
 #[derive(Debug)]
 pub(super) enum Order {
     Act {
@@ -40,13 +40,13 @@ pub(super) enum Order {
         seen: u64,
         answer: Sender<Answer>,
     },
-    /// A connection has ended; its pulls, which are those with these hands, end too.
+    /// A connection has ended; its pulls, which are those with these drags, end too.
     Leave {
-        hands: std::ops::Range<u64>,
+        drags: std::ops::Range<u64>,
     },
 }
 
-/// What a connection gets for it.
+/// The answer to an order.
 #[derive(Clone, Debug)]
 pub(super) enum Answer {
     Frame(Frame),
@@ -59,15 +59,15 @@ pub(super) enum Answer {
 pub(super) struct Driver {
     pub(super) session: Session,
     pub(super) threads: ThreadPool,
-    /// Where states are saved to.
+    /// File for saved states.
     pub(super) save: Option<PathBuf>,
     pub(super) recorder: Option<Recorder>,
-    /// What happens, in place of what pages ask for.
+    /// A recording that is played back; acts of pages are refused meanwhile.
     pub(super) replay: Option<Recording>,
 }
 
 impl Driver {
-    /// Plays until all who could give orders are gone.
+    /// Plays until every sender of orders is gone.
     pub(super) fn run(self, orders: &Receiver<Order>) {
         let mut drive = Drive::new(self);
         loop {
@@ -90,12 +90,12 @@ impl Driver {
 /// The driver at work.
 struct Drive {
     driver: Driver,
-    tally: Tally,
+    stats: FrameStats,
     /// When the step before was due.
     before: Instant,
-    /// What the last steps took.
+    /// Times of the last steps.
     times: VecDeque<Duration>,
-    /// Those who wait for a frame, and the state that each has seen.
+    /// Connections that wait for a frame, and the state that each has seen.
     lookers: Vec<(u64, Sender<Answer>)>,
     /// Counts the states that could be seen.
     state: u64,
@@ -105,10 +105,10 @@ struct Drive {
 
 impl Drive {
     fn new(driver: Driver) -> Self {
-        let tally = Tally { real_time: true, ..Tally::default() };
+        let stats = FrameStats { real_time: true, ..FrameStats::default() };
         let mut drive = Self {
             driver,
-            tally,
+            stats,
             before: Instant::now(),
             times: VecDeque::with_capacity(TIMED),
             lookers: Vec::new(),
@@ -123,7 +123,7 @@ impl Drive {
 
     /// The next order, or a time-out when a step is due.
     fn wait(&self, orders: &Receiver<Order>) -> Result<Order, RecvTimeoutError> {
-        if self.tally.paused {
+        if self.stats.paused {
             return orders.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
         let Some(due) = self.due() else { return orders.recv_timeout(FOREVER) };
@@ -136,9 +136,9 @@ impl Drive {
         }
     }
 
-    /// When the next step is due, by the clock on the wall; None where nobody will live to see it.
+    /// When the next step is due, by the clock on the wall; `None` if that is beyond all clocks.
     fn due(&self) -> Option<Instant> {
-        if !self.tally.real_time {
+        if !self.stats.real_time {
             return Some(self.before);
         }
         let dt = Duration::try_from_secs_f64(self.driver.session.settings().dt).ok()?;
@@ -146,7 +146,7 @@ impl Drive {
     }
 
     fn is_due(&self) -> bool {
-        !self.tally.paused && self.due().is_some_and(|due| due <= Instant::now())
+        !self.stats.paused && self.due().is_some_and(|due| due <= Instant::now())
     }
 
     fn obey(&mut self, order: Order) {
@@ -157,32 +157,32 @@ impl Drive {
                     None => self.act(&act).map_err(|error| error.to_string()),
                 };
                 if let Err(reason) = result {
-                    // Who has gone needs no answer.
+                    // A connection that has ended needs no answer.
                     let _ = answer.send(Answer::Refused(show::refused(&act, &reason)));
                 }
             }
             Order::Run(Run::Pause { paused }) => {
-                self.tally.paused = paused;
-                self.tally.trouble = None;
+                self.stats.paused = paused;
+                self.stats.trouble = None;
                 self.before = Instant::now();
             }
             Order::Run(Run::Step {}) => {
-                self.tally.paused = true;
-                self.tally.trouble = None;
+                self.stats.paused = true;
+                self.stats.trouble = None;
                 self.step();
             }
-            Order::Run(Run::Pace { real_time }) => self.tally.real_time = real_time,
+            Order::Run(Run::Pace { real_time }) => self.stats.real_time = real_time,
             Order::Look { seen, answer } => {
                 self.lookers.push((seen, answer));
                 return;
             }
-            Order::Leave { hands } => {
-                let left = self.driver.session.pulls().map(|(hand, _)| hand);
-                let left: Vec<_> = left.filter(|hand| hands.contains(hand)).collect();
+            Order::Leave { drags } => {
+                let left = self.driver.session.pulls().map(|(drag, _)| drag);
+                let left: Vec<_> = left.filter(|drag| drags.contains(drag)).collect();
                 if self.driver.replay.is_none() {
-                    for hand in left {
+                    for drag in left {
                         // A release cannot fail.
-                        let _ = self.act(&Act::Release { hand });
+                        let _ = self.act(&Act::Release { drag });
                     }
                 }
             }
@@ -190,13 +190,13 @@ impl Drive {
         self.state += 1;
     }
 
-    /// Does an act, and keeps it in recording and file.
+    /// Does an act, and writes it to recording and file.
     fn act(&mut self, act: &Act) -> Result<(), Error> {
         self.driver.session.apply(act)?;
         let steps = self.driver.session.steps();
         self.record(|recorder| recorder.act(steps, act));
         if matches!(act, Act::Reset {} | Act::Restore {} | Act::Material { .. } | Act::Parameter { .. }) {
-            self.tally.trouble = None;
+            self.stats.trouble = None;
         }
         if let Act::Save {} = act
             && let (Some(path), Some(state)) = (&self.driver.save, self.driver.session.saved())
@@ -221,16 +221,13 @@ impl Drive {
                 }
                 self.times.push_back(took);
                 let total: Duration = self.times.iter().sum();
-                self.tally.steps_per_second = Some(self.times.len() as f64 / total.as_secs_f64());
-                self.tally.newton_iterations = report.newton.iterations;
-                self.tally.energies = report.energies;
+                self.stats.steps_per_second = Some(self.times.len() as f64 / total.as_secs_f64());
+                self.stats.newton_iterations = report.newton.iterations;
+                self.stats.energies = report.energies;
             }
             Err(error) => {
-                self.tally.paused = true;
-                self.tally.trouble = Some(match error {
-                    Error::Step { frame, reason } => format!("the step to frame {frame} failed: {reason}"),
-                    error => error.to_string(),
-                });
+                self.stats.paused = true;
+                self.stats.trouble = Some(error.to_string());
             }
         }
         let steps = session.steps();
@@ -240,20 +237,20 @@ impl Drive {
 
         let now = Instant::now();
         let due = self.due().unwrap_or(now);
-        self.before = if self.tally.real_time && due + LAG > now { due } else { now };
+        self.before = if self.stats.real_time && due + LAG > now { due } else { now };
     }
 
-    /// Does what the recording says for the step to come, and pauses at its end.
+    /// Does the recorded acts before the step to come, and pauses at the end of the recording.
     fn play_back(&mut self) {
         let Some(mut recording) = self.driver.replay.take() else { return };
         let steps = self.driver.session.steps();
         while let Some(act) = recording.next_before(steps) {
             if let Err(error) = self.act(&act) {
-                self.tally.trouble = Some(format!("the recording asks for what is refused: {error}"));
+                self.stats.trouble = Some(format!("the recording asks for what is refused: {error}"));
             }
         }
         if recording.is_over(steps) {
-            self.tally.paused = true;
+            self.stats.paused = true;
         } else {
             self.driver.replay = Some(recording);
         }
@@ -264,7 +261,7 @@ impl Drive {
             && let Err(error) = write(recorder)
         {
             self.driver.recorder = None;
-            self.tally.trouble = Some(format!("the recording ends here: {error}"));
+            self.stats.trouble = Some(format!("the recording ends here: {error}"));
         }
     }
 
@@ -274,21 +271,21 @@ impl Drive {
         self.revision += 1;
     }
 
-    /// Shows the present state to those who have not seen it.
+    /// Sends the present state to the connections that have not seen it.
     fn answer(&mut self) {
         if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
             return;
         }
-        self.tally.replays = self.driver.replay.is_some();
+        self.stats.replays = self.driver.replay.is_some();
         let frame = Frame {
             state: self.state,
             revision: self.revision,
             setup: self.setup.clone(),
-            figures: show::figures(&self.driver.session, &self.tally),
+            figures: show::figures(&self.driver.session, &self.stats),
             positions: show::positions(&self.driver.session),
         };
         for (_, looker) in self.lookers.extract_if(.., |&mut (seen, _)| seen != self.state) {
-            // Who has gone needs no frame.
+            // A connection that has ended needs no frame.
             let _ = looker.send(Answer::Frame(frame.clone()));
         }
     }

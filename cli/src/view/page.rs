@@ -30,7 +30,7 @@ files! {
     "/link.js" is SCRIPT in "link.js",
     "/stage.js" is SCRIPT in "stage.js",
     "/orbit.js" is SCRIPT in "orbit.js",
-    "/grip.js" is SCRIPT in "grip.js",
+    "/drag.js" is SCRIPT in "drag.js",
     "/panel.js" is SCRIPT in "panel.js",
     "/slider.js" is SCRIPT in "slider.js",
     "/three/three.module.min.js" is SCRIPT in "three/three.module.min.js",
@@ -51,16 +51,7 @@ pub(super) fn denied(Denied(status, reason): Denied) -> (String, &'static str) {
     (header(status, PLAIN, reason.len()), reason)
 }
 
-/// The answer to a request for a socket.
-pub(super) fn accepted(key: &str) -> String {
-    let accept = tungstenite::handshake::derive_accept_key(key.as_bytes());
-    format!(
-        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
-         Sec-WebSocket-Accept: {accept}\r\n\r\n"
-    )
-}
-
-/// Nothing from elsewhere, nothing to elsewhere, and in nobody's frame.
+/// The header of an answer: the page may load nothing from elsewhere, send nothing there, and be in no other page's frame.
 fn header(status: &str, kind: &str, length: usize) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\nConnection: close\r\n\

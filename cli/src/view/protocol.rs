@@ -1,10 +1,10 @@
-//! What a page may say: JSON of one of the forms of [`Message`], and nothing else.
+//! Messages of a page: JSON in one of the forms of [`Message`], and nothing else.
 //!
 //! ```
 //! use piola_cli::view::protocol::{Act, Message};
 //!
-//! let text = r#"{"act": {"pull": {"hand": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
-//! let pull = Act::Pull { hand: 1, vertex: 7, target: [0.0, 1.0, 0.5] };
+//! let text = r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
+//! let pull = Act::Pull { drag: 1, vertex: 7, target: [0.0, 1.0, 0.5] };
 //! assert_eq!(Message::parse(text), Ok(Message::Act(pull)));
 //! assert!(Message::parse(r#"{"act": {"jump": {}}}"#).is_err());
 //! ```
@@ -17,82 +17,82 @@ use serde::{Deserialize, Serialize};
 pub enum Message {
     /// Changes the body, its material or its time step.
     Act(Act),
-    /// Says when steps are made.
+    /// Changes when steps are made.
     Run(Run),
-    /// Asks for one frame: the present one, or the next if that has been seen.
+    /// Asks for one frame: the present one, or the next if the page has seen that.
     Look {},
 }
 
-/// What changes the state that the next step starts from; recordings consist of these.
+/// A change of the state from which the next step starts; recordings consist of these.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Act {
     /// Draws a vertex of the surface towards a point, by a spring, until it is released.
     Pull {
-        /// By which a page tells its pulls apart; one that holds already moves on.
-        hand: u64,
+        /// Number by which a page tells its drags apart; a drag that has begun moves on.
+        drag: u64,
         /// The vertex, from 0.
         vertex: usize,
         /// The point, m.
         target: [f64; 3],
     },
-    /// Ends a pull; nothing where there is none.
+    /// Ends a pull, if there is one.
     Release {
-        /// As given to the pull.
-        hand: u64,
+        /// Number of the drag.
+        drag: u64,
     },
     /// Ends all pulls but those of the scene.
     ReleaseAll {},
-    /// Makes the body of another material, which starts where the body is.
+    /// Replaces the material; the body stays where it is.
     Material {
-        /// As in the catalogue.
+        /// Name in the catalogue.
         name: String,
         /// Whether it gets the small-strain moduli that the body has, in place of its typical ones.
         as_stiff: bool,
     },
-    /// Gives a parameter of the material another value.
+    /// Changes a parameter of the material.
     Parameter {
         /// Its name.
         name: String,
         /// All its values, several for a list.
         values: Vec<f64>,
     },
-    /// Takes steps of another length.
+    /// Changes the time step.
     TimeStep {
         /// The length, s.
         seconds: f64,
     },
-    /// Puts the body where the scene starts, of the present material.
+    /// Puts the body of the present material where the scene starts.
     Reset {},
-    /// Keeps the state.
+    /// Saves the state.
     Save {},
-    /// Goes back to the state that was kept last, material and time step included.
+    /// Goes back to the state that was saved last, material and time step included.
     Restore {},
 }
 
-/// When steps are made.
+/// A change of when steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Run {
-    /// None for now, or on again.
+    /// Pauses, or goes on.
     Pause {
         /// Whether to pause.
         paused: bool,
     },
-    /// A single one, and pauses.
+    /// Makes a single step, and pauses.
     Step {},
-    /// As fast as the clock on the wall, or as fast as they can be solved.
+    /// Steps in real time, or as fast as steps can be solved.
     Pace {
-        /// Whether to keep to the clock.
+        /// Whether to keep to real time.
         real_time: bool,
     },
 }
 
 impl Message {
-    /// Reads a message.
+    /// Parses a message.
     ///
     /// # Errors
-    /// With the reason, where it is none.
+    /// The reason why it is not a message.
     pub fn parse(text: &str) -> Result<Self, String> {
         serde_json::from_str(text).map_err(|error| error.to_string())
     }
@@ -110,9 +110,9 @@ mod tests {
             (r#"{"look": {}, "act": {}}"#, "expected"),
             (r#"{"look": {"far": 1}}"#, "far"),
             (r#"{"leap": {}}"#, "leap"),
-            (r#"{"act": {"pull": {"hand": 1, "vertex": -7, "target": [0, 1, 2]}}}"#, "-7"),
-            (r#"{"act": {"pull": {"hand": 1, "vertex": 7, "target": [0, 1]}}}"#, "length 3"),
-            (r#"{"act": {"pull": {"hand": 1, "vertex": 7, "target": [0, 1, null]}}}"#, "null"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": -7, "target": [0, 1, 2]}}}"#, "-7"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1]}}}"#, "length 3"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1, null]}}}"#, "null"),
             (r#"{"act": {"time_step": {"seconds": 1e999}}}"#, "out of range"),
             (r#"{"act": {"time_step": {"seconds": NaN}}}"#, "expected"),
         ] {

@@ -1,4 +1,4 @@
-//! What was done to a body, as a file from which the same motion comes again, to the last bit.
+//! Acts on a body in a file, from which the same motion comes again, to the last bit.
 //!
 //! A line of JSON for the state at the start, one for each act with the number of the step before which it took effect,
 //! and now and then one that says how many steps there have been. The last of these is where the recording ends.
@@ -9,13 +9,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use piola_scenes::error::Error as SceneError;
 use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
 use super::state::State;
-use piola_scenes::error::Error;
+use crate::error::Error;
 
-/// So much of the end is lost at most where a viewer is ended from outside.
+/// Time between marks: at most this much of the end is lost if a viewer is ended from outside.
 const MARKS: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -23,12 +24,12 @@ const MARKS: Duration = Duration::from_secs(1);
 enum Line {
     Start(Box<State>),
     Act {
-        /// How many steps there have been.
+        /// Number of steps so far.
         steps: u64,
         act: Act,
     },
     Until {
-        /// How many steps there have been.
+        /// Number of steps so far.
         steps: u64,
     },
 }
@@ -45,27 +46,26 @@ impl Recorder {
     /// Begins a recording, over the file of an earlier one.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// [`Error::Scene`].
     pub fn begin(path: &Path, state: State) -> Result<Self, Error> {
-        let failure = |error: std::io::Error| Error::Write { path: path.into(), reason: error.to_string() };
-        let file = File::create(path).map_err(failure)?;
+        let file = File::create(path).map_err(|source| SceneError::Write { path: path.into(), source })?;
         let mut recorder = Self { file, path: path.into(), marked: Instant::now() };
         recorder.write(&Line::Start(Box::new(state)))?;
         Ok(recorder)
     }
 
-    /// Keeps an act that was done after so many steps.
+    /// Records an act that was done after a number of steps.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// [`Error::Scene`].
     pub fn act(&mut self, steps: u64, act: &Act) -> Result<(), Error> {
         self.write(&Line::Act { steps, act: act.clone() })
     }
 
-    /// Notes, at most once in a second, how many steps there have been.
+    /// Records the number of steps, at most once in a second.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// [`Error::Scene`].
     pub fn stepped(&mut self, steps: u64) -> Result<(), Error> {
         if self.marked.elapsed() < MARKS {
             return Ok(());
@@ -73,20 +73,21 @@ impl Recorder {
         self.end(steps)
     }
 
-    /// Notes how many steps there have been.
+    /// Records the number of steps.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// [`Error::Scene`].
     pub fn end(&mut self, steps: u64) -> Result<(), Error> {
         self.marked = Instant::now();
         self.write(&Line::Until { steps })
     }
 
     fn write(&mut self, line: &Line) -> Result<(), Error> {
-        let failure = |reason: String| Error::Write { path: self.path.clone(), reason };
-        let mut text = serde_json::to_vec(line).map_err(|error| failure(error.to_string()))?;
+        // Numbers and strings: nothing that JSON could not say.
+        let mut text = serde_json::to_vec(line).unwrap_or_default();
         text.push(b'\n');
-        self.file.write_all(&text).map_err(|error| failure(error.to_string()))
+        let failed = |source| SceneError::Write { path: self.path.clone(), source };
+        Ok(self.file.write_all(&text).map_err(failed)?)
     }
 }
 
@@ -102,24 +103,21 @@ impl Recording {
     /// Reads a recording. A last line without an end, as an interrupted viewer may leave it, is left out.
     ///
     /// # Errors
-    /// [`Error::File`], the line named.
+    /// [`Error::Unreadable`] or [`Error::NotRecording`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let file = path.display();
-        let text = fs::read_to_string(path)
-            .map_err(|error| Error::File { reason: format!("{file}: cannot be read: {error}") })?;
+        let text =
+            fs::read_to_string(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
         let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+        let failure = |line, reason| Error::NotRecording { path: path.into(), line, reason };
         let mut start = None;
         let (mut acts, mut until) = (VecDeque::new(), 0);
-        for (number, line) in whole.lines().enumerate() {
-            let failure = |reason: &dyn std::fmt::Display| Error::File {
-                reason: format!("{file}:{}: is no line of a recording: {reason}", number + 1),
-            };
-            let steps = match serde_json::from_str(line).map_err(|error| failure(&error))? {
-                Line::Start(state) if number == 0 => {
+        for (line, text) in (1..).zip(whole.lines()) {
+            let steps = match serde_json::from_str(text).map_err(|error| failure(line, error.to_string()))? {
+                Line::Start(state) if line == 1 => {
                     start = Some(*state);
                     continue;
                 }
-                Line::Start(_) => return Err(failure(&"there is one start, at the top")),
+                Line::Start(_) => return Err(failure(line, "there is one start, at the top".into())),
                 Line::Act { steps, act } => {
                     acts.push_back((steps, act));
                     steps
@@ -127,12 +125,11 @@ impl Recording {
                 Line::Until { steps } => steps,
             };
             if steps < until {
-                return Err(failure(&"it goes back in time"));
+                return Err(failure(line, "it goes back in time".into()));
             }
             until = steps;
         }
-        let start = start
-            .ok_or_else(|| Error::File { reason: format!("{file}: is no recording: it has no start") })?;
+        let start = start.ok_or_else(|| failure(1, "it has no start".into()))?;
         Ok(Self { start, acts, until })
     }
 
@@ -142,13 +139,13 @@ impl Recording {
         &self.start
     }
 
-    /// The next act to be done after so many steps, and takes it out.
+    /// Removes the next act if it is to be done after this number of steps.
     pub fn next_before(&mut self, steps: u64) -> Option<Act> {
         let is_due = self.acts.front().is_some_and(|(due, _)| *due <= steps);
         if is_due { self.acts.pop_front().map(|(_, act)| act) } else { None }
     }
 
-    /// Whether it ends after so many steps.
+    /// Whether the recording ends after this number of steps.
     #[must_use]
     pub fn is_over(&self, steps: u64) -> bool {
         steps >= self.until && self.acts.is_empty()

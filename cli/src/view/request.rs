@@ -1,4 +1,4 @@
-//! What a browser asks for over HTTP, and whether it may.
+//! Requests of a browser over HTTP, and whether they are allowed.
 //!
 //! A page anywhere on the web can make a browser send requests to this machine. It cannot choose the browser's `Origin`,
 //! and a name that it has pointed here shows up as `Host`. So both must be the viewer's own.
@@ -7,19 +7,23 @@ use std::io::{ErrorKind, Read};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
+use tungstenite::Error;
+use tungstenite::error::ProtocolError;
+use tungstenite::handshake::machine::TryParse;
+use tungstenite::handshake::server::{Request as HttpRequest, Response, create_response};
+
 /// Browsers send less than one kilobyte.
 const MAX_LENGTH: usize = 16 * 1024;
-const MAX_HEADERS: usize = 64;
 /// For all of a request.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A request that may be answered.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub(super) enum Request {
     /// For a file of the page.
     File { path: String },
-    /// For a socket, with the browser's key.
-    Socket { key: String },
+    /// For a socket, with the answer that opens it.
+    Socket(Response),
 }
 
 /// Why a request is not answered: status and reason.
@@ -28,7 +32,7 @@ pub(super) struct Denied(pub(super) &'static str, pub(super) &'static str);
 
 /// Reads a request to a viewer at this port.
 ///
-/// None where the other side goes away, which browsers do with connections that they open in advance.
+/// `None` if the other side goes away, which browsers do with connections that they open in advance.
 pub(super) fn read(stream: &mut TcpStream, port: u16) -> Option<Result<Request, Denied>> {
     let deadline = Instant::now() + PATIENCE;
     let mut text = Vec::new();
@@ -56,53 +60,40 @@ pub(super) fn read(stream: &mut TcpStream, port: u16) -> Option<Result<Request, 
     }
 }
 
-/// None where more is to come.
+/// Parses and judges a request; `None` if more is to come.
 fn parse(text: &[u8], port: u16) -> Option<Result<Request, Denied>> {
-    let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
-    let mut request = httparse::Request::new(&mut headers);
-    match request.parse(text) {
-        Ok(httparse::Status::Partial) => None,
-        // Who begins to speak before the socket stands breaks the protocol.
-        Ok(httparse::Status::Complete(length)) if length == text.len() => Some(judge(&request, port)),
-        Ok(httparse::Status::Complete(_)) | Err(_) => {
-            Some(Err(Denied("400 Bad Request", "the request is malformed")))
+    match HttpRequest::try_parse(text) {
+        Ok(None) => None,
+        // A page that sends before the socket stands breaks the protocol.
+        Ok(Some((length, request))) if length == text.len() => Some(judge(&request, port)),
+        Err(Error::Protocol(ProtocolError::WrongHttpMethod)) => {
+            Some(Err(Denied("405 Method Not Allowed", "files can be read and nothing else")))
         }
+        _ => Some(Err(Denied("400 Bad Request", "the request is malformed"))),
     }
 }
 
-fn judge(request: &httparse::Request<'_, '_>, port: u16) -> Result<Request, Denied> {
-    let header = |wanted: &str| {
-        let mut values = request.headers.iter().filter(|header| header.name.eq_ignore_ascii_case(wanted));
-        let value = values.next().and_then(|header| std::str::from_utf8(header.value).ok());
-        // Of two, nobody knows which one counts.
-        if values.next().is_some() { None } else { value }
+fn judge(request: &HttpRequest, port: u16) -> Result<Request, Denied> {
+    // Of two values of a header, none is taken: which one counts is not defined.
+    let header = |name: &str| {
+        let mut values = request.headers().get_all(name).iter();
+        values.next().filter(|_| values.next().is_none()).and_then(|value| value.to_str().ok())
     };
-    let has = |wanted: &str| request.headers.iter().any(|header| header.name.eq_ignore_ascii_case(wanted));
     let is_own =
         |host: &str| [format!("127.0.0.1:{port}"), format!("localhost:{port}")].iter().any(|own| own == host);
     if !header("host").is_some_and(is_own) {
         return Err(Denied("403 Forbidden", "this page is served to 127.0.0.1 and localhost only"));
     }
     let from_own = header("origin").and_then(|origin| origin.strip_prefix("http://")).is_some_and(is_own);
-    if has("origin") && !from_own {
+    if request.headers().contains_key("origin") && !from_own {
         return Err(Denied("403 Forbidden", "the request comes from another page"));
     }
-    if request.method != Some("GET") {
-        return Err(Denied("405 Method Not Allowed", "files can be read and nothing else"));
-    }
-    let path = request.path.unwrap_or_default();
-    if path != "/socket" {
-        return Ok(Request::File { path: path.into() });
-    }
-    if !from_own {
-        return Err(Denied("403 Forbidden", "a socket needs an origin"));
-    }
-    let is_upgrade = header("upgrade").is_some_and(|name| name.eq_ignore_ascii_case("websocket"));
-    match header("sec-websocket-key") {
-        Some(key) if is_upgrade && header("sec-websocket-version") == Some("13") => {
-            Ok(Request::Socket { key: key.into() })
-        }
-        _ => Err(Denied("400 Bad Request", "this is where the page's socket begins, of version 13")),
+    match request.uri().path() {
+        "/socket" if !from_own => Err(Denied("403 Forbidden", "a socket needs an origin")),
+        "/socket" => create_response(request)
+            .map(Request::Socket)
+            .map_err(|_| Denied("400 Bad Request", "the page's socket is a WebSocket of version 13")),
+        path => Ok(Request::File { path: path.into() }),
     }
 }
 
@@ -112,19 +103,27 @@ mod tests {
 
     const SOCKET: &str = "GET /socket HTTP/1.1\r\nHost: 127.0.0.1:8017\r\nOrigin: http://127.0.0.1:8017\r\n\
                           Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n\
-                          Sec-WebSocket-Key: a\r\n\r\n";
+                          Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+    /// What RFC 6455, section 1.3, answers to that key.
+    const ACCEPT: &str = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
 
+    /// Compares the path of a file, the key that opens a socket, or the status of a request that is denied.
     #[track_caller]
-    fn check(text: &str, expected: Result<Request, &str>) {
-        let found = parse(text.as_bytes(), 8017).expect("a whole request");
-        assert_eq!(found.map_err(|Denied(status, _)| &status[..3]), expected, "{text}");
+    fn check(text: &str, expected: Result<&str, &str>) {
+        let found = parse(text.as_bytes(), 8017).expect("a whole request").map(|request| match request {
+            Request::File { path } => path,
+            Request::Socket(response) => {
+                response.headers()["sec-websocket-accept"].to_str().expect("ASCII").into()
+            }
+        });
+        let found = found.as_deref().map_err(|Denied(status, _)| &status[..3]);
+        assert_eq!(found, expected, "{text}");
     }
 
     #[test]
     fn own_requests_are_answered() {
-        let file = Ok(Request::File { path: "/page.js".into() });
-        check("GET /page.js HTTP/1.1\r\nhost: localhost:8017\r\n\r\n", file);
-        check(SOCKET, Ok(Request::Socket { key: "a".into() }));
+        check("GET /page.js HTTP/1.1\r\nhost: localhost:8017\r\n\r\n", Ok("/page.js"));
+        check(SOCKET, Ok(ACCEPT));
         assert!(parse(&SOCKET.as_bytes()[..SOCKET.len() - 1], 8017).is_none(), "more is to come");
     }
 
@@ -140,7 +139,8 @@ mod tests {
         }
         check(&SOCKET.replace("Origin: http://127.0.0.1:8017\r\n", ""), Err("403"));
         check(&SOCKET.replace(": 13", ": 8"), Err("400"));
-        check(&SOCKET.replace("Sec-WebSocket-Key: a\r\n", ""), Err("400"));
+        check(&SOCKET.replace("Sec-WebSocket-Key", "Other-Key"), Err("400"));
+        check(&SOCKET.replace("dGhl", ""), Err("400"));
         check(&format!("{SOCKET}early"), Err("400"));
         check("no request\r\n\r\n", Err("400"));
     }

@@ -1,4 +1,4 @@
-//! The door: connections to 127.0.0.1, so many at a time and each on a thread of its own.
+//! The server: connections to 127.0.0.1, a limited number at a time and each on a thread of its own.
 
 use std::io::Write;
 use std::net::{Shutdown, TcpListener, TcpStream};
@@ -20,7 +20,7 @@ const MAX_CONNECTIONS: usize = 32;
 /// For writing a file.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What all connections need.
+/// Everything that connections need.
 pub(super) struct Server {
     pub(super) listener: TcpListener,
     pub(super) port: u16,
@@ -28,7 +28,7 @@ pub(super) struct Server {
     pub(super) orders: SyncSender<Order>,
     /// Whether no more connections are to be taken.
     pub(super) is_over: Arc<AtomicBool>,
-    /// The number of the first connection; below it, hands of a loaded state may still pull.
+    /// The number of the first connection; below it, drags of a loaded state may still pull.
     pub(super) first: u64,
 }
 
@@ -40,10 +40,10 @@ impl Server {
             if self.is_over.load(Ordering::Relaxed) {
                 return;
             }
-            // What a connection dies of before it begins is no concern of others.
+            // A connection that fails before it begins concerns no other.
             let Ok(stream) = stream else { continue };
-            let place = Place::take(&open);
-            if place.is_none() {
+            let slot = ConnectionSlot::take(&open);
+            if slot.is_none() {
                 answer(
                     stream,
                     page::denied(Denied("503 Service Unavailable", "there are too many connections")),
@@ -52,7 +52,7 @@ impl Server {
             }
             let (port, topology, orders) = (self.port, self.topology.clone(), self.orders.clone());
             let talk = move || {
-                let _place = place;
+                let _slot = slot;
                 greet(stream, number, port, topology, &orders);
             };
             // Where the system has no thread left, the browser sees a connection that ends.
@@ -62,32 +62,32 @@ impl Server {
 }
 
 /// One of so many connections, until dropped.
-struct Place(Arc<AtomicUsize>);
+struct ConnectionSlot(Arc<AtomicUsize>);
 
-impl Place {
+impl ConnectionSlot {
     fn take(open: &Arc<AtomicUsize>) -> Option<Self> {
-        let place = Self(Arc::clone(open));
-        (open.fetch_add(1, Ordering::Relaxed) < MAX_CONNECTIONS).then_some(place)
+        let slot = Self(Arc::clone(open));
+        (open.fetch_add(1, Ordering::Relaxed) < MAX_CONNECTIONS).then_some(slot)
     }
 }
 
-impl Drop for Place {
+impl Drop for ConnectionSlot {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
-/// Finds out what a connection is for.
+/// Answers the first request of a connection.
 fn greet(mut stream: TcpStream, number: u64, port: u16, topology: Bytes, orders: &SyncSender<Order>) {
     match request::read(&mut stream, port) {
         None => {}
         Some(Ok(Request::File { path })) => answer(stream, page::file(&path)),
-        Some(Ok(Request::Socket { key })) => connection::serve(stream, &key, number, topology, orders),
+        Some(Ok(Request::Socket(response))) => connection::serve(stream, &response, number, topology, orders),
         Some(Err(denied)) => answer(stream, page::denied(denied)),
     }
 }
 
-/// Writes an answer; where nobody takes it, nothing is lost.
+/// Writes an answer; if it is not read, nothing is lost.
 fn answer(mut stream: TcpStream, (header, content): (String, &'static str)) {
     let _ = stream
         .set_write_timeout(Some(PATIENCE))

@@ -1,4 +1,4 @@
-//! A scene that is played with: every act has its effect before some step, and the same acts before the same steps give
+//! A scene to interact with: every act has its effect before some step, and the same acts before the same steps give
 //! the same bits.
 //!
 //! This module knows no threads, no clock on the wall and no sockets.
@@ -7,70 +7,59 @@ use std::collections::BTreeMap;
 
 use piola::mesh::embed::Anchor;
 use piola::step::StepReport;
-use serde::{Deserialize, Serialize};
-
-use super::protocol::Act;
-use super::state::State;
-use piola_scenes::energy::Energy;
-use piola_scenes::error::Error;
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::Geometry;
+use piola_scenes::material::MaterialSpec;
 use piola_scenes::play::Play;
 use piola_scenes::settings::Settings;
 
-/// More would be no pulls by people.
+use super::protocol::Act;
+use super::state::{Drag, State};
+use crate::error::Error;
+
+/// Most pulls at a time; people have fewer fingers.
 const MAX_PULLS: usize = 64;
-/// Numbers of hands in files are below it, so that there are others for hands to come.
-const MAX_HAND: u64 = 1 << 62;
-/// How far a pull may lead from where the vertex is at rest, in body heights.
+/// Bound of the numbers of drags in files, above which there are others for drags to come.
+const MAX_DRAG: u64 = 1 << 62;
+/// Greatest distance of a pull's target from where the vertex is at rest, in body heights.
 const REACH: f64 = 100.0;
-/// How fast a hand moves at most, in body heights per second.
+/// Greatest speed of a drag, in body heights per second.
 ///
 /// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a second, may fold
 /// into itself and find another equilibrium from which no elastic energy brings it back.
 const SPEED: f64 = 4.0;
 
-/// A body, what it is made of at present, and who pulls at it.
+/// A scene in motion, its present material, and the pulls of pages at it.
 #[derive(Debug)]
 pub struct Session {
     geometry: Geometry,
     /// As they are now.
     settings: Settings,
-    energy_at_start: Energy,
+    material_at_start: MaterialSpec,
     play: Play,
-    pulls: BTreeMap<u64, Held>,
+    pulls: BTreeMap<u64, Drag>,
     saved: Option<State>,
     steps: u64,
 }
 
-/// What a hand holds, and where it draws it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Held {
-    /// A vertex of the surface.
-    pub vertex: usize,
-    /// The point that the hand is on its way to, m.
-    pub target: [f64; 3],
-    /// Where the hand is, m; a spring joins it to the vertex.
-    pub place: [f64; 3],
-}
-
 impl Session {
-    /// The scene before its first step.
+    /// A session before the first step of its scene.
     ///
     /// # Errors
-    /// Where the settings make no sense or do not fit the body.
+    /// [`Error::Scene`] if the settings are out of range or do not fit the body.
     pub fn new(settings: Settings) -> Result<Self, Error> {
-        let settings = Settings { energy: settings.energy.explicit()?, ..settings };
+        let material = settings.material.explicit()?;
+        let settings = settings.with_material(material);
         let geometry = Geometry::load(&settings)?;
         let play = Play::new(&settings, &geometry)?;
-        let (pulls, energy_at_start) = (BTreeMap::new(), settings.energy.clone());
-        Ok(Self { geometry, settings, energy_at_start, play, pulls, saved: None, steps: 0 })
+        let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
+        Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None, steps: 0 })
     }
 
-    /// Goes on from where a state was kept, to the last bit.
+    /// Continues from a saved state, to the last bit.
     ///
     /// # Errors
-    /// As [`Session::new`], and where the state does not fit the body.
+    /// Like [`Session::new`], and [`Error::Unsound`] if the state does not fit the body.
     pub fn resume(state: State) -> Result<Self, Error> {
         let mut session = Self::new(state.settings.clone())?;
         session.go_to(&state)?;
@@ -78,13 +67,13 @@ impl Session {
         Ok(session)
     }
 
-    /// The state, to go on from.
+    /// The present state, to be resumed.
     #[must_use]
     pub fn state(&self) -> State {
         let simulation = self.play.simulation();
         State::new(
             self.settings.clone(),
-            self.energy_at_start.clone(),
+            self.material_at_start.clone(),
             self.play.clock(),
             [simulation.positions(), simulation.velocities()],
             self.pulls.clone(),
@@ -97,7 +86,7 @@ impl Session {
         &self.geometry
     }
 
-    /// What is played, with material and time step as they are now.
+    /// The scene and its overrides, with material and time step as they are now.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -109,36 +98,36 @@ impl Session {
         &self.play
     }
 
-    /// Who pulls at what, beside the scene.
-    pub fn pulls(&self) -> impl Iterator<Item = (u64, Held)> {
-        self.pulls.iter().map(|(&hand, &held)| (hand, held))
+    /// Pulls of pages, with their numbers.
+    pub fn pulls(&self) -> impl Iterator<Item = (u64, Drag)> {
+        self.pulls.iter().map(|(&number, &drag)| (number, drag))
     }
 
-    /// The state that was kept last.
+    /// The state that was saved last.
     #[must_use]
     pub fn saved(&self) -> Option<&State> {
         self.saved.as_ref()
     }
 
-    /// How many steps have been made in this session, whatever was reset between them.
+    /// Number of steps in this session, resets or not.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Makes the next step, in the rayon pool where it is called.
+    /// Makes the next step, in the rayon pool of the caller.
     ///
     /// # Errors
-    /// [`Error::Step`]; the state before the step is then untouched.
-    pub fn step(&mut self) -> Result<StepReport, Error> {
+    /// [`SceneError::Step`]; the state before the step is then untouched.
+    pub fn step(&mut self) -> Result<StepReport, SceneError> {
         let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
         let mut pulls = self.pulls.clone();
-        for held in pulls.values_mut() {
-            held.place = towards(held.place, held.target, way);
+        for drag in pulls.values_mut() {
+            drag.place = towards(drag.place, drag.target, way);
         }
-        let springs = pulls.values().filter_map(|held| {
-            let anchor = self.geometry.anchor(held.vertex)?;
-            Some(self.play.pull_at(anchor, held.place))
+        let springs = pulls.values().filter_map(|drag| {
+            let anchor = self.geometry.anchor(drag.vertex)?;
+            Some(self.play.pull_at(anchor, drag.place))
         });
         self.play.hold(springs.collect());
         let report = self.play.step()?;
@@ -150,12 +139,12 @@ impl Session {
     /// Does what a page asks for, before the next step.
     ///
     /// # Errors
-    /// Where it cannot be done. The state is then as before.
+    /// [`Error::Scene`], [`Error::NothingSaved`] or [`Error::Unsound`]; the state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
-            &Act::Pull { hand, vertex, target } => self.pull(hand, vertex, target),
-            Act::Release { hand } => {
-                self.pulls.remove(hand);
+            &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),
+            Act::Release { drag } => {
+                self.pulls.remove(drag);
                 Ok(())
             }
             Act::ReleaseAll {} => {
@@ -163,15 +152,15 @@ impl Session {
                 Ok(())
             }
             Act::Material { name, as_stiff } => {
-                let energy = self.material(name, *as_stiff)?;
-                self.change(Settings { energy, ..self.settings.clone() })
+                let material = self.material(name, *as_stiff)?;
+                self.change(self.settings.clone().with_material(material))
             }
             Act::Parameter { name, values } => {
-                let energy = self.settings.energy.clone().with(name, values.clone());
-                self.change(Settings { energy, ..self.settings.clone() })
+                let material = self.settings.material.clone().with_parameter(name, values.clone());
+                self.change(self.settings.clone().with_material(material))
             }
             &Act::TimeStep { seconds } => {
-                let settings = Settings { dt: seconds, ..self.settings.clone() };
+                let settings = self.settings.clone().with_dt(seconds);
                 settings.check()?;
                 self.settings = settings;
                 self.play.set_dt(seconds);
@@ -187,8 +176,7 @@ impl Session {
                 Ok(())
             }
             Act::Restore {} => {
-                let nothing = || Error::Setup { reason: "no state has been saved yet".into() };
-                let state = self.saved.take().ok_or_else(nothing)?;
+                let state = self.saved.take().ok_or(Error::NothingSaved)?;
                 let result = self.go_to(&state);
                 self.saved = Some(state);
                 result
@@ -196,22 +184,22 @@ impl Session {
         }
     }
 
-    fn pull(&mut self, hand: u64, vertex: usize, target: [f64; 3]) -> Result<(), Error> {
+    fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), SceneError> {
         let anchor = self.check(vertex, target)?;
         // One that holds already moves on; a new one begins where the vertex is.
-        let holds = self.pulls.get(&hand).filter(|held| held.vertex == vertex).map(|held| held.place);
+        let holds = self.pulls.get(&number).filter(|drag| drag.vertex == vertex).map(|drag| drag.place);
         let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
-        if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&hand) {
+        if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&number) {
             let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
-            return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
+            return Err(SceneError::OutOfRange { quantity, value, requirement: "at most 64" });
         }
-        self.pulls.insert(hand, Held { vertex, target, place });
+        self.pulls.insert(number, Drag { vertex, target, place });
         Ok(())
     }
 
     /// The point of the body that a pull holds, if there is that vertex and the target is not out of the world.
-    fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
-        let anchor = self.geometry.anchor(vertex).ok_or(Error::OutOfRange {
+    fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
+        let anchor = self.geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
             quantity: "the vertex of a pull",
             value: vertex as f64,
             requirement: "one of the surface",
@@ -219,11 +207,11 @@ impl Session {
         let rest = &self.geometry.mesh;
         let reach = REACH * rest.bounds().size()[1];
         let place = anchor.position(&rest.positions);
-        // What is no number is nowhere near.
+        // NaN is not near.
         let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
         match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
             None => Ok(anchor),
-            Some((value, _)) => Err(Error::OutOfRange {
+            Some((value, _)) => Err(SceneError::OutOfRange {
                 quantity: "a coordinate of a pull's target",
                 value,
                 requirement: "at most a hundred body heights from where the vertex is at rest",
@@ -232,11 +220,15 @@ impl Session {
     }
 
     /// The material of that name, with the parameters that it had at the start, or else typical ones.
-    fn material(&self, name: &str, as_stiff: bool) -> Result<Energy, Error> {
-        if self.energy_at_start.is(name) {
-            return Ok(self.energy_at_start.clone());
+    fn material(&self, name: &str, as_stiff: bool) -> Result<MaterialSpec, SceneError> {
+        if self.material_at_start.is(name) {
+            return Ok(self.material_at_start.clone());
         }
-        if as_stiff { Energy::like(name, self.play.moduli()).explicit() } else { Energy::typical(name) }
+        if as_stiff {
+            MaterialSpec::matching(name, self.play.moduli()).explicit()
+        } else {
+            MaterialSpec::typical(name)
+        }
     }
 
     /// Makes the body another one where it is, with the speed that it has.
@@ -250,23 +242,21 @@ impl Session {
 
     /// Makes the state what it was. All or nothing.
     fn go_to(&mut self, state: &State) -> Result<(), Error> {
-        let unsound =
-            |reason: &str| Error::File { reason: format!("the state cannot be gone on from: {reason}") };
         if !state.clock.is_sound() || state.clock.dt() != state.settings.dt {
-            return Err(unsound("its clock is wrong"));
+            return Err(Error::Unsound("its clock is wrong"));
         }
         let mut play = Play::new(&state.settings, &self.geometry)?;
         play.resume(state.clock, &state.positions, &state.velocities)?;
-        if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&hand| hand >= MAX_HAND) {
-            return Err(unsound("it has too many pulls"));
+        if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&number| number >= MAX_DRAG) {
+            return Err(Error::Unsound("it has too many pulls"));
         }
-        for held in state.pulls.values() {
-            self.check(held.vertex, held.target)?;
-            self.check(held.vertex, held.place)?;
+        for drag in state.pulls.values() {
+            self.check(drag.vertex, drag.target)?;
+            self.check(drag.vertex, drag.place)?;
         }
         self.play = play;
         self.settings = state.settings.clone();
-        self.energy_at_start = state.energy_at_start.clone();
+        self.material_at_start = state.material_at_start.clone();
         self.pulls = state.pulls.clone();
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! What a page is told: the surface's triangles once, then frames as it asks for them.
+//! Messages to a page: the surface's triangles once, then frames as it asks for them.
 //!
 //! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`. Binary messages begin with
 //! three unsigned numbers of 32 bits, little-endian as all that follows:
@@ -11,45 +11,45 @@
 use std::collections::BTreeSet;
 
 use piola::step::Energies;
+use piola_materials::CATALOGUE;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::measure;
 use serde::Serialize;
 use tungstenite::{Bytes, Utf8Bytes};
 
 use super::protocol::Act;
 use super::session::Session;
-use piola_scenes::energy;
-use piola_scenes::geometry::Geometry;
-use piola_scenes::measure;
 
-/// One look at the body.
+/// The body at one moment, for a page.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     /// Counts states; a page that has seen this one waits for another.
     pub(super) state: u64,
-    /// Counts what [`setup`] has said; a page that knows this one needs no other.
+    /// Counts changes of the setup; a page that knows this one needs no other.
     pub(super) revision: u64,
     pub(super) setup: Utf8Bytes,
     pub(super) figures: Utf8Bytes,
     pub(super) positions: Bytes,
 }
 
-/// What steps are like, measured by who makes them.
+/// Figures of the last steps, measured by the driver.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct FrameStats {
     pub(super) paused: bool,
     pub(super) real_time: bool,
     /// Whether a recording decides what happens.
     pub(super) replays: bool,
-    /// Steps per second of the solver's own time; None before the first.
+    /// Steps per second of the solver's own time; `None` before the first.
     pub(super) steps_per_second: Option<f64>,
     /// Newton iterations of the last step.
     pub(super) newton_iterations: usize,
-    /// After the last step, J.
+    /// Energies after the last step, J.
     pub(super) energies: Energies,
     /// Why the last step failed, or the last file could not be written.
     pub(super) trouble: Option<String>,
 }
 
-/// The triangles of the surface and the edges of the tetrahedra.
+/// Triangles of the surface and edges of the tetrahedra, as a binary message.
 pub(super) fn topology(geometry: &Geometry) -> Bytes {
     let mut edges = BTreeSet::new();
     for &[a, b, c, d] in &geometry.mesh.tets {
@@ -63,7 +63,7 @@ pub(super) fn topology(geometry: &Geometry) -> Bytes {
     numbers.flat_map(u32::to_le_bytes).collect()
 }
 
-/// Where the surface and the nodes are.
+/// Positions of the surface and the nodes, as a binary message.
 pub(super) fn positions(session: &Session) -> Bytes {
     let nodes = session.play().simulation().positions();
     let vertices = session.geometry().surface_at(nodes);
@@ -73,7 +73,7 @@ pub(super) fn positions(session: &Session) -> Bytes {
     header.into_iter().flat_map(u32::to_le_bytes).chain(coordinates.flat_map(f32::to_le_bytes)).collect()
 }
 
-/// What changes with an act at most: the scene and its material.
+/// The scene and its material, which change with acts only.
 pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
     let settings = session.settings();
     let mesh = &session.geometry().mesh;
@@ -82,9 +82,9 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
         name: parameter.name,
         doc: parameter.doc,
         is_list: parameter.is_list,
-        values: settings.energy.values_of(parameter.name),
+        values: settings.material.values_of(parameter.name),
     };
-    let material = settings.energy.description().map(|description| Material {
+    let material = settings.material.description().map(|description| Material {
         name: session.play().material(),
         summary: description.summary,
         formula: description.formula,
@@ -104,35 +104,35 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
         dt: settings.dt,
         dt_of_scene: settings.scene.dt,
         material: material.ok(),
-        materials: energy::catalogue().map(|(name, about)| (name, about.summary)).collect(),
+        materials: CATALOGUE.iter().map(|entry| (entry.name, entry.description.summary)).collect(),
         is_saved: session.saved().is_some(),
         file,
     }))
 }
 
-/// What changes with each step.
-pub(super) fn figures(session: &Session, tally: &Tally) -> Utf8Bytes {
+/// Figures that change with each step.
+pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
     let mesh = &session.geometry().mesh;
     let (play, positions) = (session.play(), session.play().simulation().positions());
     json(&Told::Figures(Figures {
         frame: play.clock().frame(),
         time: play.clock().time(),
-        paused: tally.paused,
-        real_time: tally.real_time,
-        replays: tally.replays,
-        steps_per_second: tally.steps_per_second,
-        newton_iterations: tally.newton_iterations,
+        paused: stats.paused,
+        real_time: stats.real_time,
+        replays: stats.replays,
+        steps_per_second: stats.steps_per_second,
+        newton_iterations: stats.newton_iterations,
         min_det_f: measure::min_det_f(&mesh.positions, positions, &mesh.tets),
         inverted: measure::inverted(&mesh.positions, positions, &mesh.tets),
         from_rest: measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
-        elastic_energy: tally.energies.elastic,
-        kinetic_energy: tally.energies.kinetic,
-        pulls: session.pulls().map(|(_, held)| (held.vertex, held.target)).collect(),
-        trouble: tally.trouble.as_deref(),
+        elastic_energy: stats.energies.elastic,
+        kinetic_energy: stats.energies.kinetic,
+        pulls: session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect(),
+        trouble: stats.trouble.as_deref(),
     }))
 }
 
-/// Why an act was not done.
+/// The reason why an act was refused.
 pub(super) fn refused(act: &Act, reason: &str) -> Utf8Bytes {
     json(&Told::Refused { act, reason })
 }

@@ -4,35 +4,47 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
-
-use super::session::Held;
 use piola_scenes::clock::Clock;
-use piola_scenes::energy::Energy;
-use piola_scenes::error::Error;
+use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 use piola_scenes::settings::Settings;
+use serde::{Deserialize, Serialize};
 
-/// The first field of a file, by which it is known for what it is, and what its version is.
+use crate::error::Error;
+
+/// The first field of a file, which names its format and version.
 const FORMAT: &str = "piola state 1";
 
-/// All that the steps to come depend on. JSON keeps every bit of it.
+/// A state that determines all steps to come, to the last bit. JSON keeps every bit of it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     format: Format,
-    /// The scene, with material and time step as they are now.
+    /// The scene and its overrides, with material and time step as they are now.
     pub settings: Settings,
     /// The material as it was at the start.
-    pub energy_at_start: Energy,
-    /// Which step it is.
+    #[serde(rename = "energy_at_start")]
+    pub material_at_start: MaterialSpec,
+    /// Number and time of the last step.
     pub clock: Clock,
     /// Position of each node, m.
     pub positions: Vec<[f64; 3]>,
     /// Velocity of each node, m/s.
     pub velocities: Vec<[f64; 3]>,
-    /// The pulls that last, beside those of the scene, by their hands.
-    pub pulls: BTreeMap<u64, Held>,
+    /// Pulls with the mouse, by their numbers.
+    pub pulls: BTreeMap<u64, Drag>,
+}
+
+/// A pull with the mouse.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drag {
+    /// The vertex of the surface that is pulled.
+    pub vertex: usize,
+    /// The point that the mouse is at, m.
+    pub target: [f64; 3],
+    /// The point on the way to the target that a spring joins to the vertex, m.
+    pub place: [f64; 3],
 }
 
 /// Stands in a file for [`FORMAT`].
@@ -60,33 +72,32 @@ impl TryFrom<String> for Format {
 impl State {
     pub(super) fn new(
         settings: Settings,
-        energy_at_start: Energy,
+        material_at_start: MaterialSpec,
         clock: Clock,
         [positions, velocities]: [&[[f64; 3]]; 2],
-        pulls: BTreeMap<u64, Held>,
+        pulls: BTreeMap<u64, Drag>,
     ) -> Self {
         let (positions, velocities) = (positions.to_vec(), velocities.to_vec());
-        Self { format: Format, settings, energy_at_start, clock, positions, velocities, pulls }
+        Self { format: Format, settings, material_at_start, clock, positions, velocities, pulls }
     }
 
-    /// Writes the file, in whose place an earlier one of the same name stays until it is complete.
+    /// Writes the file, which replaces an earlier one of the same name only once it is complete.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// [`Error::Scene`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let failure = |reason: String| Error::Write { path: path.into(), reason };
-        let mut text = serde_json::to_vec(self).map_err(|error| failure(error.to_string()))?;
+        // Numbers and strings: nothing that JSON could not say.
+        let mut text = serde_json::to_vec(self).unwrap_or_default();
         text.push(b'\n');
-        write_whole(path, &text)
+        Ok(write_whole(path, &text)?)
     }
 
-    /// Reads the file. Whether what it says fits its scene is seen by who plays it.
+    /// Reads a file. Whether the state fits its scene is checked where a session resumes it.
     ///
     /// # Errors
-    /// [`Error::File`].
+    /// [`Error::Unreadable`] or [`Error::NotState`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let failure = |reason: String| Error::File { reason: format!("{}: {reason}", path.display()) };
-        let text = fs::read(path).map_err(|error| failure(format!("cannot be read: {error}")))?;
-        serde_json::from_slice(&text).map_err(|error| failure(format!("is no state to go on from: {error}")))
+        let text = fs::read(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
+        serde_json::from_slice(&text).map_err(|source| Error::NotState { path: path.into(), source })
     }
 }

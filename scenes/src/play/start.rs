@@ -49,11 +49,11 @@ mod tests {
     use piola::mesh::TetMesh;
 
     use super::*;
-    use crate::scene::{SCRAMBLE, body};
+    use crate::scene::{Body, SCRAMBLE};
     use crate::settings::Settings;
 
     fn scrambled(seed: u64, amplitude: Amplitude, pins: &Pins) -> (TetMesh, Vec<[f64; 3]>) {
-        let settings = Settings { body: body::DINOSAUR, ..Settings::of(&SCRAMBLE) };
+        let settings = Settings::new(&SCRAMBLE).with_body(Body::DINOSAUR);
         let geometry = Geometry::load(&settings).expect("a body of the program");
         let positions = positions(Start::Scrambled { seed, amplitude }, &geometry, pins);
         (geometry.mesh, positions)

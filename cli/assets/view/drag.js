@@ -2,11 +2,11 @@
 
 import { Plane, Raycaster, Vector2, Vector3 } from "./three/three.module.min.js";
 
-export class Grip {
+export class Drags {
   constructor(stage, orbit, link) {
     Object.assign(this, { stage, orbit, link });
     this.caster = new Raycaster();
-    this.hands = new Map(); // by pointer: the hand's number and the plane
+    this.drags = new Map(); // by pointer: the drag's number and the plane
     this.next = 0;
     this.pointer = null; // where to look for something to grab
     const { canvas } = stage;
@@ -36,40 +36,40 @@ export class Grip {
     }
     const facing = this.stage.camera.getWorldDirection(new Vector3());
     const place = this.stage.place(vertex);
-    const hand = { number: this.next++, vertex, plane: new Plane().setFromNormalAndCoplanarPoint(facing, place) };
-    this.hands.set(event.pointerId, hand);
+    const drag = { number: this.next++, vertex, plane: new Plane().setFromNormalAndCoplanarPoint(facing, place) };
+    this.drags.set(event.pointerId, drag);
     this.stage.canvas.setPointerCapture(event.pointerId);
     this.stage.canvas.classList.add("pulling");
-    this.pull(hand, place);
+    this.pull(drag, place);
   }
 
   move(event) {
-    const hand = this.hands.get(event.pointerId);
-    if (!hand) {
+    const drag = this.drags.get(event.pointerId);
+    if (!drag) {
       this.pointer = event.buttons ? null : [event.clientX, event.clientY];
       return;
     }
     this.aim(event.clientX, event.clientY);
-    const target = this.caster.ray.intersectPlane(hand.plane, new Vector3());
-    if (target) this.pull(hand, target);
+    const target = this.caster.ray.intersectPlane(drag.plane, new Vector3());
+    if (target) this.pull(drag, target);
   }
 
   pull({ number, vertex }, target) {
-    this.link.actLater(`hand ${number}`, { pull: { hand: number, vertex, target: target.toArray() } });
+    this.link.actLater(`drag ${number}`, { pull: { drag: number, vertex, target: target.toArray() } });
   }
 
   up(event) {
-    const hand = this.hands.get(event.pointerId);
-    if (!hand) return;
-    this.hands.delete(event.pointerId);
-    this.link.forget(`hand ${hand.number}`);
-    this.link.act({ release: { hand: hand.number } });
-    if (this.hands.size === 0) this.stage.canvas.classList.remove("pulling");
+    const drag = this.drags.get(event.pointerId);
+    if (!drag) return;
+    this.drags.delete(event.pointerId);
+    this.link.forget(`drag ${drag.number}`);
+    this.link.act({ release: { drag: drag.number } });
+    if (this.drags.size === 0) this.stage.canvas.classList.remove("pulling");
   }
 
   /** Once for each picture: shows whether there is something to grab. */
   hover() {
-    if (!this.pointer || this.hands.size > 0) return;
+    if (!this.pointer || this.drags.size > 0) return;
     this.stage.canvas.classList.toggle("over", this.vertexAt(...this.pointer) !== null);
     this.pointer = null;
   }

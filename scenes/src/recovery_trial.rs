@@ -1,54 +1,54 @@
-//! A scene played for its outcome alone: whether the body comes back, with every step watched.
+//! A scene played to see whether the body recovers its shape, without files.
 
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::output::{Standing, Summary};
+use crate::output::{FinalState, Summary};
 use crate::play::Play;
 use crate::settings::Settings;
-use crate::settle::settle;
+use crate::statics::find_equilibrium;
 
-/// A body is back that has been near rest for so many frames in a row: passing by does not count.
+/// A body has recovered once it was near rest for so many frames in a row: passing by does not count.
 const STAY: usize = 10;
 
-/// What came of a trial.
+/// Outcome of a trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// The first frame from which on the body was back; `None` where it was not at the end.
+pub struct TrialOutcome {
+    /// First frame from which on the body was near rest; `None` if it was not at the end.
     pub recovered: Option<usize>,
-    /// How many elements were inside out before the first step.
+    /// Number of elements that were inside out before the first step.
     pub inverted_at_start: usize,
     /// Whether every position after every step was finite.
     pub finite: bool,
     /// The largest increase of what a step minimises, as a share of the energies before it and of Young's modulus over the
     /// volume: rounding, or a mistake.
     pub largest_rise: f64,
-    /// What is known of a body that is not back.
-    pub standing: Option<Standing>,
+    /// Equilibrium of a body that has not recovered.
+    pub final_state: Option<FinalState>,
 }
 
-/// Plays a scene on one thread, up to the settings' number of frames or until the body is back and stays.
+/// Plays a scene on one thread, up to the settings' number of frames or until the body has recovered.
 ///
 /// # Errors
-/// As [`run`](crate::run::run), without those of files.
-pub fn attempt(settings: &Settings, geometry: &Geometry) -> Result<Outcome, Error> {
-    watch(Play::new(settings, geometry)?, settings.frames, geometry)
+/// Those of [`Play::new`] and [`Play::step`], and [`Error::Equilibrium`].
+pub fn recovery_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+    continue_trial(Play::new(settings, geometry)?, settings.frames, geometry)
 }
 
-/// The same from wherever a scene is, up to a number of frames.
+/// Continues a scene on one thread, up to a number of frames or until the body has recovered.
 ///
 /// # Errors
-/// As [`attempt`].
-pub fn watch(mut play: Play, frames: usize, geometry: &Geometry) -> Result<Outcome, Error> {
+/// Those of [`Play::step`], and [`Error::Equilibrium`].
+pub fn continue_trial(mut play: Play, frames: usize, geometry: &Geometry) -> Result<TrialOutcome, Error> {
     let mesh = &geometry.mesh;
     let pinned = play.simulation().pinned().len();
     let start = play.simulation().positions();
-    let mut outcome = Outcome {
+    let mut outcome = TrialOutcome {
         recovered: None,
         inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
         finite: true,
         largest_rise: f64::NEG_INFINITY,
-        standing: None,
+        final_state: None,
     };
     let unit = play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets);
     for frame in 1..=frames {
@@ -65,7 +65,7 @@ pub fn watch(mut play: Play, frames: usize, geometry: &Geometry) -> Result<Outco
         }
     }
     if outcome.recovered.is_none() {
-        outcome.standing = Some(settle(&mut play, mesh)?);
+        outcome.final_state = Some(find_equilibrium(&mut play, mesh)?);
     }
     Ok(outcome)
 }

@@ -1,4 +1,4 @@
-//! What a testing machine reads from a specimen.
+//! Stretch and stress of a specimen in a tensile test.
 
 use piola::mesh::TetMesh;
 use piola::step::Simulation;
@@ -6,11 +6,16 @@ use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, respond};
 
 use crate::measure;
-use crate::output::Reading;
+use crate::output::TensileReading;
 
-/// Reads an upright specimen between two marks, in shares of its height.
+/// Measures an upright specimen between two marks, in shares of its height.
 #[must_use]
-pub fn read(mesh: &TetMesh, simulation: &Simulation, marks: [f64; 2], material: &dyn Specimen) -> Reading {
+pub fn tensile_reading(
+    mesh: &TetMesh,
+    simulation: &Simulation,
+    marks: [f64; 2],
+    material: &dyn Specimen,
+) -> TensileReading {
     let bounds = mesh.bounds();
     let height = bounds.size()[1];
     let marks = marks.map(|share| bounds.min[1] + share * height);
@@ -22,7 +27,7 @@ pub fn read(mesh: &TetMesh, simulation: &Simulation, marks: [f64; 2], material: 
         .map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
     let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / height;
     let bar = respond(material, Mode::Uniaxial, Volume::Free, stretch);
-    Reading {
+    TensileReading {
         stretch,
         nominal_stress: upwards.sum::<f64>() / cross_section,
         uniaxial_stress: bar.map_or(f64::NAN, |bar| bar.stress),
