@@ -4,8 +4,7 @@ mod check;
 mod curve;
 mod fit;
 
-use std::convert::Infallible;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use piola_laboratory::chart;
@@ -40,30 +39,15 @@ impl Material {
     }
 }
 
-/// Where measured points come from.
-#[derive(Clone, Debug)]
-enum Source {
-    Treloar,
-    File(PathBuf),
-}
-
-impl Source {
-    fn parse(text: &str) -> Result<Self, Infallible> {
-        Ok(if text.eq_ignore_ascii_case("treloar") { Self::Treloar } else { Self::File(text.into()) })
+/// Measured points from a file, or Treloar's.
+fn measurements(file: &Path) -> Result<Measurements, Error> {
+    if file.as_os_str().eq_ignore_ascii_case("treloar") {
+        return Measurements::read(TRELOAR_1944).map_err(Error::bench);
     }
-
-    fn read(&self) -> Result<Measurements, Error> {
-        let Self::File(path) = self else { return Ok(Measurements::read(TRELOAR_1944)?) };
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| Error::UnreadableData { path: path.clone(), source })?;
-        Measurements::read(&text).map_err(|source| Error::Data { path: path.clone(), source })
-    }
-
-    fn name(&self) -> String {
-        match self {
-            Self::Treloar => "treloar".into(),
-            Self::File(path) => path.display().to_string(),
-        }
+    let path = file.to_owned();
+    match std::fs::read_to_string(file) {
+        Ok(text) => Measurements::read(&text).map_err(|source| Error::Data { path, source }),
+        Err(source) => Err(Error::UnreadableData { path, source }),
     }
 }
 
@@ -108,7 +92,7 @@ fn draw(
     curves: &[chart::Curve],
     data: Option<(&Measurements, &Agreement)>,
 ) -> Result<(), Error> {
-    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data)?;
+    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::bench)?;
     Ok(write_whole(file, svg.as_bytes())?)
 }
 

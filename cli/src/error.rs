@@ -4,7 +4,6 @@ use std::io;
 use std::path::PathBuf;
 
 use piola::material::Inadmissible;
-use piola_laboratory::chart::ChartError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
@@ -96,10 +95,7 @@ pub enum Error {
         /// What is wrong with it.
         source: DataError,
     },
-    /// The table of measured points that comes with the program is malformed.
-    #[error(transparent)]
-    OwnData(#[from] DataError),
-    /// The bench refuses the material or the stretches.
+    /// The bench refuses the material, the stretches or the chart.
     #[error(transparent)]
     Bench(Box<dyn std::error::Error + Send + Sync>),
     /// Parameters cannot be fitted to the data.
@@ -117,9 +113,6 @@ pub enum Error {
         /// Why.
         source: FitError,
     },
-    /// A chart cannot be drawn.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
 }
 
 impl Error {

@@ -123,7 +123,7 @@ impl Viewer {
         let first = connection::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
-        let driver = Driver { session, threads, save: options.save, recorder, replay };
+        let driver = Driver::new(session, threads, options.save, recorder, replay);
         let server =
             Server { listener, port: address.port(), topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {

@@ -10,7 +10,7 @@ use piola_laboratory::curve::{Mode, Volume, curve};
 use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
-use super::{FINE, Material, Source, as_options, draw, measured_range, spaced, titled};
+use super::{FINE, Material, as_options, draw, measured_range, measurements, spaced, titled};
 use crate::error::Error;
 
 /// Stresses are in Pa.
@@ -41,8 +41,8 @@ pub(crate) struct Curve {
     incompressible: bool,
 
     /// Measured points to compare with: a file with the columns mode,stretch,nominal_stress_MPa, or `treloar`.
-    #[arg(long, value_name = "FILE|treloar", value_parser = Source::parse)]
-    data: Option<Source>,
+    #[arg(long, value_name = "FILE|treloar")]
+    data: Option<PathBuf>,
 
     /// Draw the curves.
     #[arg(long, value_name = "FILE")]
@@ -58,7 +58,7 @@ impl Curve {
         let material = self.material.spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;
-        let data = self.data.as_ref().map(Source::read).transpose()?;
+        let data = self.data.as_deref().map(measurements).transpose()?;
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
         let modes = match (&data, self.modes) {
             (Some(data), modes) if modes.is_empty() => data.modes().collect(),

@@ -9,7 +9,7 @@ use piola_laboratory::curve::{Mode, Volume, curve};
 use piola_laboratory::fit::{self, Candidate, Difference, Standing, Warning};
 use piola_scenes::error::Error as SceneError;
 
-use super::{FINE, Material, Source, as_options, draw, measured_range, rounded, spaced, titled};
+use super::{FINE, Material, as_options, draw, measured_range, measurements, rounded, spaced, titled};
 use crate::error::Error;
 
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
@@ -19,8 +19,8 @@ pub(crate) struct Fit {
     material: Material,
 
     /// Measured points: a file with the columns mode,stretch,nominal_stress_MPa (or _kPa, _Pa), or `treloar`.
-    #[arg(long, value_name = "FILE|treloar", value_parser = Source::parse)]
-    data: Source,
+    #[arg(long, value_name = "FILE|treloar")]
+    data: PathBuf,
 
     /// Keep a parameter, all entries of a list, or one as NAME_1; may be repeated.
     #[arg(long = "hold", value_name = "NAME")]
@@ -61,7 +61,7 @@ impl Fit {
         let spec = self.material.spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
-        let data = self.data.read()?;
+        let data = measurements(&self.data)?;
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
             true => Volume::Free,
@@ -81,7 +81,7 @@ impl Fit {
             |values: &[Vec<f64>]| as_options(names.iter().copied().zip(values.iter().map(Vec::as_slice)));
 
         let title = titled(material, volume);
-        let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.name());
+        let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
         text += &format!("  {}\n", options(&fit.values));
         for number in &fit.numbers {
             text += &format!("  {:12} {:<14}", number.name, rounded(number.value));

@@ -15,15 +15,9 @@ pub(super) struct Camera {
     forward: Vector,
     width: f32,
     height: f32,
-    lens: Lens,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Lens {
-    /// Pixels per unit of x/depth.
-    Central { focal: f32 },
-    /// Pixels per unit of length.
-    Parallel { scale: f32 },
+    is_central: bool,
+    /// Pixels per unit of x/depth of a central view, per unit of length of a parallel one.
+    scale: f32,
 }
 
 impl Camera {
@@ -52,36 +46,29 @@ impl Camera {
         let [x, y] = bound.map(|[above, below]| 0.5 * (above - below));
         let z = (0..2).map(|i| -(bound[i][0] + bound[i][1]) / (2.0 * slope[i])).fold(f32::INFINITY, f32::min);
         let eye = right * x + up * y + forward * z;
-        Self { eye, right, up, forward, width, height, lens: Lens::Central { focal: 0.5 * width / 0.21 } }
+        Self { eye, right, up, forward, width, height, is_central: true, scale: 0.5 * width / 0.21 }
     }
 
     /// The parallel view along `forward` of the sphere about `centre`, in a square of `size` pixels.
     pub(super) fn parallel(centre: Vector, radius: f32, forward: Vector, size: f32) -> Self {
         let [right, up, forward] = frame(forward);
-        let lens = Lens::Parallel { scale: 0.5 * size / radius };
-        Self { eye: centre, right, up, forward, width: size, height: size, lens }
+        let (width, height, scale) = (size, size, 0.5 * size / radius);
+        Self { eye: centre, right, up, forward, width, height, is_central: false, scale }
     }
 
     /// Image coordinates and nearness of a point.
     pub(super) fn project(&self, point: Vector) -> [f32; 3] {
         let relative = point - self.eye;
         let [x, y, depth] = [relative.dot(&self.right), relative.dot(&self.up), relative.dot(&self.forward)];
-        let (scale, nearness) = match self.lens {
-            Lens::Central { focal } => (focal / depth, 1.0 / depth),
-            Lens::Parallel { scale } => (scale, -depth),
-        };
+        let (scale, nearness) =
+            if self.is_central { (self.scale / depth, 1.0 / depth) } else { (self.scale, -depth) };
         [0.5 * self.width + scale * x, 0.5 * self.height - scale * y, nearness]
     }
 
     /// The eye, and the direction in which a central view sees the image point (x, y).
     pub(super) fn ray(&self, x: f32, y: f32) -> (Vector, Vector) {
         let [x, y] = [x - 0.5 * self.width, 0.5 * self.height - y];
-        match self.lens {
-            Lens::Central { focal } => {
-                (self.eye, (self.right * x + self.up * y + self.forward * focal).normalize())
-            }
-            Lens::Parallel { scale } => (self.eye + (self.right * x + self.up * y) / scale, self.forward),
-        }
+        (self.eye, (self.right * x + self.up * y + self.forward * self.scale).normalize())
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
@@ -54,42 +54,16 @@ pub(super) enum Answer {
     Refused(Utf8Bytes),
 }
 
-/// A session with all that drives it.
+/// A session, with everything that drives it.
 #[derive(Debug)]
 pub(super) struct Driver {
-    pub(super) session: Session,
-    pub(super) threads: ThreadPool,
+    session: Session,
+    threads: ThreadPool,
     /// File for saved states.
-    pub(super) save: Option<PathBuf>,
-    pub(super) recorder: Option<Recorder>,
+    save: Option<PathBuf>,
+    recorder: Option<Recorder>,
     /// A recording that is played back; acts of pages are refused meanwhile.
-    pub(super) replay: Option<Recording>,
-}
-
-impl Driver {
-    /// Plays until every sender of orders is gone.
-    pub(super) fn run(self, orders: &Receiver<Order>) {
-        let mut drive = Drive::new(self);
-        loop {
-            match drive.wait(orders) {
-                Ok(order) => drive.obey(order),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return,
-            }
-            for order in orders.try_iter().take(ORDERS) {
-                drive.obey(order);
-            }
-            if drive.is_due() {
-                drive.step();
-            }
-            drive.answer();
-        }
-    }
-}
-
-/// The driver at work.
-struct Drive {
-    driver: Driver,
+    replay: Option<Recording>,
     stats: FrameStats,
     /// When the step before was due.
     before: Instant,
@@ -103,22 +77,48 @@ struct Drive {
     setup: Utf8Bytes,
 }
 
-impl Drive {
-    fn new(driver: Driver) -> Self {
-        let stats = FrameStats { real_time: true, ..FrameStats::default() };
-        let mut drive = Self {
-            driver,
-            stats,
+impl Driver {
+    pub(super) fn new(
+        session: Session,
+        threads: ThreadPool,
+        save: Option<PathBuf>,
+        recorder: Option<Recorder>,
+        replay: Option<Recording>,
+    ) -> Self {
+        Self {
+            session,
+            threads,
+            save,
+            recorder,
+            replay,
+            stats: FrameStats { real_time: true, ..FrameStats::default() },
             before: Instant::now(),
             times: VecDeque::with_capacity(TIMED),
             lookers: Vec::new(),
             state: 1,
             revision: 0,
             setup: Utf8Bytes::default(),
-        };
-        drive.set_up();
-        drive.play_back();
-        drive
+        }
+    }
+
+    /// Plays until every sender of orders is gone.
+    pub(super) fn run(mut self, orders: &Receiver<Order>) {
+        self.set_up();
+        self.play_back();
+        loop {
+            match self.wait(orders) {
+                Ok(order) => self.obey(order),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+            for order in orders.try_iter().take(ORDERS) {
+                self.obey(order);
+            }
+            if self.is_due() {
+                self.step();
+            }
+            self.answer();
+        }
     }
 
     /// The next order, or a time-out when a step is due.
@@ -126,14 +126,8 @@ impl Drive {
         if self.stats.paused {
             return orders.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
-        let Some(due) = self.due() else { return orders.recv_timeout(FOREVER) };
-        match due.saturating_duration_since(Instant::now()) {
-            Duration::ZERO => orders.try_recv().map_err(|error| match error {
-                TryRecvError::Empty => RecvTimeoutError::Timeout,
-                TryRecvError::Disconnected => RecvTimeoutError::Disconnected,
-            }),
-            until_due => orders.recv_timeout(until_due),
-        }
+        let wait = self.due().map(|due| due.saturating_duration_since(Instant::now()));
+        orders.recv_timeout(wait.unwrap_or(FOREVER))
     }
 
     /// When the next step is due, by the clock on the wall; `None` if that is beyond all clocks.
@@ -141,7 +135,7 @@ impl Drive {
         if !self.stats.real_time {
             return Some(self.before);
         }
-        let dt = Duration::try_from_secs_f64(self.driver.session.settings().dt).ok()?;
+        let dt = Duration::try_from_secs_f64(self.session.settings().dt).ok()?;
         self.before.checked_add(dt)
     }
 
@@ -152,7 +146,7 @@ impl Drive {
     fn obey(&mut self, order: Order) {
         match order {
             Order::Act { act, answer } => {
-                let result = match self.driver.replay {
+                let result = match self.replay {
                     Some(_) => Err("a recording is played back; wait for its end".into()),
                     None => self.act(&act).map_err(|error| error.to_string()),
                 };
@@ -177,9 +171,9 @@ impl Drive {
                 return;
             }
             Order::Leave { drags } => {
-                let left = self.driver.session.pulls().map(|(drag, _)| drag);
+                let left = self.session.pulls().map(|(drag, _)| drag);
                 let left: Vec<_> = left.filter(|drag| drags.contains(drag)).collect();
-                if self.driver.replay.is_none() {
+                if self.replay.is_none() {
                     for drag in left {
                         // A release cannot fail.
                         let _ = self.act(&Act::Release { drag });
@@ -192,14 +186,14 @@ impl Drive {
 
     /// Does an act, and writes it to recording and file.
     fn act(&mut self, act: &Act) -> Result<(), Error> {
-        self.driver.session.apply(act)?;
-        let steps = self.driver.session.steps();
+        self.session.apply(act)?;
+        let steps = self.session.steps();
         self.record(|recorder| recorder.act(steps, act));
         if matches!(act, Act::Reset {} | Act::Restore {} | Act::Material { .. } | Act::Parameter { .. }) {
             self.stats.trouble = None;
         }
         if let Act::Save {} = act
-            && let (Some(path), Some(state)) = (&self.driver.save, self.driver.session.saved())
+            && let (Some(path), Some(state)) = (&self.save, self.session.saved())
         {
             state.write(path)?;
         }
@@ -210,9 +204,8 @@ impl Drive {
     }
 
     fn step(&mut self) {
-        let Driver { session, threads, .. } = &mut self.driver;
         let clock = Instant::now();
-        let result = threads.install(|| session.step());
+        let result = self.threads.install(|| self.session.step());
         let took = clock.elapsed();
         match result {
             Ok(report) => {
@@ -230,7 +223,7 @@ impl Drive {
                 self.stats.trouble = Some(error.to_string());
             }
         }
-        let steps = session.steps();
+        let steps = self.session.steps();
         self.record(|recorder| recorder.stepped(steps));
         self.play_back();
         self.state += 1;
@@ -242,8 +235,8 @@ impl Drive {
 
     /// Does the recorded acts before the step to come, and pauses at the end of the recording.
     fn play_back(&mut self) {
-        let Some(mut recording) = self.driver.replay.take() else { return };
-        let steps = self.driver.session.steps();
+        let Some(mut recording) = self.replay.take() else { return };
+        let steps = self.session.steps();
         while let Some(act) = recording.next_before(steps) {
             if let Err(error) = self.act(&act) {
                 self.stats.trouble = Some(format!("the recording asks for what is refused: {error}"));
@@ -252,22 +245,22 @@ impl Drive {
         if recording.is_over(steps) {
             self.stats.paused = true;
         } else {
-            self.driver.replay = Some(recording);
+            self.replay = Some(recording);
         }
     }
 
     fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), Error>) {
-        if let Some(recorder) = &mut self.driver.recorder
+        if let Some(recorder) = &mut self.recorder
             && let Err(error) = write(recorder)
         {
-            self.driver.recorder = None;
+            self.recorder = None;
             self.stats.trouble = Some(format!("the recording ends here: {error}"));
         }
     }
 
     fn set_up(&mut self) {
-        let file = self.driver.save.as_ref().map(|path| path.display().to_string());
-        self.setup = show::setup(&self.driver.session, file.as_deref());
+        let file = self.save.as_ref().map(|path| path.display().to_string());
+        self.setup = show::setup(&self.session, file.as_deref());
         self.revision += 1;
     }
 
@@ -276,13 +269,13 @@ impl Drive {
         if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
             return;
         }
-        self.stats.replays = self.driver.replay.is_some();
+        self.stats.replays = self.replay.is_some();
         let frame = Frame {
             state: self.state,
             revision: self.revision,
             setup: self.setup.clone(),
-            figures: show::figures(&self.driver.session, &self.stats),
-            positions: show::positions(&self.driver.session),
+            figures: show::figures(&self.session, &self.stats),
+            positions: show::positions(&self.session),
         };
         for (_, looker) in self.lookers.extract_if(.., |&mut (seen, _)| seen != self.state) {
             // A connection that has ended needs no frame.

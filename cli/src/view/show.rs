@@ -10,11 +10,12 @@
 
 use std::collections::BTreeSet;
 
+use piola::material::Parameter;
 use piola::step::Energies;
 use piola_materials::CATALOGUE;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::measure;
-use serde::Serialize;
+use serde_json::json;
 use tungstenite::{Bytes, Utf8Bytes};
 
 use super::protocol::Act;
@@ -78,134 +79,69 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
     let settings = session.settings();
     let mesh = &session.geometry().mesh;
     let bounds = mesh.bounds();
-    let parameter = |parameter: &'static piola::material::Parameter| Parameter {
-        name: parameter.name,
-        doc: parameter.doc,
-        is_list: parameter.is_list,
-        values: settings.material.values_of(parameter.name),
+    let style = settings.body.style;
+    let parameter = |parameter: &Parameter| {
+        json!({
+            "name": parameter.name,
+            "doc": parameter.doc,
+            "is_list": parameter.is_list,
+            "values": settings.material.values_of(parameter.name),
+        })
     };
-    let material = settings.material.description().map(|description| Material {
-        name: session.play().material(),
-        summary: description.summary,
-        formula: description.formula,
-        domain: description.domain,
-        parameters: description.parameters.iter().map(parameter).collect(),
+    let material = settings.material.description().map(|description| {
+        json!({
+            "name": session.play().material(),
+            "summary": description.summary,
+            "formula": description.formula,
+            "domain": description.domain,
+            "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        })
     });
-    json(&Told::Setup(Setup {
-        scene: settings.scene.name,
-        about: settings.scene.about,
-        colour: settings.body.style.colour,
-        azimuth: settings.body.style.azimuth,
-        elevation: settings.body.style.elevation,
-        bounds: [bounds.min, bounds.max],
-        tets: mesh.tets.len(),
-        nodes: mesh.positions.len(),
-        vertices: session.geometry().surface_vertices(),
-        dt: settings.dt,
-        dt_of_scene: settings.scene.dt,
-        material: material.ok(),
-        materials: CATALOGUE.iter().map(|entry| (entry.name, entry.description.summary)).collect(),
-        is_saved: session.saved().is_some(),
-        file,
-    }))
+    let materials = CATALOGUE.iter().map(|entry| (entry.name, entry.description.summary));
+    let setup = json!({
+        "scene": settings.scene.name,
+        "about": settings.scene.about,
+        "colour": style.colour, // linear RGB
+        "azimuth": style.azimuth,
+        "elevation": style.elevation,
+        "bounds": [bounds.min, bounds.max], // of the tetrahedra at rest, m
+        "tets": mesh.tets.len(),
+        "nodes": mesh.positions.len(),
+        "vertices": session.geometry().surface_vertices(),
+        "dt": settings.dt,
+        "dt_of_scene": settings.scene.dt,
+        "material": material.ok(),
+        "materials": materials.collect::<Vec<_>>(),
+        "is_saved": session.saved().is_some(),
+        "file": file, // for saved states
+    });
+    json!({ "setup": setup }).to_string().into()
 }
 
 /// Figures that change with each step.
 pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
     let mesh = &session.geometry().mesh;
     let (play, positions) = (session.play(), session.play().simulation().positions());
-    json(&Told::Figures(Figures {
-        frame: play.clock().frame(),
-        time: play.clock().time(),
-        paused: stats.paused,
-        real_time: stats.real_time,
-        replays: stats.replays,
-        steps_per_second: stats.steps_per_second,
-        newton_iterations: stats.newton_iterations,
-        min_det_f: measure::min_det_f(&mesh.positions, positions, &mesh.tets),
-        inverted: measure::inverted(&mesh.positions, positions, &mesh.tets),
-        from_rest: measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
-        elastic_energy: stats.energies.elastic,
-        kinetic_energy: stats.energies.kinetic,
-        pulls: session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect(),
-        trouble: stats.trouble.as_deref(),
-    }))
+    let figures = json!({
+        "frame": play.clock().frame(),
+        "time": play.clock().time(),
+        "paused": stats.paused,
+        "real_time": stats.real_time,
+        "replays": stats.replays,
+        "steps_per_second": stats.steps_per_second,
+        "newton_iterations": stats.newton_iterations,
+        "min_det_f": measure::min_det_f(&mesh.positions, positions, &mesh.tets),
+        "inverted": measure::inverted(&mesh.positions, positions, &mesh.tets),
+        "from_rest": measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
+        "elastic_energy": stats.energies.elastic,
+        "kinetic_energy": stats.energies.kinetic,
+        "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
+        "trouble": stats.trouble,
+    });
+    json!({ "figures": figures }).to_string().into()
 }
 
 /// The reason why an act was refused.
 pub(super) fn refused(act: &Act, reason: &str) -> Utf8Bytes {
-    json(&Told::Refused { act, reason })
-}
-
-fn json(told: &Told<'_>) -> Utf8Bytes {
-    // Strings, numbers and lists of them: nothing that JSON could not say.
-    serde_json::to_string(told).unwrap_or_default().into()
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "snake_case")]
-enum Told<'a> {
-    Setup(Setup<'a>),
-    Figures(Figures<'a>),
-    Refused { act: &'a Act, reason: &'a str },
-}
-
-#[derive(Serialize)]
-struct Setup<'a> {
-    scene: &'a str,
-    about: &'a str,
-    /// Linear RGB.
-    colour: [f32; 3],
-    azimuth: f32,
-    elevation: f32,
-    /// Of the tetrahedra at rest, m.
-    bounds: [[f64; 3]; 2],
-    tets: usize,
-    nodes: usize,
-    vertices: usize,
-    dt: f64,
-    dt_of_scene: f64,
-    material: Option<Material<'a>>,
-    /// Names and summaries of the catalogue.
-    materials: Vec<(&'a str, &'a str)>,
-    is_saved: bool,
-    /// Where states are saved to, if to a file.
-    file: Option<&'a str>,
-}
-
-#[derive(Serialize)]
-struct Material<'a> {
-    name: &'a str,
-    summary: &'a str,
-    formula: &'a str,
-    domain: &'a str,
-    parameters: Vec<Parameter<'a>>,
-}
-
-#[derive(Serialize)]
-struct Parameter<'a> {
-    name: &'a str,
-    doc: &'a str,
-    is_list: bool,
-    values: &'a [f64],
-}
-
-#[derive(Serialize)]
-struct Figures<'a> {
-    frame: usize,
-    time: f64,
-    paused: bool,
-    real_time: bool,
-    replays: bool,
-    steps_per_second: Option<f64>,
-    newton_iterations: usize,
-    min_det_f: f64,
-    inverted: usize,
-    /// The largest distance of a node from rest in body heights, as a summary has it.
-    from_rest: f64,
-    elastic_energy: f64,
-    kinetic_energy: f64,
-    /// Vertex and target.
-    pulls: Vec<(usize, [f64; 3])>,
-    trouble: Option<&'a str>,
+    json!({ "refused": { "act": act, "reason": reason } }).to_string().into()
 }
