@@ -36,7 +36,8 @@ pub(crate) enum Command {
     /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it.
     #[command(after_help = scenes())]
     View(Box<View>),
-    /// List the materials with formula, parameters and typical values of them, domain and small-strain moduli.
+    /// List the materials with formula, parameters and typical values of them, domain and small-strain
+    /// moduli.
     Materials,
     /// Print test curves of a material, with R² of measured ones.
     Curve(Box<Curve>),
@@ -44,7 +45,8 @@ pub(crate) enum Command {
     Fit(Box<Fit>),
     /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
     ///
-    /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from rest.
+    /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
+    /// rest.
     Check(Box<Check>),
 }
 
@@ -105,16 +107,18 @@ struct Choice {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     dt: Option<f64>,
 
-    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the scene's.
+    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the
+    /// scene's.
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
 
-    /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all or none.
+    /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all
+    /// or none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<(String, Vec<f64>)>,
 
-    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the energy is
-    /// extended by polynomials [default: 0.1 where it can be].
+    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
+    /// energy is extended by polynomials [default: 0.1 where it can be].
     #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
     inversion: Option<Inversion>,
 
@@ -126,8 +130,8 @@ struct Choice {
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     gravity: Option<f64>,
 
-    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box LOW:HIGH,LOW:HIGH,LOW:HIGH in m,
-    /// open where a side is left out, such as `:,:0.05,:`; may be repeated.
+    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
+    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
     #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
     pins: Vec<String>,
 
@@ -135,17 +139,18 @@ struct Choice {
     #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
     body: Option<String>,
 
-    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default: the scene's, 1].
+    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default:
+    /// the scene's, 1].
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere in the
-    /// body's bounding box [default: the scene's, 0.3].
+    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere
+    /// in the body's bounding box [default: the scene's, 0.3].
     #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
     amplitude: Option<Amplitude>,
 
-    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places become shares
-    /// of its bounding box.
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
+    /// become shares of its bounding box.
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
 

@@ -38,7 +38,7 @@ pub enum Error {
     Port {
         /// The port as given.
         port: u16,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// A thread cannot be started.
@@ -49,7 +49,7 @@ pub enum Error {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// A file is not a saved state.
@@ -57,7 +57,7 @@ pub enum Error {
     NotState {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         source: serde_json::Error,
     },
     /// A file is not a recording.
@@ -67,7 +67,7 @@ pub enum Error {
         path: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
     /// A state cannot be resumed.
@@ -84,7 +84,7 @@ pub enum Error {
     UnreadableData {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// A file is not a table of measured points.
@@ -92,7 +92,7 @@ pub enum Error {
     Data {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         source: DataError,
     },
     /// The bench refuses the material, the stretches or the chart.
@@ -121,8 +121,8 @@ impl Error {
         Self::Bench(Box::new(source))
     }
 
-    /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if something
-    /// failed on the way.
+    /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if
+    /// something failed on the way.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
@@ -137,7 +137,7 @@ impl Error {
         }
     }
 
-    /// What to change on the command line, to be put behind the message.
+    /// A hint at what to change on the command line, to be put behind the message.
     pub(crate) fn remedy(&self) -> String {
         let Self::Scene(error) = self else { return String::new() };
         match error {

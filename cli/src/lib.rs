@@ -1,8 +1,8 @@
 //! The command `piola`: runs scenes, shows them in a browser, lists materials and puts them on the bench.
 //!
-//! Other programs can use [`render`], which draws a deforming surface in software, and [`view`], which plays a scene for a page
-//! in a browser, where it can be pulled with the mouse. Scenes themselves are in `piola-scenes`, which knows nothing of this
-//! crate.
+//! Other programs can use [`render`], which draws a deforming surface in software, and [`view`], which plays
+//! a scene for a page in a browser, where it can be pulled with the mouse. Scenes themselves are in
+//! `piola-scenes`, which knows nothing of this crate.
 
 mod bench;
 mod command;
@@ -78,7 +78,8 @@ fn serve(arguments: View) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes a text without its last line end, and a line end, to standard output; a reader who has gone away is no failure.
+/// Writes a text without its last line end, and a line end, to standard output; a reader who has gone away is
+/// no failure.
 fn say(text: impl Display) {
     let _ = writeln!(io::stdout(), "{}", text.to_string().trim_end_matches('\n'));
 }

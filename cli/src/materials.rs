@@ -1,4 +1,5 @@
-//! `piola materials`: formula, parameters with typical values, domain and small-strain moduli of each material.
+//! `piola materials`: formula, parameters with typical values, domain and small-strain moduli of each
+//! material.
 
 use piola::material::Description;
 use piola_materials::{CATALOGUE, Entry};

@@ -23,7 +23,8 @@ pub(crate) struct Picture {
     before: Vec<[f64; 3]>,
     /// Sum over all steps of the mean distance that nodes have moved, m.
     path: f64,
-    /// What may become tiles, and the path up to there. Only the frames that `stride` divides are kept, and the last.
+    /// Candidates for tiles, and the path up to each. Only the frames that `stride` divides are kept, and the
+    /// last.
     candidates: Vec<(Frame, f64)>,
     stride: usize,
 }
@@ -62,8 +63,8 @@ impl Picture {
     }
 }
 
-/// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both ends among
-/// them.
+/// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both
+/// ends among them.
 fn evenly_spread(progress: &[f64], count: usize) -> Vec<usize> {
     let (Some(first), Some(last)) = (progress.first(), progress.last()) else { return Vec::new() };
     let count = count.min(progress.len());

@@ -1,7 +1,8 @@
 //! Pictures of a deforming surface, drawn in software: [`contact_sheet`].
 //!
-//! A body of clay on a pale floor under a warm key light and a cool sky, each tile one frame of the motion, all seen
-//! by one camera that fits the whole of it. Everything is deterministic, and no graphics device is needed.
+//! A body of clay on a pale floor under a warm key light and a cool sky, each tile one frame of the motion,
+//! all seen by one camera that fits the whole of it. Everything is deterministic, and no graphics device is
+//! needed.
 //!
 //! This module knows surfaces and colours only: no meshes of tetrahedra, no scenes, no files.
 

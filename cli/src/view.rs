@@ -1,12 +1,12 @@
 //! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
 //!
-//! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same acts;
-//! `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between it and a page what
-//! [`protocol`] allows in one direction and `show` says in the other; `server` and `request` decide who comes in, and
-//! `page` is what they get. [`state`] and [`recording`] are the files.
+//! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
+//! acts; `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between
+//! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server` and
+//! `request` decide who comes in, and `page` is what they get. [`state`] and [`recording`] are the files.
 //!
-//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. There is no other protection: anyone
-//! who can open the page on this machine can pull.
+//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. There is no other
+//! protection: anyone who can open the page on this machine can pull.
 
 mod connection;
 mod driver;
@@ -93,7 +93,8 @@ pub enum Begin {
     Replay(Box<Recording>),
 }
 
-/// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is closed.
+/// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is
+/// closed.
 #[derive(Debug)]
 pub struct Viewer {
     address: SocketAddr,
@@ -105,7 +106,8 @@ impl Viewer {
     /// Starts to play and to serve.
     ///
     /// # Errors
-    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], or that of a file that cannot be written.
+    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], or that of a file that
+    /// cannot be written.
     pub fn start(options: Options) -> Result<Self, Error> {
         let (session, replay) = match options.begin {
             Begin::Scene(settings) => (Session::new(*settings)?, None),

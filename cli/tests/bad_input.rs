@@ -1,4 +1,5 @@
-//! Whatever is wrong with the input, `piola` says what and how to mend it, ends with status 2 and writes nothing.
+//! Whatever is wrong with the input, `piola` says what and how to mend it, ends with status 2 and writes
+//! nothing.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -117,7 +117,8 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
         summary["max_distance_from_rest"].as_f64().expect("a number")
     };
     assert_eq!(run("wedge"), 0.0, "all of the group is pinned");
-    // Held by one corner it swings by half a metre in that time, of which a rigid motion takes away all but the strain.
+    // Held by one corner it swings by half a metre in that time, of which a rigid motion takes away all but
+    // the strain.
     let hanging = run(":,1:,:");
     assert!(0.0 < hanging && hanging < 0.1, "{hanging}");
 }
@@ -181,7 +182,8 @@ fn rubber_is_stretched_as_its_energy_says() {
     let summary = check_with(&["run", "stretch"], "stretch", 240, &["reading"]);
     let read = |name: &str| summary["reading"][name].as_f64().expect("a number");
     assert!((6.5..8.0).contains(&read("stretch")), "{summary}");
-    // The bar is not quite uniform between its marks: half a per cent at rest. It is still a little in motion, too.
+    // The bar is not quite uniform between its marks: half a per cent at rest. It is still a little in
+    // motion, too.
     let error = read("nominal_stress") / read("uniaxial_stress") - 1.0;
     assert!(error.abs() < 0.01, "{error}: {summary}");
 }

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// A count of steps from 0, of a length that may change between them.
 ///
-/// Time is the number of steps of the present length, times that length, after the time when it last changed: a sum over
-/// all steps would gather a rounding error with each.
+/// Time is the number of steps of the present length, times that length, after the time when it last changed:
+/// a sum over all steps would gather a rounding error with each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {

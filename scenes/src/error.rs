@@ -61,17 +61,17 @@ pub enum Error {
     Inadmissible {
         /// Name of the material.
         material: &'static str,
-        /// Its reason.
+        /// Reason.
         source: Inadmissible,
     },
     /// A value of the settings is out of range.
     #[error("{quantity} is {value}; it must be {requirement}")]
     OutOfRange {
-        /// What it is, such as "the time step".
+        /// Name of the quantity, such as "the time step".
         quantity: &'static str,
         /// The value as given.
         value: f64,
-        /// What it must be.
+        /// Requirement that the value breaks.
         requirement: &'static str,
     },
     /// A pin is neither a group of the mesh nor a box.
@@ -81,7 +81,7 @@ pub enum Error {
         pin: String,
         /// The groups of the mesh.
         groups: Vec<String>,
-        /// Why it is not a box.
+        /// Reason why it is not a box.
         source: RegionError,
     },
     /// A pin holds no node.
@@ -100,7 +100,7 @@ pub enum Error {
     Geometry {
         /// The file, or the name of the body.
         file: String,
-        /// What is wrong with it, the file not named.
+        /// Reason, without the name of the file.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Mesh and material make no body.
@@ -114,7 +114,7 @@ pub enum Error {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// Threads cannot be started.
@@ -125,7 +125,7 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         source: io::Error,
     },
     /// The equilibrium of a body that has not recovered cannot be examined.
@@ -136,7 +136,7 @@ pub enum Error {
     Step {
         /// The frame it would have led to.
         frame: usize,
-        /// What the solver says.
+        /// Error of the solver.
         source: StepError,
     },
 }

@@ -10,8 +10,9 @@ use piola::step::Simulation;
 
 use crate::output::{Field, write_vtu};
 
-/// Writes the tetrahedra of a body as VTU, with displacement, m, and velocity, m/s, of nodes, and det F, principal stretches
-/// and energy density, J/m³, of tetrahedra; the last is NaN for a tetrahedron outside the domain of its energy.
+/// Writes the tetrahedra of a body as VTU, with displacement, m, and velocity, m/s, of nodes, and det F,
+/// principal stretches and energy density, J/m³, of tetrahedra; the last is NaN for a tetrahedron outside the
+/// domain of its energy.
 ///
 /// # Errors
 /// If `target` cannot be written to.

@@ -32,8 +32,8 @@ impl Geometry {
     /// The body of the settings: from their files, or one that comes with the program.
     ///
     /// # Errors
-    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra make no body or the
-    /// surface lies outside of them.
+    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra make
+    /// no body or the surface lies outside of them.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = match files.mesh.extension().and_then(OsStr::to_str) {
@@ -88,13 +88,15 @@ impl Geometry {
         self.embedding.anchors().len()
     }
 
-    /// The point of the tetrahedra to which a vertex of the surface is attached; `None` if there is no such vertex.
+    /// The point of the tetrahedra to which a vertex of the surface is attached; `None` if there is no such
+    /// vertex.
     #[must_use]
     pub fn anchor(&self, vertex: usize) -> Option<Anchor> {
         self.embedding.anchors().get(vertex).copied()
     }
 
-    /// Positions of the surface's vertices, m, for these positions of the nodes, m; in the precision of files and pictures.
+    /// Positions of the surface's vertices, m, for these positions of the nodes, m; in the precision of files
+    /// and pictures.
     #[must_use]
     pub fn surface_at(&self, positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
         let anchors = self.embedding.anchors().iter();
@@ -102,7 +104,8 @@ impl Geometry {
     }
 }
 
-/// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their nodes.
+/// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their
+/// nodes.
 fn boundary(mesh: &TetMesh) -> Surface {
     let faces = || mesh.tets.iter().flat_map(|&[a, b, c, d]| [[a, c, b], [a, b, d], [a, d, c], [b, c, d]]);
     let sorted = |mut face: [usize; 3]| {

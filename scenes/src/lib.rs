@@ -1,9 +1,11 @@
 //! Bodies that collapse, invert and recover: scenes, and what a run of one measures and writes.
 //!
-//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override what it says;
-//! [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a summary in a folder.
+//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override what
+//! it says; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a
+//! summary in a folder.
 //!
-//! The crate holds no mechanics, draws no pictures, and knows nothing of the command `piola`, whose crate is `piola-cli`.
+//! The crate holds no mechanics, draws no pictures, and knows nothing of the command `piola`, whose crate is
+//! `piola-cli`.
 
 pub mod clock;
 pub mod error;

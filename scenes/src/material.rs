@@ -17,8 +17,8 @@ use crate::error::Error;
 
 /// The stretch below which a material is extended unless its specification says otherwise.
 ///
-/// Small enough that no body in equilibrium gets there, large enough that the extension's stiffness, of the order of
-/// μ/ε², does not swamp that of the body.
+/// Small enough that no body in equilibrium gets there, large enough that the extension's stiffness, of the
+/// order of μ/ε², does not swamp that of the body.
 pub const EXTENSION: f64 = 0.1;
 
 /// Small-strain moduli of most scenes: E = 1 MPa, ν = 0.45.
@@ -34,8 +34,9 @@ pub fn soft_moduli() -> Moduli {
 
 /// Ogden's three exponents \[Ogden72\] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
 ///
-/// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk response is that
-/// of the first Lamé parameter. The third term, of which natural rubber has a fortieth, resists flattening.
+/// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk
+/// response is that of the first Lamé parameter. The third term, of which natural rubber has a fortieth,
+/// resists flattening.
 #[must_use]
 pub fn ogden(moduli: Moduli) -> MaterialSpec {
     const EXPONENTS: [f64; 3] = [1.3, 5.0, -2.0];
@@ -66,9 +67,9 @@ impl MaterialSpec {
         Self { material: material.into(), parameters: Vec::new(), lame: None, inversion: None }
     }
 
-    /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the catalogue,
-    /// [matched](Entry::matching). A parameter that is given later on replaces them all, so that the others must be given,
-    /// too.
+    /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
+    /// catalogue, [matched](Entry::matching). A parameter that is given later on replaces them all, so that
+    /// the others must be given, too.
     #[must_use]
     pub fn matching(material: &str, moduli: Moduli) -> Self {
         match same_name(material, "Ogden") {
@@ -85,7 +86,8 @@ impl MaterialSpec {
         self
     }
 
-    /// Chooses the behaviour outside of the domain; otherwise a material that can be extended is, below [`EXTENSION`].
+    /// Chooses the behaviour outside of the domain; otherwise a material that can be extended is, below
+    /// [`EXTENSION`].
     #[must_use]
     pub fn with_inversion(mut self, inversion: Inversion) -> Self {
         self.inversion = Some(match inversion {
@@ -141,7 +143,8 @@ impl MaterialSpec {
     /// Looks the material up and checks its parameters.
     ///
     /// # Errors
-    /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or [`Error::Inadmissible`].
+    /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
+    /// [`Error::Inadmissible`].
     pub fn build(&self) -> Result<MaterialInfo, Error> {
         self.resolve(|entry, values, inversion| {
             let names = entry.description.parameters.iter().map(|parameter| parameter.name);
@@ -170,7 +173,8 @@ impl MaterialSpec {
         self.resolve(|entry, values, inversion| entry.visit_fittable(values, inversion, Boxed))
     }
 
-    /// Looks the material up, gives each parameter its values in the order of the declaration, and makes something of them.
+    /// Looks the material up, gives each parameter its values in the order of the declaration, and makes
+    /// something of them.
     fn resolve<T>(
         &self,
         make: impl FnOnce(&'static Entry, &[&[f64]], Inversion) -> Result<T, Inadmissible>,

@@ -119,7 +119,8 @@ impl Play {
         Ok(())
     }
 
-    /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and height.
+    /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
+    /// height.
     #[must_use]
     pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Pull {
         step::Pull { anchor, target, stiffness: self.stiffness }
@@ -154,7 +155,8 @@ impl Play {
     }
 }
 
-/// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body, Pa.
+/// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
+/// Pa.
 fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
     young * mesh.bounds().size()[1]
 }

@@ -20,8 +20,8 @@ pub struct TrialOutcome {
     pub inverted_at_start: usize,
     /// Whether every position after every step was finite.
     pub finite: bool,
-    /// The largest increase of what a step minimises, as a share of the energies before it and of Young's modulus over the
-    /// volume: rounding, or a mistake.
+    /// The largest increase of what a step minimises, as a share of the energies before it and of Young's
+    /// modulus over the volume: rounding, or a mistake.
     pub largest_rise: f64,
     /// Equilibrium of a body that has not recovered.
     pub final_state: Option<FinalState>,

@@ -15,8 +15,9 @@ use crate::settings::Settings;
 use crate::statics::find_equilibrium;
 use crate::tensile_reading::tensile_reading;
 
-/// Forces on a body that are together below this share of Young's modulus times the square of its size are rounding:
-/// those of ten thousand elements of its size, each with an error of a few roundings, are smaller still.
+/// Forces on a body that are together below this share of Young's modulus times the square of its size are
+/// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
+/// still.
 const NO_FORCE: f64 = 1e-11;
 
 /// Files that a run leaves.

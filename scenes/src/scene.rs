@@ -40,7 +40,7 @@ pub const SCENES: &[&Scene] =
 pub struct Scene {
     /// Name on the command line.
     pub name: &'static str,
-    /// What happens, in a sentence.
+    /// A sentence that describes the scene.
     pub about: &'static str,
     /// The body to which it happens.
     pub body: Body,
@@ -56,16 +56,16 @@ pub struct Scene {
     pub frames: usize,
     /// The part of the body that is held, in shares of its bounding box; `None` for a free body.
     pub pinned: Option<Bounds>,
-    /// Where the nodes are before the first step.
+    /// Positions of the nodes before the first step.
     pub start: Start,
     /// Springs that pull at the body.
     pub pulls: &'static [Pull],
-    /// The heights, in shares of the body's, between which the stretch of a tensile specimen is measured; `None` for
-    /// other bodies.
+    /// The heights, in shares of the body's, between which the stretch of a tensile specimen is measured;
+    /// `None` for other bodies.
     pub gauge: Option<[f64; 2]>,
 }
 
-/// What most scenes have in common: a free horse at rest, lightly damped, for ten seconds.
+/// Defaults of most scenes: a free horse at rest, lightly damped, for ten seconds.
 const COMMON: Scene = Scene {
     name: "",
     about: "",

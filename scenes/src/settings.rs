@@ -17,14 +17,14 @@ const MAX_THREADS: usize = 1024;
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Settings {
-    /// What happens.
+    /// The scene.
     #[serde(with = "Scene")]
     pub scene: &'static Scene,
     /// The body, unless `files` describe another.
     pub body: Body,
     /// Files of another body.
     pub files: Option<Files>,
-    /// Where the nodes are before the first step.
+    /// Positions of the nodes before the first step.
     pub start: Start,
     /// The material of the body.
     #[serde(rename = "energy")]

@@ -8,7 +8,8 @@ use crate::measure;
 use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
 
-/// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the calls before.
+/// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the
+/// calls before.
 const CALLS: usize = 20;
 const ITERATIONS: usize = 10;
 

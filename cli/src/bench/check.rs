@@ -10,14 +10,15 @@ use piola_scenes::output::write_whole;
 use super::Material;
 use crate::error::Error;
 
-/// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from rest.
+/// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
+/// rest.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     #[command(flatten)]
     material: Material,
 
-    /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which the energy is
-    /// extended by polynomials.
+    /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which
+    /// the energy is extended by polynomials.
     #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::command::inversion, default_value = "refuse")]
     #[arg(allow_negative_numbers = true)]
     inversion: Inversion,

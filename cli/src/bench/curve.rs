@@ -40,7 +40,8 @@ pub(crate) struct Curve {
     #[arg(long)]
     incompressible: bool,
 
-    /// Measured points to compare with: a file with the columns mode,stretch,nominal_stress_MPa, or `treloar`.
+    /// Measured points to compare with: a file with the columns mode,stretch,nominal_stress_MPa, or
+    /// `treloar`.
     #[arg(long, value_name = "FILE|treloar")]
     data: Option<PathBuf>,
 

@@ -26,7 +26,8 @@ pub(crate) struct Fit {
     #[arg(long = "hold", value_name = "NAME")]
     held: Vec<String>,
 
-    /// Minimise differences relative to the measured stress, so that small strains count as much as large ones: the default.
+    /// Minimise differences relative to the measured stress, so that small strains count as much as large
+    /// ones: the default.
     #[arg(long)]
     relative: bool,
 

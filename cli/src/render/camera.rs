@@ -1,12 +1,13 @@
-//! Where a point in space lands in the picture, and which ray a pixel looks along.
+//! Projection of points in space to the picture, and rays of its pixels.
 
 use super::Vector;
 
 /// A view of the scene: central for the picture, parallel for the shadow of a distant light.
 ///
 /// Image coordinates run over width × height pixels, x to the right and y downwards, pixel centres at halves.
-/// "Nearness" orders what a pixel sees, the largest being in front; it is affine in image coordinates, so that it may
-/// be interpolated there: the reciprocal of the depth for a central view, its negative for a parallel one.
+/// "Nearness" orders what a pixel sees, the largest being in front; it is affine in image coordinates, so
+/// that it may be interpolated there: the reciprocal of the depth for a central view, its negative for a
+/// parallel one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
     eye: Vector,
@@ -21,11 +22,11 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The central view along `forward` from as near as shows all of `points`, with `margin` (a share of the picture's
-    /// half width and half height) left free around them.
+    /// The central view along `forward` from as near as shows all of `points`, with `margin` (a share of the
+    /// picture's half width and half height) left free around them.
     ///
-    /// The position is exact: in camera coordinates every point bounds it by four planes, and the tightest of them meet
-    /// there.
+    /// The position is exact: in camera coordinates every point bounds it by four planes, and the tightest of
+    /// them meet there.
     pub(super) fn fitting(
         points: impl Iterator<Item = Vector>,
         forward: Vector,

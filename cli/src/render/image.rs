@@ -47,7 +47,7 @@ impl Image {
     /// Writes the picture as PNG.
     ///
     /// # Errors
-    /// Where `target` cannot be written to, or a side of the picture is zero.
+    /// If `target` cannot be written to, or a side of the picture is zero.
     pub fn write_png(&self, target: impl Write) -> Result<(), png::EncodingError> {
         let mut encoder = png::Encoder::new(target, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Rgb);

@@ -1,4 +1,4 @@
-//! How much light reaches a point: a soft key light and a sky, both as bundles of distant lamps with shadow maps.
+//! Light that reaches a point: a soft key light and a sky, both as bundles of distant lamps with shadow maps.
 
 use std::f32::consts::TAU;
 
@@ -25,7 +25,8 @@ const SKY_COLOUR: [f32; 3] = [0.34, 0.39, 0.47];
 pub(super) struct Lights {
     lamps: Vec<Lamp>,
     key: Vector,
-    /// Points are lifted off their surface by this much before they look for shadows, so that none shades itself.
+    /// Points are lifted off their surface by this much before they look for shadows, so that none shades
+    /// itself.
     lift: f32,
     open_floor: Vector,
 }
@@ -51,7 +52,8 @@ pub(super) struct Received {
 }
 
 impl Lights {
-    /// The lamps around `surface`, whose vertices lie in the sphere about `centre`; `key` points towards the key light.
+    /// The lamps around `surface`, whose vertices lie in the sphere about `centre`; `key` points towards the
+    /// key light.
     pub(super) fn around(surface: Surface<'_>, centre: Vector, radius: f32, key: Vector) -> Self {
         let key = key.normalize();
         let lamps = lamps(key)
@@ -98,8 +100,8 @@ impl Lamp {
 
 /// Direction, power and kind of every lamp.
 ///
-/// The sky's are spread evenly over the upper half sphere by the golden-angle spiral, the key light's likewise over
-/// its disc.
+/// The sky's are spread evenly over the upper half sphere by the golden-angle spiral, the key light's
+/// likewise over its disc.
 fn lamps(key: Vector) -> Vec<(Vector, Vector, bool)> {
     let golden_angle = TAU * (2.0 - 1.618_034);
     let across = key.cross(&Vector::y()).normalize();

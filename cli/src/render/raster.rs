@@ -1,4 +1,4 @@
-//! Which triangle each pixel sees: a depth buffer.
+//! A depth buffer: the triangle that each pixel sees.
 
 use super::camera::Camera;
 use super::{Surface, Vector};

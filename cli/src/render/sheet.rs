@@ -37,7 +37,8 @@ pub struct Frame {
 
 /// Draws frames of a deforming surface as tiles of one picture, seen by one camera that fits them all.
 ///
-/// The floor lies under the lowest point of the body in half of the frames. Vertices that are not finite are left out.
+/// The floor lies under the lowest point of the body in half of the frames. Vertices that are not finite are
+/// left out.
 #[must_use]
 pub fn contact_sheet(frames: &[Frame], triangles: &[[u32; 3]], style: &Style) -> Image {
     let columns = frames.len().clamp(1, COLUMNS);
@@ -56,7 +57,7 @@ pub fn contact_sheet(frames: &[Frame], triangles: &[[u32; 3]], style: &Style) ->
     sheet
 }
 
-/// All that the tiles have in common.
+/// Camera, light and floor, which the tiles share.
 #[derive(Debug)]
 struct Stage {
     camera: Camera,
@@ -113,7 +114,8 @@ impl Stage {
                 let places: [_; SAMPLES * SAMPLES] =
                     std::array::from_fn(|k| [row * SAMPLES + k / SAMPLES, column * SAMPLES + k % SAMPLES]);
                 let seen = places.map(|[row, column]| seen.triangle[row * width + column]);
-                // Within one triangle light hardly changes over a pixel: it is computed once for each in view.
+                // Within one triangle light hardly changes over a pixel: it is computed once for each in
+                // view.
                 let mut sum = Vector::zeros();
                 for (k, &triangle) in seen.iter().enumerate() {
                     if !seen[..k].contains(&triangle) {
@@ -142,7 +144,7 @@ impl Stage {
     }
 }
 
-/// What a body of dull clay sends towards the eye from where the ray meets `triangle`.
+/// Light that a body of dull clay sends towards the eye from the point where the ray meets `triangle`.
 fn body_light(
     surface: Surface<'_>,
     normals: &[Vector],

@@ -1,6 +1,7 @@
 //! The socket of a page: passes its messages on as orders, and answers back.
 //!
-//! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise in long ones.
+//! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
+//! in long ones.
 
 use std::io::{self, ErrorKind, Read};
 use std::net::TcpStream;
@@ -18,7 +19,8 @@ use super::protocol::{Act, Message};
 
 /// The longest message that makes sense is a long list of parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
-/// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other pages.
+/// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other
+/// pages.
 const DRAGS: u64 = 1 << 32;
 /// How long a page that waits for a frame waits longer than it must.
 const TURN: Duration = Duration::from_millis(3);
@@ -180,7 +182,8 @@ impl Connection<'_> {
         self.socket.send(envelope).map_err(|_| End::Gone)
     }
 
-    /// Says why, and waits for the other side to have heard: data that nobody reads would make the system cut the line.
+    /// Sends the reason and waits until the other side has read it: unread data would make the system cut the
+    /// line.
     fn part(&mut self, end: End) {
         let End::Because(code, reason) = end else { return };
         let reason = reason.chars().take(100).collect::<String>();

@@ -1,7 +1,8 @@
-//! The thread that owns the body: takes orders between steps, steps in real time, and answers pages that ask for frames.
+//! The thread that owns the body: takes orders between steps, steps in real time, and answers pages that ask
+//! for frames.
 //!
-//! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one that does not
-//! ask nothing is made and nothing is kept.
+//! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one
+//! that does not ask nothing is made and nothing is kept.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -21,8 +22,8 @@ use crate::error::Error;
 const ORDERS: usize = 256;
 /// Number of steps over which the speed is averaged.
 const TIMED: usize = 32;
-/// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real time is
-/// played slowly, and does not race when it could.
+/// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real
+/// time is played slowly, and does not race when it could.
 const LAG: Duration = Duration::from_millis(100);
 /// How long to wait for an order where no step is due in any time that a clock can name.
 const FOREVER: Duration = Duration::from_secs(3600);

@@ -44,7 +44,8 @@ pub(super) fn denied(Denied(status, reason): Denied) -> (String, &'static str) {
     (header(status, "plain", reason.len()), reason)
 }
 
-/// The header of an answer: the page may load nothing from elsewhere, send nothing there, and be in no other page's frame.
+/// The header of an answer: the page may load nothing from elsewhere, send nothing there, and be in no other
+/// page's frame.
 fn header(status: &str, kind: &str, length: usize) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/{kind}; charset=utf-8\r\nContent-Length: {length}\r\nConnection: close\r\n\

@@ -1,7 +1,8 @@
 //! Acts on a body in a file, from which the same motion comes again, to the last bit.
 //!
-//! A line of JSON for the state at the start, one for each act with the number of the step before which it took effect,
-//! and now and then one that says how many steps there have been. The last of these is where the recording ends.
+//! A line of JSON for the state at the start, one for each act with the number of the step before which it
+//! took effect, and now and then one that says how many steps there have been. The last of these is where the
+//! recording ends.
 
 use std::collections::VecDeque;
 use std::fs::{self, File};

@@ -1,7 +1,8 @@
 //! Requests of a browser over HTTP, and whether they are allowed.
 //!
-//! A page anywhere on the web can make a browser send requests to this machine. It cannot choose the browser's `Origin`,
-//! and a name that it has pointed here shows up as `Host`. So both must be the viewer's own.
+//! A page anywhere on the web can make a browser send requests to this machine. It cannot choose the
+//! browser's `Origin`, and a name that it has pointed here shows up as `Host`. So both must be the viewer's
+//! own.
 
 use std::io::{ErrorKind, Read};
 use std::net::TcpStream;
@@ -104,7 +105,7 @@ mod tests {
     const SOCKET: &str = "GET /socket HTTP/1.1\r\nHost: 127.0.0.1:8017\r\nOrigin: http://127.0.0.1:8017\r\n\
                           Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n\
                           Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-    /// What RFC 6455, section 1.3, answers to that key.
+    /// Answer to that key in RFC 6455, section 1.3.
     const ACCEPT: &str = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
 
     /// Compares the path of a file, the key that opens a socket, or the status of a request that is denied.

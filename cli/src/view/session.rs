@@ -1,5 +1,5 @@
-//! A scene to interact with: every act has its effect before some step, and the same acts before the same steps give
-//! the same bits.
+//! A scene to interact with: every act has its effect before some step, and the same acts before the same
+//! steps give the same bits.
 //!
 //! This module knows no threads, no clock on the wall and no sockets.
 
@@ -25,15 +25,15 @@ const MAX_DRAG: u64 = 1 << 62;
 const REACH: f64 = 100.0;
 /// Greatest speed of a drag, in body heights per second.
 ///
-/// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a second, may fold
-/// into itself and find another equilibrium from which no elastic energy brings it back.
+/// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a
+/// second, may fold into itself and find another equilibrium from which no elastic energy brings it back.
 const SPEED: f64 = 4.0;
 
 /// A scene in motion, its present material, and the pulls of pages at it.
 #[derive(Debug)]
 pub struct Session {
     geometry: Geometry,
-    /// As they are now.
+    /// Settings with material and time step as they are now.
     settings: Settings,
     material_at_start: MaterialSpec,
     play: Play,
@@ -197,7 +197,8 @@ impl Session {
         Ok(())
     }
 
-    /// The point of the body that a pull holds, if there is that vertex and the target is not out of the world.
+    /// The point of the body that a pull holds, if there is that vertex and the target is not out of the
+    /// world.
     fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
         let anchor = self.geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
             quantity: "the vertex of a pull",

@@ -1,7 +1,7 @@
 //! Messages to a page: the surface's triangles once, then frames as it asks for them.
 //!
-//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`. Binary messages begin with
-//! three unsigned numbers of 32 bits, little-endian as all that follows:
+//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`. Binary
+//! messages begin with three unsigned numbers of 32 bits, little-endian as all that follows:
 //!
 //! ```text
 //! 0, triangles, edges    then three vertices for each triangle, two nodes for each edge of the cage, as u32

@@ -1,4 +1,4 @@
-//! A body in the middle of a motion, as a file.
+//! Files with the state of a body in motion.
 
 use std::collections::BTreeMap;
 use std::fs;

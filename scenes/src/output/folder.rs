@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// A folder that keeps its files aside, in a hidden folder inside it, until [`publish`](Self::publish) moves them into place.
+/// A folder that keeps its files aside, in a hidden folder inside it, until [`publish`](Self::publish) moves
+/// them into place.
 ///
 /// Dropped before that, it leaves the target as it found it.
 #[derive(Debug)]
@@ -54,7 +55,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are removed.
+    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are
+    /// removed.
     ///
     /// # Errors
     /// [`Error::Write`] if a file of that name cannot be replaced.

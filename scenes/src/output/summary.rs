@@ -29,7 +29,7 @@ pub struct TensileReading {
     pub uniaxial_stress: f64,
 }
 
-/// Where a body that has not recovered comes to rest.
+/// Kind of the equilibrium of a body that has not recovered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FinalPlace {
@@ -60,7 +60,7 @@ impl fmt::Display for FinalPlace {
 /// Equilibrium of a body that has not recovered, where statics has taken it from the final frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FinalState {
-    /// Where it rests.
+    /// Kind of the equilibrium.
     pub place: FinalPlace,
     /// [`Summary::max_distance_from_rest`] in equilibrium.
     pub max_distance_from_rest: f64,
@@ -70,8 +70,8 @@ pub struct FinalState {
     pub relative_residual: f64,
     /// Whether no element bears stress beyond rounding.
     pub stress_free: bool,
-    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None` where nothing
-    /// is free.
+    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None`
+    /// where nothing is free.
     pub smallest_eigenvalue: Option<f64>,
     /// An exact eigenvalue is no farther from it than this, 1/s².
     pub eigenvalue_error: Option<f64>,
@@ -128,8 +128,8 @@ pub struct Summary {
     pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
-    /// The largest distance of a node from its rest position in the final frame, in body heights. After the best rigid
-    /// motion where fewer than three nodes are pinned.
+    /// The largest distance of a node from its rest position in the final frame, in body heights. After the
+    /// best rigid motion where fewer than three nodes are pinned.
     pub max_distance_from_rest: f64,
     /// Elastic energy of the final frame, J.
     pub energy: f64,

@@ -7,7 +7,7 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::scene::{Amplitude, Start};
 
-/// Where the nodes are in frame 0, m.
+/// Positions of the nodes in frame 0, m.
 pub(super) fn positions(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
     let mesh = &geometry.mesh;
     let bounds = mesh.bounds();

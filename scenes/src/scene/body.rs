@@ -52,7 +52,7 @@ pub enum Shape {
 pub struct Asset {
     /// Its name, for messages.
     pub name: &'static str,
-    /// What is in it.
+    /// Content.
     pub text: &'static str,
 }
 

@@ -22,8 +22,8 @@ pub const DINOSAUR: Scene = Scene {
 
 /// A dinosaur whose head is drawn aside by five body heights, so that elements turn inside out on the way.
 ///
-/// Ogden's energy ends at det F = 0; its extension lets them pass (det F reaches about −0.2, and −0.4 on the way back) and
-/// restores them.
+/// Ogden's energy ends at det F = 0; its extension lets them pass (det F reaches about −0.2, and −0.4 on the
+/// way back) and restores them.
 pub const DINOSAUR_OVERSTRETCHED: Scene = Scene {
     name: "dinosaur-overstretched",
     about: "the same pull, five body heights far, so that elements turn inside out before it is let go",

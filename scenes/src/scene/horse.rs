@@ -6,10 +6,12 @@ use super::{COMMON, Scene, Start};
 use crate::material::{MaterialSpec, soft_moduli};
 use crate::region::EVERYWHERE;
 
-/// A horse that is flattened into the plane under its hooves, nearly every element a sheet without volume, and released.
+/// A horse that is flattened into the plane under its hooves, nearly every element a sheet without volume,
+/// and released.
 ///
-/// Rotated linear elasticity needs no extension: it is defined for every deformation gradient. Here most of them have
-/// rank two or less, where the directions of the singular vectors say nothing about where the volume has gone.
+/// Rotated linear elasticity needs no extension: it is defined for every deformation gradient. Here most of
+/// them have rank two or less, where the directions of the singular vectors say nothing about where the
+/// volume has gone.
 pub const HORSE: Scene = Scene {
     name: "horse",
     about: "a horse is flattened into the ground under its pinned hooves and stands up again",

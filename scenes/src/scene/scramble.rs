@@ -11,7 +11,8 @@ pub const SCRAMBLE: Scene = Scene {
     ..COMMON
 };
 
-/// A body that is reflected: every element is inside out and none distorted. For an energy with ψ(F) = ψ(−F) this is rest.
+/// A body that is reflected: every element is inside out and none distorted. For an energy with ψ(F) = ψ(−F)
+/// this is rest.
 pub const INSIDE_OUT: Scene = Scene {
     name: "inside_out",
     about: "a free body is reflected through its centre, x ↦ −x, so that all of it is inside out",

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Start {
-    /// Where the mesh has them.
+    /// The positions of the mesh.
     Rest,
     /// Straight down, or up, in the horizontal plane under the surface's lowest vertex.
     Flattened,

@@ -13,7 +13,8 @@ use crate::region::EVERYWHERE;
 
 /// A bar that is drawn to seven times its length, where Treloar's rubber \[Tre44\] stiffens, and held there.
 ///
-/// The ends are held across as well, so that the bar is uniform only away from them: the stretch is that of the gauge.
+/// The ends are held across as well, so that the bar is uniform only away from them: the stretch is that of
+/// the gauge.
 pub const STRETCH: Scene = Scene {
     name: "stretch",
     about: "an upright bar of Treloar's rubber is drawn to seven times its length and held there",
@@ -34,7 +35,8 @@ pub const STRETCH: Scene = Scene {
 
 /// Ogden's three terms for the rubber of \[Tre44\] at 20 °C, as \[Ogden72\] gives them.
 ///
-/// The source is incompressible. The bulk modulus is that of ordinary rubber, 1 GPa, two thousand times the shear modulus.
+/// The source is incompressible. The bulk modulus is that of ordinary rubber, 1 GPa, two thousand times the
+/// shear modulus.
 fn treloar() -> MaterialSpec {
     let mu = [0.63e6, 0.0012e6, -0.01e6];
     MaterialSpec::new("Ogden")

@@ -6,7 +6,8 @@ use super::{Body, COMMON, Motion, Pull, Scene};
 use crate::material::{MaterialSpec, soft_moduli};
 use crate::region::EVERYWHERE;
 
-/// A bar whose upper end is turned twice around and let go: only the body, not the rotation of its end, remembers the way back.
+/// A bar whose upper end is turned twice around and let go: only the body, not the rotation of its end,
+/// remembers the way back.
 pub const TWIST: Scene = Scene {
     name: "twist",
     about: "an upright bar with a pinned foot is twisted by 720° at its upper end and let go",
