@@ -90,7 +90,7 @@ pub enum Error {
         /// Which one.
         pin: String,
         /// Why.
-        source: PinError,
+        source: Box<PinError>,
     },
     /// The file of a mesh or a surface cannot be read or is malformed.
     #[error(transparent)]

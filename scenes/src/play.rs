@@ -176,7 +176,7 @@ fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
         let pin = format!("of the scene {}", settings.scene.name);
-        return Pins::in_box(mesh, region).map_err(|source| Error::Pin { pin, source });
+        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, source: error.into() });
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
@@ -188,7 +188,7 @@ fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
                 return Err(Error::UnknownPin { pin: pin.clone(), groups, source });
             }
         };
-        let pins = pins.map_err(|source| Error::Pin { pin: format!("`{pin}`"), source })?;
+        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), source: error.into() })?;
         Ok(all.and(&pins))
     })
 }

@@ -31,7 +31,7 @@ pub struct TrialOutcome {
 ///
 /// # Errors
 /// Those of [`Play::new`] and [`Play::step`], and [`Error::Equilibrium`].
-pub fn recovery_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
     continue_trial(Play::new(settings, geometry)?, settings.frames, geometry)
 }
 

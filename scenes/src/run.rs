@@ -13,7 +13,7 @@ use crate::output::{CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_
 use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::find_equilibrium;
-use crate::tensile_reading::tensile_reading;
+use crate::tensile_reading::read_specimen;
 
 /// Forces on a body that are together below this share of Young's modulus times the square of its size are
 /// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
@@ -113,7 +113,7 @@ pub fn run(
     let reading = match settings.scene.gauge {
         Some(marks) => {
             let material = settings.material.specimen()?;
-            Some(tensile_reading(mesh, play.simulation(), marks, material.as_ref()))
+            Some(read_specimen(mesh, play.simulation(), marks, material.as_ref()))
         }
         None => None,
     };

@@ -10,7 +10,7 @@ use crate::output::TensileReading;
 
 /// Measures an upright specimen between two marks, in shares of its height.
 #[must_use]
-pub fn tensile_reading(
+pub fn read_specimen(
     mesh: &TetMesh,
     simulation: &Simulation,
     marks: [f64; 2],

@@ -4,7 +4,7 @@ use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::{MaterialSpec, soft_moduli};
 use piola_scenes::output::{FinalPlace, Newton};
-use piola_scenes::recovery_trial::{TrialOutcome, recovery_trial};
+use piola_scenes::recovery_trial::{TrialOutcome, run_trial};
 use piola_scenes::scene::{Amplitude, Body, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
 use piola_scenes::settings::Settings;
 
@@ -21,7 +21,7 @@ fn play(
     let spec = MaterialSpec::matching(material, soft_moduli());
     let settings = Settings::new(scene).with_body(body).with_material(spec);
     let settings = settings.with_start(start).with_newton(newton);
-    let outcome = recovery_trial(&settings, &Geometry::load(&settings)?)?;
+    let outcome = run_trial(&settings, &Geometry::load(&settings)?)?;
     let what = format!("{} {} {material}: {outcome:?}", scene.name, body.name);
     assert!(outcome.finite && outcome.largest_rise <= RISE, "{what}");
     // Whoever is stuck is certified: at rest, and known to be stable or not.

@@ -49,7 +49,7 @@ fn imports_point_one_way() {
     forbid("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
     forbid("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]);
     forbid("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]);
-    forbid("scenes/src", &["piola_cli", "piola_tests", "piola_codegen", "clap", "tungstenite"]);
+    forbid("scenes/src", &["piola_cli", "piola_tests", "piola_codegen", "tungstenite"]);
     forbid("cli/src", &["piola_tests", "piola_codegen"]);
     // Inside the runtime: lanes and material below point, point below system, system below step.
     forbid(
