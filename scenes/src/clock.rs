@@ -1,11 +1,11 @@
-//! Which step it is, and what time that is.
+//! Number of the step, and its time.
 
 use serde::{Deserialize, Serialize};
 
-/// Steps counted from 0, of a length that may change between them.
+/// A count of steps from 0, of a length that may change between them.
 ///
-/// Time is the number of steps of the present length, times that length, after the time when it last changed: a sum over
-/// all steps would gather a rounding error with each.
+/// Time is the number of steps of the present length, times that length, after the time when it last changed:
+/// a sum over all steps would gather a rounding error with each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {
@@ -16,13 +16,13 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Before the first step; their length `dt` in s.
+    /// A clock before the first step, of length `dt`, s.
     #[must_use]
     pub fn new(dt: f64) -> Self {
         Self { frame: 0, dt, since_frame: 0, since_time: 0.0 }
     }
 
-    /// How many steps have been made.
+    /// Number of steps that have been made.
     #[must_use]
     pub fn frame(&self) -> usize {
         self.frame
@@ -40,19 +40,19 @@ impl Clock {
         self.since_time + (self.frame - self.since_frame) as f64 * self.dt
     }
 
-    /// After one more step.
+    /// The clock after one more step.
     #[must_use]
     pub fn next(self) -> Self {
         Self { frame: self.frame + 1, ..self }
     }
 
-    /// The same time, from where steps have another length, s.
+    /// The clock with another length of the steps that follow, s.
     #[must_use]
     pub fn with_dt(self, dt: f64) -> Self {
         Self { dt, since_frame: self.frame, since_time: self.time(), ..self }
     }
 
-    /// Whether its numbers could have come about; those of a file need not.
+    /// Whether steps can have led here; a file may say anything.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.dt > 0.0 && self.dt.is_finite() && self.since_time.is_finite() && self.since_frame <= self.frame

@@ -1,4 +1,4 @@
-//! What ParaView is shown of a body: its tetrahedra with fields.
+//! Tetrahedra of a body with fields, for ParaView.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
@@ -10,11 +10,12 @@ use piola::step::Simulation;
 
 use crate::output::{Field, write_vtu};
 
-/// Writes the tetrahedra of a body as VTU: displacement, m, and velocity, m/s, of nodes; det F, the principal stretches and the
-/// energy density, J/m³, of tetrahedra, NaN where one is outside the domain of its energy.
+/// Writes the tetrahedra of a body as VTU, with displacement, m, and velocity, m/s, of nodes, and det F,
+/// principal stretches and energy density, J/m³, of tetrahedra; the last is NaN for a tetrahedron outside the
+/// domain of its energy.
 ///
 /// # Errors
-/// Where `target` cannot be written to.
+/// If `target` cannot be written to.
 pub fn write(
     target: &mut impl Write,
     simulation: &Simulation,

@@ -1,8 +1,8 @@
 //! The geometry of a run: tetrahedra and the surface that is drawn in their place.
 
 use std::collections::{HashMap, HashSet};
+use std::error;
 use std::ffi::OsStr;
-use std::fmt::Display;
 use std::path::Path;
 
 use piola::mesh::{
@@ -11,7 +11,7 @@ use piola::mesh::{
 };
 
 use crate::error::Error;
-use crate::scene::body::{Body, Shape};
+use crate::scene::{Body, Shape};
 use crate::settings::Settings;
 
 /// How far a surface vertex may lie outside the tetrahedra, as a share of the diagonal of their bounding box.
@@ -30,21 +30,21 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The body that the settings name: their files, or one that comes with the program.
+    /// The body of the settings: from their files, or one that comes with the program.
     ///
     /// # Errors
-    /// [`Error::File`] where a file cannot be read or is malformed, [`Error::Geometry`] where what it says is no body
-    /// or the surface is not in it.
+    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra make
+    /// no body or the surface lies outside of them.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = match files.mesh.extension().and_then(OsStr::to_str) {
-            Some("node" | "ele") => readable(read_tetgen(&files.mesh))?,
-            _ => readable(read_msh(&files.mesh))?,
+            Some("node" | "ele") => read_tetgen(&files.mesh)?,
+            _ => read_msh(&files.mesh)?,
         };
         let mesh_name = files.mesh.display().to_string();
         match &files.surface {
             Some(file) => {
-                let surface = readable(read_surface_obj(file))?;
+                let surface = read_surface_obj(file)?;
                 Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
             }
             None => {
@@ -55,15 +55,15 @@ impl Geometry {
         }
     }
 
-    /// One of the bodies that come with the program.
+    /// The geometry of a body that comes with the program.
     ///
     /// # Errors
-    /// As [`Geometry::load`].
+    /// Like [`Geometry::load`].
     pub fn of(body: Body) -> Result<Self, Error> {
         match body.shape {
             Shape::Files { mesh: file, surface: skin } => {
-                let mesh = readable(parse_msh(file.text, Path::new(file.name)))?;
-                let surface = readable(parse_surface_obj(skin.text, Path::new(skin.name)))?;
+                let mesh = parse_msh(file.text, Path::new(file.name))?;
+                let surface = parse_surface_obj(skin.text, Path::new(skin.name))?;
                 Self::new(mesh, file.name, &surface, skin.name)
             }
             Shape::Box { cells, size } => {
@@ -83,19 +83,21 @@ impl Geometry {
         Ok(Self { mesh, triangles, embedding })
     }
 
-    /// How many vertices the surface has.
+    /// Number of vertices of the surface.
     #[must_use]
     pub fn surface_vertices(&self) -> usize {
         self.embedding.anchors().len()
     }
 
-    /// The point of the tetrahedra that a vertex of the surface is; None where there is no such vertex.
+    /// The point of the tetrahedra to which a vertex of the surface is attached; `None` if there is no such
+    /// vertex.
     #[must_use]
     pub fn anchor(&self, vertex: usize) -> Option<Anchor> {
         self.embedding.anchors().get(vertex).copied()
     }
 
-    /// Where the surface's vertices are when the nodes are at `positions`; in the precision of files and pictures.
+    /// Positions of the surface's vertices, m, for these positions of the nodes, m; in the precision of files
+    /// and pictures.
     #[must_use]
     pub fn surface_at(&self, positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
         let anchors = self.embedding.anchors().iter();
@@ -103,7 +105,8 @@ impl Geometry {
     }
 }
 
-/// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their nodes.
+/// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their
+/// nodes.
 fn boundary(mesh: &TetMesh) -> Surface {
     let faces = || mesh.tets.iter().flat_map(|&[a, b, c, d]| [[a, c, b], [a, b, d], [a, d, c], [b, c, d]]);
     let sorted = |mut face: [usize; 3]| {
@@ -130,13 +133,12 @@ fn boundary(mesh: &TetMesh) -> Surface {
     surface
 }
 
-/// Errors of readers name file and line themselves.
-fn readable<T>(result: Result<T, impl Display>) -> Result<T, Error> {
-    result.map_err(|error| Error::File { reason: error.to_string() })
-}
-
-fn usable<T>(file: &str, result: Result<T, impl Display>) -> Result<T, Error> {
-    result.map_err(|error| Error::Geometry { file: file.into(), reason: error.to_string() })
+/// Names the file in an error about its content.
+fn usable<T, E>(file: &str, result: Result<T, E>) -> Result<T, Error>
+where
+    E: error::Error + Send + Sync + 'static,
+{
+    result.map_err(|source| Error::Geometry { file: file.into(), source: source.into() })
 }
 
 #[cfg(test)]

@@ -1,32 +1,27 @@
-//! Bodies that collapse, invert and recover: the scenes behind the command `piola`.
+//! Bodies that collapse, invert and recover: scenes, and what a run of one measures and writes.
 //!
-//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) say what a run does
-//! differently; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces, a picture and a summary in a folder.
+//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override what
+//! it says; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a
+//! summary in a folder.
 //!
-//! [`view`] plays it for a page in a browser, where it can be pulled with the mouse.
-//!
-//! [`laboratory`] puts a material of the catalogue on the bench of `piola-laboratory`.
-//!
-//! The crate holds no mechanics, models no contact with the floor that its pictures show, and opens no window.
+//! The crate holds no mechanics, draws no pictures, and knows nothing of the command `piola`, whose crate is
+//! `piola-cli`.
 
 pub mod clock;
-pub mod energy;
 pub mod error;
 pub mod fields;
-pub mod gauge;
 pub mod geometry;
-pub mod laboratory;
+pub mod material;
 pub mod measure;
 pub mod output;
 pub mod play;
+pub mod recovery_trial;
 pub mod region;
-pub mod render;
 pub mod run;
 pub mod scene;
 pub mod settings;
-pub mod settle;
-pub mod trial;
-pub mod view;
+pub mod statics;
+pub mod tensile_reading;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,4 +1,4 @@
-//! How far a body is from rest.
+//! Volumes, stretches and distances of a body from rest.
 //!
 //! \[Horn87\] Horn, *Closed-form solution of absolute orientation using unit quaternions*, 1987.
 
@@ -7,7 +7,8 @@ use std::collections::HashSet;
 use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
 use piola::mesh::TetMesh;
 
-/// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at most.
+/// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at
+/// most.
 const FLAT: f64 = 1e-12;
 
 type Point = Vector3<f64>;
@@ -18,7 +19,7 @@ pub fn min_det_f(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]])
     dets(rest, positions, tets).fold(f64::INFINITY, f64::min)
 }
 
-/// How many tetrahedra are inside out: det F < 0, by more than the rounding errors of a flat one.
+/// Number of tetrahedra that are inside out: det F < 0, by more than the rounding errors of a flat one.
 #[must_use]
 pub fn inverted(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> usize {
     dets(rest, positions, tets).filter(|&det| det < -FLAT).count()
@@ -41,7 +42,7 @@ pub fn total_volume(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     tets.iter().map(|tet| volume(nodes, tet)).sum()
 }
 
-/// The mean length, m, of the edges of tetrahedra, each counted once; 0 where there are none.
+/// The mean length, m, of the edges of tetrahedra, each counted once; 0 if there are none.
 #[must_use]
 pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     let mut seen = HashSet::new();
@@ -56,8 +57,8 @@ pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     total / seen.len().max(1) as f64
 }
 
-/// How many times as long as at rest the part of a body is that lies between two heights, m, at rest: the slope of the
-/// straight line that fits its nodes' heights best. NaN where fewer than two heights lie there.
+/// Mean stretch along y of the part of a body that lies at rest between two heights, m: the slope of the
+/// straight line that fits its nodes' heights best. NaN if fewer than two heights lie there.
 #[must_use]
 pub fn upright_stretch(rest: &[[f64; 3]], positions: &[[f64; 3]], [low, high]: [f64; 2]) -> f64 {
     let between = || rest.iter().zip(positions).filter(|(rest, _)| low <= rest[1] && rest[1] <= high);
@@ -79,8 +80,8 @@ pub fn max_distance(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The largest distance of a node from rest in body heights, after the best rigid motion where too few nodes are
-/// pinned to rule one out.
+/// The largest distance of a node from rest in body heights, after the best rigid motion if fewer than three
+/// nodes are pinned.
 #[must_use]
 pub fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize) -> f64 {
     let distance = if pinned < 3 {
@@ -91,7 +92,7 @@ pub fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize)
     distance / mesh.bounds().size()[1]
 }
 
-/// The mean distance between points of the same index, m; 0 where one side has none.
+/// The mean distance between points of the same index, m; 0 if one side has none.
 #[must_use]
 pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
     let distances =
@@ -99,11 +100,12 @@ pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
     distances.sum::<f64>() / before.len().max(1) as f64
 }
 
-/// The positions after the rotation and translation that bring them closest to rest, in the least-squares sense.
+/// The positions after the rotation and translation that bring them closest to rest, in the least-squares
+/// sense.
 ///
-/// With centred rest points qᵢ and centred positions pᵢ, the rotation that maximises Σ qᵢ·R pᵢ is the unit quaternion
-/// that belongs to the largest eigenvalue of a symmetric 4 × 4 matrix [Horn87 §4A]. It is a proper rotation however
-/// flat or reflected the points are.
+/// With centred rest points qᵢ and centred positions pᵢ, the rotation that maximises Σ qᵢ·R pᵢ is the unit
+/// quaternion that belongs to the largest eigenvalue of a symmetric 4 × 4 matrix [Horn87 §4A]. It is a proper
+/// rotation however flat or reflected the points are.
 #[must_use]
 pub fn aligned(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let centre = |points: &[[f64; 3]]| {

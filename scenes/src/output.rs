@@ -1,4 +1,4 @@
-//! What a run leaves behind in its folder: surfaces, a picture, a summary. All or nothing.
+//! Files of a run: surfaces and a summary. All or nothing.
 //!
 //! This module knows files only: no bodies, no scenes.
 
@@ -10,27 +10,24 @@ mod whole;
 
 pub use folder::Folder;
 pub use ply::write_ply;
-pub use summary::{Newton, Place, Reading, Standing, Summary};
+pub use summary::{FinalPlace, FinalState, Newton, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
 pub use whole::write_whole;
 
-/// The file of a frame's surface.
+/// Name of the file with the surface in a frame.
 #[must_use]
 pub fn frame_file(frame: usize) -> String {
     format!("frame_{frame:04}.ply")
 }
 
-/// The file of a frame's tetrahedra.
+/// Name of the file with the tetrahedra in a frame.
 #[must_use]
 pub fn cage_file(frame: usize) -> String {
     format!("frame_{frame:04}.vtu")
 }
 
-/// The times of the tetrahedra's files.
+/// Name of the file with the times of the tetrahedra's files.
 pub const CAGES_FILE: &str = "frames.pvd";
 
-/// The contact sheet.
-pub const PICTURE_FILE: &str = "frames.png";
-
-/// The summary.
+/// Name of the file with the summary.
 pub const SUMMARY_FILE: &str = "summary.json";

@@ -1,16 +1,15 @@
 //! A scene in motion.
 
-use std::fmt::Display;
-
 use piola::material::Moduli;
-use piola::mesh::{Anchor, Bounds, TetMesh};
+use piola::mesh::Anchor;
+use piola::mesh::{Bounds, TetMesh};
 use piola::step::{self, NewtonSettings, Simulation, StepReport};
 use piola::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
-use crate::energy::Parameters;
 use crate::error::Error;
 use crate::geometry::Geometry;
+use crate::material::Parameters;
 use crate::output::Newton;
 use crate::region;
 use crate::scene::Pull;
@@ -18,48 +17,47 @@ use crate::settings::Settings;
 
 mod start;
 
-/// The springs of a pull are together this much stiffer than a cube of the body's material and height.
-const GRIP: f64 = 10.0;
+/// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
+const DRAG_STIFFNESS: f64 = 10.0;
 
-/// A body that does what its scene says, step by step.
+/// A scene in motion, step by step.
 #[derive(Debug)]
 pub struct Play {
     simulation: Simulation,
     material: &'static str,
     parameters: Parameters,
-    pulls: Vec<Grip>,
-    hands: Vec<step::Spring>,
+    pulls: Vec<DragSprings>,
+    drags: Vec<step::Spring>,
     moduli: Moduli,
-    /// Of a cube of its material and height, N/m.
+    /// Stiffness of a cube of its material and height, N/m.
     stiffness: f64,
     clock: Clock,
 }
 
 impl Play {
-    /// The scene before its first step.
+    /// A scene before its first step.
     ///
     /// # Errors
-    /// Where the settings make no sense or do not fit the body.
+    /// [`Error::OutOfRange`], or an error of the material, the pins, the body or the solver.
     pub fn new(settings: &Settings, geometry: &Geometry) -> Result<Self, Error> {
         settings.check()?;
         let mesh = &geometry.mesh;
-        let substance = settings.energy.build()?;
+        let info = settings.material.build()?;
         let pins = pins(settings, mesh)?;
-        let young = substance.moduli.young();
-        let pulls = settings.scene.pulls.iter().map(|&pull| Grip::new(pull, mesh, young)).collect();
-        let part = Part { group: None, material: substance.elements, density: settings.density };
-        let body = Body::from_parts(mesh, vec![part]).map_err(|error| setup(&error))?;
-        let mut simulation =
-            Simulation::new(body, &pins, step_settings(settings)).map_err(|error| setup(&error))?;
+        let young = info.moduli.young();
+        let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
+        let part = Part { group: None, material: info.elements, density: settings.density };
+        let body = Body::from_parts(mesh, vec![part])?;
+        let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
         let start = start::positions(settings.start, geometry, &pins);
-        simulation.set_positions(&start).map_err(|error| setup(&error))?;
+        simulation.set_positions(&start)?;
         Ok(Self {
             simulation,
-            material: substance.name,
-            parameters: substance.parameters,
+            material: info.name,
+            parameters: info.parameters,
             pulls,
-            hands: Vec::new(),
-            moduli: substance.moduli,
+            drags: Vec::new(),
+            moduli: info.moduli,
             stiffness: stiffness(young, mesh),
             clock: Clock::new(settings.dt),
         })
@@ -71,98 +69,96 @@ impl Play {
         &self.simulation
     }
 
-    /// The same, for those who put it elsewhere or push it before the next step.
+    /// The body and its state, to be moved or pushed before the next step.
     pub fn simulation_mut(&mut self) -> &mut Simulation {
         &mut self.simulation
     }
 
-    /// Name of its material in the catalogue.
+    /// Name of the material in the catalogue.
     #[must_use]
     pub fn material(&self) -> &'static str {
         self.material
     }
 
-    /// Parameters of its material.
+    /// Parameters of the material.
     #[must_use]
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 
-    /// The small-strain moduli of its material.
+    /// Small-strain moduli of the material.
     #[must_use]
     pub fn moduli(&self) -> Moduli {
         self.moduli
     }
 
-    /// Which step it is at, and what time that is.
+    /// Number of the step and its time.
     #[must_use]
     pub fn clock(&self) -> Clock {
         self.clock
     }
 
-    /// Takes steps of another length from now on, s.
+    /// Changes the length of the steps that follow, s.
     pub fn set_dt(&mut self, dt: f64) {
         self.clock = self.clock.with_dt(dt);
     }
 
-    /// Goes on from a state of the same body: positions, m, and velocities, m/s, one for each node.
+    /// Continues from a state of the same body: positions, m, and velocities, m/s, one for each node.
     ///
     /// # Errors
-    /// Where there is not one finite position and velocity for each node.
+    /// [`Error::Setup`] unless there is one finite position and velocity for each node.
     pub fn resume(
         &mut self,
         clock: Clock,
         positions: &[[f64; 3]],
         velocities: &[[f64; 3]],
     ) -> Result<(), Error> {
-        self.simulation.set_positions(positions).map_err(|error| setup(&error))?;
-        self.simulation.set_velocities(velocities).map_err(|error| setup(&error))?;
+        self.simulation.set_positions(positions)?;
+        self.simulation.set_velocities(velocities)?;
         self.clock = clock;
         Ok(())
     }
 
-    /// A pull at one point of the body, as stiff as a cube of its material and height.
+    /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
+    /// height.
     #[must_use]
     pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Spring {
         step::Spring { anchor, target, stiffness: self.stiffness }
     }
 
-    /// Replaces the pulls that come beside those of the scene, from the next step on.
+    /// Replaces the springs that act beside those of the scene, from the next step on.
     pub fn hold(&mut self, pulls: Vec<step::Spring>) {
-        self.hands = pulls;
+        self.drags = pulls;
     }
 
-    /// Solves the steps that follow in another way.
+    /// Replaces the settings of the solver, from the next step on.
     ///
     /// # Errors
-    /// Where a setting makes no sense.
+    /// [`Error::Setup`] if a setting is out of range.
     pub fn set_step_settings(&mut self, settings: step::SimulationSettings) -> Result<(), Error> {
-        self.simulation.set_settings(settings).map_err(|error| setup(&error))
+        Ok(self.simulation.set_settings(settings)?)
     }
 
-    /// Makes the next time step, in the rayon pool where it is called.
+    /// Makes the next time step, in the rayon pool of the caller.
     ///
     /// # Errors
-    /// [`Error::Step`]; the state before the step is then untouched.
+    /// [`Error::Step`] or [`Error::Setup`]; the state before the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let clock = self.clock.next();
-        let failed = |error: &dyn Display| Error::Step { frame: clock.frame(), reason: error.to_string() };
-        let scene = self.pulls.iter().flat_map(|grip| grip.at(clock.time()));
-        let springs: Vec<step::Spring> = scene.chain(self.hands.iter().copied()).collect();
-        self.simulation.set_springs(&springs).map_err(|error| failed(&error))?;
-        let report = self.simulation.step(clock.dt()).map_err(|error| failed(&error))?;
+        let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
+        let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
+        self.simulation.set_springs(&springs)?;
+        let failed = |source| Error::Step { frame: clock.frame(), source };
+        let report = self.simulation.step(clock.dt()).map_err(failed)?;
         self.clock = clock;
         Ok(report)
     }
 }
 
-/// Of a cube of the body's height, N/m. `young`, Pa, is the small-strain Young's modulus of the body.
+/// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
+/// Pa.
 fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
     young * mesh.bounds().size()[1]
-}
-
-fn setup(reason: &dyn Display) -> Error {
-    Error::Setup { reason: reason.to_string() }
 }
 
 fn step_settings(settings: &Settings) -> step::SimulationSettings {
@@ -171,53 +167,55 @@ fn step_settings(settings: &Settings) -> step::SimulationSettings {
         Newton::Full => NewtonSettings::default(),
     };
     let gravity = [0.0, -settings.gravity, 0.0];
-    let step = step::SimulationSettings::default().with_gravity(gravity).with_newton(newton);
-    step.with_damping(settings.scene.damping)
+    step::SimulationSettings::default()
+        .with_gravity(gravity)
+        .with_damping(settings.scene.damping)
+        .with_newton(newton)
 }
 
-/// The nodes that the settings pin, or else the scene.
+/// The nodes that the settings pin, or else those that the scene pins.
 fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
         let pin = format!("of the scene {}", settings.scene.name);
-        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, reason: error.to_string() });
+        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, source: error.into() });
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
         let pins = match (mesh.group(pin), region::parse(pin)) {
             (None, Ok(region)) => Pins::in_box(mesh, region),
             (Some(_), _) => Pins::of_group(mesh, pin),
-            (None, Err(_)) => {
+            (None, Err(source)) => {
                 let groups = mesh.groups.iter().map(|group| group.name.clone()).collect();
-                return Err(Error::UnknownPin { pin: pin.clone(), groups });
+                return Err(Error::UnknownPin { pin: pin.clone(), groups, source });
             }
         };
-        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), reason: error.to_string() })?;
+        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), source: error.into() })?;
         Ok(all.and(&pins))
     })
 }
 
-/// A pull of a scene on the nodes of a body.
+/// The springs by which a scene pulls at nodes of a body.
 #[derive(Debug)]
-struct Grip {
+struct DragSprings {
     pull: Pull,
     /// The nodes with their places at rest, m.
     nodes: Vec<(usize, [f64; 3])>,
-    /// Of the body, m.
+    /// Bounding box of the body, m.
     bounds: Bounds,
-    /// Of the spring at each node, N/m.
+    /// Stiffness of the spring at each node, N/m.
     stiffness: f64,
 }
 
-impl Grip {
+impl DragSprings {
     /// `young`, Pa, is the small-strain Young's modulus of the body.
     fn new(pull: Pull, mesh: &TetMesh, young: f64) -> Self {
         let bounds = mesh.bounds();
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = GRIP * stiffness(young, mesh) / nodes.len().max(1) as f64;
+        let stiffness = DRAG_STIFFNESS * stiffness(young, mesh) / nodes.len().max(1) as f64;
         Self { pull, nodes, bounds, stiffness }
     }
 

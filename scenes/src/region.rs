@@ -1,13 +1,11 @@
-//! Boxes that say which part of a body is meant: in metres, or as shares of the body's own box.
-
-use std::fmt;
+//! Boxes that select a part of a body, in metres or as shares of its bounding box.
 
 use piola::mesh::Bounds;
 
-/// All of space, in metres as in shares.
+/// All of space, in metres or shares.
 pub const EVERYWHERE: Bounds = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] };
 
-/// The box that lies in `whole` as `shares` says: 0 is the low side of `whole`, 1 the high one.
+/// A box from shares of another: 0 is the low side of `whole`, 1 the high one.
 #[must_use]
 pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
     let size = whole.size();
@@ -21,39 +19,32 @@ pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
     }
 }
 
-/// Reads a box in metres, `LOW:HIGH,LOW:HIGH,LOW:HIGH`, where a side that is left out lies at infinity.
+/// Parses a box in metres, `LOW:HIGH,LOW:HIGH,LOW:HIGH`; a side that is left out lies at infinity.
 ///
 /// # Errors
-/// Where the text is something else, or a range is empty.
-pub fn parse(text: &str) -> Result<Bounds, NoRegion> {
+/// [`RegionError`] if the text is something else or a range is empty.
+pub fn parse(text: &str) -> Result<Bounds, RegionError> {
     let mut region = EVERYWHERE;
     let mut ranges = text.split(',');
     for i in 0..3 {
-        let (low, high) = ranges.next().and_then(|range| range.split_once(':')).ok_or(NoRegion)?;
+        let (low, high) = ranges.next().and_then(|range| range.split_once(':')).ok_or(RegionError)?;
         for (side, text) in [(&mut region.min[i], low.trim()), (&mut region.max[i], high.trim())] {
             if !text.is_empty() {
-                *side = text.parse().map_err(|_| NoRegion)?;
+                *side = text.parse().map_err(|_| RegionError)?;
             }
         }
     }
     let is_box = (0..3).all(|i| region.min[i] <= region.max[i]);
-    if ranges.next().is_none() && is_box { Ok(region) } else { Err(NoRegion) }
+    if ranges.next().is_none() && is_box { Ok(region) } else { Err(RegionError) }
 }
 
-/// A text that is no box; its `Display` says how one is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoRegion;
-
-impl fmt::Display for NoRegion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(
-            "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a range \
-             may be left out, such as `:,:0.05,:`",
-        )
-    }
-}
-
-impl std::error::Error for NoRegion {}
+/// A text that is not a box; the message says how one is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a range may be \
+     left out, such as `:,:0.05,:`"
+)]
+pub struct RegionError;
 
 #[cfg(test)]
 mod tests {
@@ -67,7 +58,7 @@ mod tests {
             Ok(Bounds { min: [-open, -1.0, 0.25], max: [open, 0.05, open] })
         );
         for text in ["", "1,2,3", ":,:", ":,:,:,:", "1:0,:,:", "nan:,:,:", "a:b,:,:"] {
-            assert_eq!(parse(text), Err(NoRegion), "{text}");
+            assert_eq!(parse(text), Err(RegionError), "{text}");
         }
     }
 

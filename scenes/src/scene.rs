@@ -1,11 +1,11 @@
-//! What happens to a body: a [`Scene`] is a description, one in each file.
+//! Descriptions of what happens to a body: each [`Scene`] has a file.
 //!
 //! Places and distances are shares of the body's bounding box and height, so that any body can take any part.
 //! y points upwards.
 //!
-//! This module knows no solver: [`crate::run`] turns a description into motion.
+//! This module knows no solver: [`crate::play`] turns a description into motion.
 
-pub mod body;
+mod body;
 mod dinosaur;
 mod horse;
 mod motion;
@@ -14,7 +14,7 @@ mod start;
 mod stretch;
 mod twist;
 
-pub use body::Body;
+pub use body::{Asset, Body, Shape, Style};
 pub use dinosaur::{DINOSAUR, DINOSAUR_OVERSTRETCHED};
 pub use horse::HORSE;
 pub use motion::{Motion, Pull};
@@ -25,70 +25,82 @@ pub use twist::TWIST;
 
 use piola::mesh::Bounds;
 use piola::step::Damping;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serializer};
 
-use crate::energy::Energy;
 use crate::error::Error;
+use crate::material::{MaterialSpec, soft_moduli};
 
 /// Every scene, in the order in which they are listed.
 pub const SCENES: &[&Scene] =
     &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED, &TWIST, &STRETCH, &SCRAMBLE, &INSIDE_OUT, &POINT];
 
-/// A body, what it is made of and what is done to it.
+/// A body, its material and what is done to it.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// What happens, in a sentence.
+    /// A sentence that describes the scene.
     pub about: &'static str,
-    /// To whom.
+    /// The body to which it happens.
     pub body: Body,
-    /// What the body is made of.
-    pub energy: fn() -> Energy,
+    /// The material of the body.
+    pub material: fn() -> MaterialSpec,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
-    /// What works against velocity.
+    /// Damping of the motion.
     pub damping: Damping,
     /// Time step, s.
     pub dt: f64,
-    /// How many steps of it.
+    /// Number of time steps.
     pub frames: usize,
-    /// Where the body is held, in shares of its bounding box; `None` for a free body.
+    /// The part of the body that is held, in shares of its bounding box; `None` for a free body.
     pub pinned: Option<Bounds>,
-    /// What it looks like before the first step.
+    /// Positions of the nodes before the first step.
     pub start: Start,
-    /// What pulls at it.
+    /// Springs that pull at the body.
     pub pulls: &'static [Pull],
-    /// Between which heights, in shares of the body's, its stretch is measured against the stress in it, where it is a
-    /// specimen in a testing machine.
+    /// The heights, in shares of the body's, between which the stretch of a tensile specimen is measured;
+    /// `None` for other bodies.
     pub gauge: Option<[f64; 2]>,
 }
 
-/// The scene of that name.
-///
-/// # Errors
-/// With the names that exist, where it is none of them.
-pub fn find(name: &str) -> Result<&'static Scene, Error> {
-    let scene = SCENES.iter().copied().find(|scene| scene.name == name);
-    scene.ok_or_else(|| Error::UnknownScene {
-        name: name.into(),
-        known: SCENES.iter().map(|scene| scene.name).collect(),
-    })
-}
+/// Defaults of most scenes: a free horse at rest, lightly damped, for ten seconds.
+const COMMON: Scene = Scene {
+    name: "",
+    about: "",
+    body: Body::HORSE,
+    material: || MaterialSpec::matching("rotated linear", soft_moduli()),
+    density: 1000.0,
+    damping: Damping::Mass { rate: 2.0 },
+    dt: 1.0 / 30.0,
+    frames: 300,
+    pinned: None,
+    start: Start::Rest,
+    pulls: &[],
+    gauge: None,
+};
 
-/// A scene in files: its name.
-pub(crate) mod by_name {
-    use serde::de::Error as _;
-    use serde::{Deserialize, Deserializer, Serializer};
+impl Scene {
+    /// The scene of a name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownScene`] with the names that exist.
+    pub fn find(name: &str) -> Result<&'static Self, Error> {
+        let scene = SCENES.iter().copied().find(|scene| scene.name == name);
+        scene.ok_or_else(|| Error::UnknownScene {
+            name: name.into(),
+            known: SCENES.iter().map(|scene| scene.name).collect(),
+        })
+    }
 
-    use super::{Scene, find};
-
-    pub(crate) fn serialize<S: Serializer>(scene: &&'static Scene, serializer: S) -> Result<S::Ok, S::Error> {
+    /// Writes the name of a scene in its place.
+    pub(crate) fn serialize<S: Serializer>(scene: &&'static Self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(scene.name)
     }
 
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<&'static Scene, D::Error> {
-        find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    /// Finds a scene by its name.
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Self, D::Error> {
+        Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }

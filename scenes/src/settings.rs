@@ -1,41 +1,43 @@
-//! What a run is asked for, and whether that makes sense.
+//! Settings of a run, and whether they make sense.
 
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::energy::Energy;
 use crate::error::Error;
+use crate::material::MaterialSpec;
 use crate::output::Newton;
-use crate::scene::{self, Amplitude, Body, Scene, Start};
+use crate::scene::{Amplitude, Body, Scene, Start};
 
 /// More would take longer to start than any scene to run.
 const MAX_THREADS: usize = 1024;
 
-/// What a run is asked for: a scene, and what is to be different from it.
+/// Settings of a run: a scene and overrides of its defaults.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Settings {
-    /// What happens.
-    #[serde(with = "scene::by_name")]
+    /// The scene.
+    #[serde(with = "Scene")]
     pub scene: &'static Scene,
-    /// The body, where no files take its place.
+    /// The body, unless `files` describe another.
     pub body: Body,
     /// Files of another body.
     pub files: Option<Files>,
-    /// What it looks like before the first step.
+    /// Positions of the nodes before the first step.
     pub start: Start,
-    /// What the body is made of.
-    pub energy: Energy,
+    /// The material of the body.
+    #[serde(rename = "energy")]
+    pub material: MaterialSpec,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
     /// Acceleration downwards, m/s².
     pub gravity: f64,
     /// Time step, s.
     pub dt: f64,
-    /// How many steps of it.
+    /// Number of time steps.
     pub frames: usize,
-    /// Boxes or names of groups to pin, in place of the scene's.
+    /// Boxes or names of groups to pin, in place of those of the scene.
     pub pins: Vec<String>,
     /// How far each step is solved.
     pub newton: Newton,
@@ -47,22 +49,34 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Files {
-    /// Tetrahedra: Gmsh MSH 4.1 or 2.2 in ASCII, or TetGen where it ends in `.node` or `.ele`.
+    /// Tetrahedra: TetGen where the name ends in `.node` or `.ele`, else Gmsh MSH 4.1 or 2.2 in ASCII.
     pub mesh: PathBuf,
-    /// The surface to embed in them, OBJ; where None, their own boundary.
+    /// The surface to embed in them, OBJ; `None` for their own boundary.
     pub surface: Option<PathBuf>,
 }
 
+/// Methods that replace one field each.
+macro_rules! setters {
+    ($($(#[$about:meta])+ $setter:ident: $field:ident = $value:ty;)+) => {$(
+        $(#[$about])+
+        #[must_use]
+        pub fn $setter(mut self, value: $value) -> Self {
+            self.$field = value;
+            self
+        }
+    )+};
+}
+
 impl Settings {
-    /// The scene as it is described, on one thread.
+    /// The scene as it is described, on one thread and without gravity.
     #[must_use]
-    pub fn of(scene: &'static Scene) -> Self {
+    pub fn new(scene: &'static Scene) -> Self {
         Self {
             scene,
             body: scene.body,
             files: None,
             start: scene.start,
-            energy: (scene.energy)(),
+            material: (scene.material)(),
             density: scene.density,
             gravity: 0.0,
             dt: scene.dt,
@@ -73,34 +87,53 @@ impl Settings {
         }
     }
 
-    /// Refuses numbers that no run could use.
+    setters! {
+        /// Replaces the body.
+        with_body: body = Body;
+        /// Takes the body from files, or, with `None`, that of the program.
+        with_files: files = Option<Files>;
+        /// Replaces the start.
+        with_start: start = Start;
+        /// Replaces the material.
+        with_material: material = MaterialSpec;
+        /// Replaces the density, kg/m³.
+        with_density: density = f64;
+        /// Replaces the acceleration downwards, m/s².
+        with_gravity: gravity = f64;
+        /// Replaces the time step, s.
+        with_dt: dt = f64;
+        /// Replaces the number of time steps.
+        with_frames: frames = usize;
+        /// Pins these boxes or groups in place of those of the scene, unless there are none.
+        with_pins: pins = Vec<String>;
+        /// Replaces how far each step is solved.
+        with_newton: newton = Newton;
+        /// Replaces the number of threads; 0 for one per core.
+        with_threads: threads = usize;
+    }
+
+    /// Checks that all values are in range.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the first of them.
+    /// [`Error::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), Error> {
-        let positive = |quantity, value: f64| match value.is_finite() && value > 0.0 {
-            true => Ok(()),
-            false => Err(Error::OutOfRange { quantity, value, requirement: "positive and finite" }),
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        let amplitude = match self.start {
+            Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
+            _ => 0.0,
         };
-        positive("the time step --dt", self.dt)?;
-        positive("the density --density", self.density)?;
-        if !self.gravity.is_finite() {
-            let (quantity, value) = ("the acceleration --gravity", self.gravity);
-            return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
-        }
-        if self.frames == 0 {
-            let (quantity, value) = ("the number of --frames", 0.0);
-            return Err(Error::OutOfRange { quantity, value, requirement: "at least 1" });
-        }
-        if let Start::Scrambled { amplitude: Amplitude::Edges(value), .. } = self.start
-            && !(value >= 0.0 && value.is_finite())
-        {
-            let quantity = "the --amplitude";
-            return Err(Error::OutOfRange { quantity, value, requirement: "finite and not negative" });
-        }
-        if self.threads > MAX_THREADS {
-            let (quantity, value) = ("the number of --threads", self.threads as f64);
-            return Err(Error::OutOfRange { quantity, value, requirement: "at most 1024" });
+        let is_length = amplitude >= 0.0 && amplitude.is_finite();
+        for (is_in_range, quantity, value, requirement) in [
+            (positive(self.dt), "the time step", self.dt, "positive and finite"),
+            (positive(self.density), "the density", self.density, "positive and finite"),
+            (self.gravity.is_finite(), "the gravity", self.gravity, "finite"),
+            (self.frames > 0, "the number of frames", self.frames as f64, "at least 1"),
+            (is_length, "the amplitude", amplitude, "finite and not negative"),
+            (self.threads <= MAX_THREADS, "the number of threads", self.threads as f64, "at most 1024"),
+        ] {
+            if !is_in_range {
+                return Err(Error::OutOfRange { quantity, value, requirement });
+            }
         }
         Ok(())
     }

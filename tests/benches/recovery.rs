@@ -12,18 +12,18 @@ use std::error::Error;
 use std::fmt;
 use std::io::{self, Write};
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use rayon::prelude::*;
 
 use piola::point::Filter;
-use piola::step::{Filtering, NewtonSettings};
-use piola_scenes::energy::{Energy, soft};
+use piola::step::{self, Filtering, NewtonSettings};
 use piola_scenes::geometry::Geometry;
-use piola_scenes::output::{Newton, Place};
+use piola_scenes::material::{MaterialSpec, soft_moduli};
+use piola_scenes::output::{FinalPlace, Newton};
 use piola_scenes::play::Play;
-use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start, body};
+use piola_scenes::recovery_trial::{TrialOutcome, continue_trial};
+use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
 use piola_scenes::settings::Settings;
-use piola_scenes::trial::{Outcome, watch};
 
 const MATERIALS: [&str; 5] = ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"];
 
@@ -45,7 +45,7 @@ struct Options {
 
     /// How far each step is solved.
     #[arg(long, value_enum, num_args = 1.., default_values = ["single", "full"])]
-    newton: Vec<Mode>,
+    newton: Vec<Newton>,
 
     /// How far they are scrambled for the comparison of ways back.
     #[arg(long, num_args = 0.., default_values = ["1", "2", "box"])]
@@ -56,19 +56,13 @@ struct Options {
     bench: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Mode {
-    Single,
-    Full,
-}
-
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let options = Options::parse();
     let mut page = io::stdout().lock();
-    for mode in options.newton {
-        let (newton, name) = match mode {
-            Mode::Single => (Newton::Single, "one Newton iteration per step"),
-            Mode::Full => (Newton::Full, "full Newton"),
+    for newton in options.newton {
+        let name = match newton {
+            Newton::Single => "one Newton iteration per step",
+            Newton::Full => "full Newton",
         };
         writeln!(page, "## Scrambled, {name}\n")?;
         writeln!(
@@ -77,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         )?;
         writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
         for &amplitude in &options.amplitude {
-            for body in [body::HORSE, body::DINOSAUR] {
+            for body in [Body::HORSE, Body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
                     let outcomes = play(&SCRAMBLE, body, material, Way::Plain(newton), seeds.collect())?;
@@ -94,9 +88,9 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         )?;
         writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
         for (scene, bodies) in [
-            (&INSIDE_OUT, &[body::HORSE, body::DINOSAUR][..]),
-            (&POINT, &[body::HORSE, body::DINOSAUR]),
-            (&HORSE, &[body::HORSE]),
+            (&INSIDE_OUT, &[Body::HORSE, Body::DINOSAUR][..]),
+            (&POINT, &[Body::HORSE, Body::DINOSAUR]),
+            (&HORSE, &[Body::HORSE]),
         ] {
             for &body in bodies {
                 for material in MATERIALS {
@@ -114,7 +108,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         WAYS.iter().try_for_each(|(name, _)| write!(page, " {name} |"))?;
         writeln!(page, "\n|---|---|---|{}", "---:|".repeat(WAYS.len()))?;
         for &amplitude in &options.ways {
-            for body in [body::HORSE, body::DINOSAUR] {
+            for body in [Body::HORSE, Body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
                     write!(page, "| {amplitude} | {} | {material} |", body.name)?;
                     for (_, way) in WAYS {
@@ -158,12 +152,12 @@ impl Way {
     /// A scene at its start, on this way.
     fn begin(self, described: &Settings, geometry: &Geometry) -> Result<Play, Box<dyn Error + Send + Sync>> {
         let newton = if let Self::Plain(newton) = self { newton } else { described.newton };
-        let mut play = Play::new(&Settings { newton, ..described.clone() }, geometry)?;
+        let mut play = Play::new(&described.clone().with_newton(newton), geometry)?;
         match self {
             Self::Plain(_) => {}
             Self::Filtered(filtering) => {
-                let newton = NewtonSettings::single().with_filtering(filtering);
-                play.set_step_settings(play.simulation().settings().with_newton(newton))?;
+                let newton = NewtonSettings { filtering, ..NewtonSettings::single() };
+                play.set_step_settings(step::SimulationSettings { newton, ..*play.simulation().settings() })?;
             }
             Self::Shrunk(share) => {
                 let bounds = geometry.mesh.bounds();
@@ -173,8 +167,8 @@ impl Way {
                 play.simulation_mut().set_positions(&positions)?;
             }
             Self::First(material) => {
-                let energy = Energy::like(material, soft());
-                let settings = Settings { energy, newton: Newton::Full, ..described.clone() };
+                let material = MaterialSpec::matching(material, soft_moduli());
+                let settings = described.clone().with_material(material).with_newton(Newton::Full);
                 let mut first = Play::new(&settings, geometry)?;
                 for _ in 0..(2.0 / settings.dt) as usize {
                     first.step()?;
@@ -193,17 +187,18 @@ fn play(
     material: &str,
     way: Way,
     starts: Vec<Start>,
-) -> Result<Vec<Outcome>, Box<dyn Error + Send + Sync>> {
-    let described = Settings { body, energy: Energy::like(material, soft()), ..Settings::of(scene) };
+) -> Result<Vec<TrialOutcome>, Box<dyn Error + Send + Sync>> {
+    let material = MaterialSpec::matching(material, soft_moduli());
+    let described = Settings::new(scene).with_body(body).with_material(material);
     let geometry = Geometry::load(&described)?;
     let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
         .into_par_iter()
         .map(|start| {
-            let play = way.begin(&Settings { start, ..described.clone() }, &geometry)?;
-            Ok(watch(play, described.frames, &geometry)?)
+            let play = way.begin(&described.clone().with_start(start), &geometry)?;
+            Ok(continue_trial(play, described.frames, &geometry)?)
         })
         .collect();
-    let outcomes: Vec<Outcome> = outcomes?;
+    let outcomes: Vec<TrialOutcome> = outcomes?;
     for outcome in &outcomes {
         assert!(outcome.finite, "a position is not finite: {outcome:?}");
         assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
@@ -212,7 +207,7 @@ fn play(
 }
 
 /// What some outcomes have in common.
-struct Row<'a>(&'a [Outcome]);
+struct Row<'a>(&'a [TrialOutcome]);
 
 impl fmt::Display for Row<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -231,12 +226,19 @@ impl fmt::Display for Row<'_> {
             write!(f, "{} ({last})", frames[frames.len() / 2])?;
         }
         f.write_str(" | ")?;
-        let places =
-            [Place::StableElsewhere, Place::UndecidedElsewhere, Place::Saddle, Place::NotAtRest, Place::Rest];
+        let places = [
+            FinalPlace::StableElsewhere,
+            FinalPlace::UndecidedElsewhere,
+            FinalPlace::Saddle,
+            FinalPlace::NotAtRest,
+            FinalPlace::Rest,
+        ];
         let mut separator = "";
         for place in places {
             // By their numbers, which are the seeds.
-            let there = |outcome: &Outcome| outcome.standing.is_some_and(|standing| standing.place == place);
+            let there = |outcome: &TrialOutcome| {
+                outcome.final_state.is_some_and(|final_state| final_state.place == place)
+            };
             let numbers: Vec<_> = (1..).zip(*outcomes).filter(|(_, outcome)| there(outcome)).collect();
             if !numbers.is_empty() {
                 let first: Vec<_> =

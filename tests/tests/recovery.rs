@@ -1,12 +1,12 @@
 //! Scrambled and collapsed bodies find their shape again; the bench `recovery` makes the whole table.
 
-use piola_scenes::energy::{Energy, soft};
 use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
-use piola_scenes::output::{Newton, Place};
-use piola_scenes::scene::{Amplitude, Body, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start, body};
+use piola_scenes::material::{MaterialSpec, soft_moduli};
+use piola_scenes::output::{FinalPlace, Newton};
+use piola_scenes::recovery_trial::{TrialOutcome, run_trial};
+use piola_scenes::scene::{Amplitude, Body, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
 use piola_scenes::settings::Settings;
-use piola_scenes::trial::{Outcome, attempt};
 
 /// Differences of energies err by some roundings; slopes judge what is below them.
 const RISE: f64 = 1e-12;
@@ -17,20 +17,25 @@ fn play(
     material: &str,
     start: Start,
     newton: Newton,
-) -> Result<Outcome, Error> {
-    let energy = Energy::like(material, soft());
-    let settings = Settings { body, energy, start, newton, ..Settings::of(scene) };
-    let outcome = attempt(&settings, &Geometry::load(&settings)?)?;
+) -> Result<TrialOutcome, Error> {
+    let spec = MaterialSpec::matching(material, soft_moduli());
+    let settings = Settings::new(scene).with_body(body).with_material(spec);
+    let settings = settings.with_start(start).with_newton(newton);
+    let outcome = run_trial(&settings, &Geometry::load(&settings)?)?;
     let what = format!("{} {} {material}: {outcome:?}", scene.name, body.name);
     assert!(outcome.finite && outcome.largest_rise <= RISE, "{what}");
     // Whoever is stuck is certified: at rest, and known to be stable or not.
-    assert_ne!(outcome.standing.map(|standing| standing.place), Some(Place::NotAtRest), "{what}");
+    assert_ne!(
+        outcome.final_state.map(|final_state| final_state.place),
+        Some(FinalPlace::NotAtRest),
+        "{what}"
+    );
     Ok(outcome)
 }
 
 #[test]
 fn scrambled_bodies_recover() -> Result<(), Error> {
-    for body in [body::HORSE, body::DINOSAUR] {
+    for body in [Body::HORSE, Body::DINOSAUR] {
         for material in ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden"] {
             for (seed, newton) in [(1, Newton::Single), (2, Newton::Full)] {
                 let start = Start::Scrambled { seed, amplitude: Amplitude::Edges(0.3) };
@@ -45,11 +50,11 @@ fn scrambled_bodies_recover() -> Result<(), Error> {
 #[test]
 fn bodies_unfold_from_a_point() -> Result<(), Error> {
     for (body, material) in [
-        (body::HORSE, "rotated linear"),
-        (body::DINOSAUR, "rotated linear"),
-        (body::HORSE, "fixed corotated"),
-        (body::DINOSAUR, "fixed corotated"),
-        (body::DINOSAUR, "Ogden"),
+        (Body::HORSE, "rotated linear"),
+        (Body::DINOSAUR, "rotated linear"),
+        (Body::HORSE, "fixed corotated"),
+        (Body::DINOSAUR, "fixed corotated"),
+        (Body::DINOSAUR, "Ogden"),
     ] {
         let outcome = play(&POINT, body, material, POINT.start, Newton::Single)?;
         assert!(outcome.recovered.is_some(), "{} {material}: {outcome:?}", body.name);
@@ -59,13 +64,17 @@ fn bodies_unfold_from_a_point() -> Result<(), Error> {
 
 #[test]
 fn what_is_inside_out_turns_if_its_energy_knows() -> Result<(), Error> {
-    for body in [body::HORSE, body::DINOSAUR] {
+    for body in [Body::HORSE, Body::DINOSAUR] {
         let neo_hookean = play(&INSIDE_OUT, body, "stable neo-Hookean", INSIDE_OUT.start, Newton::Single)?;
         assert!(neo_hookean.recovered.is_some(), "{}: {neo_hookean:?}", body.name);
         let kirchhoff = play(&INSIDE_OUT, body, "stvk", INSIDE_OUT.start, Newton::Single)?;
         assert!(kirchhoff.recovered.is_none(), "{}: {kirchhoff:?}", body.name);
-        let standing = kirchhoff.standing.expect("it is not back");
-        assert_eq!((standing.place, standing.stress_free), (Place::StableElsewhere, true), "{standing:?}");
+        let final_state = kirchhoff.final_state.expect("it is not back");
+        assert_eq!(
+            (final_state.place, final_state.stress_free),
+            (FinalPlace::StableElsewhere, true),
+            "{final_state:?}"
+        );
     }
     Ok(())
 }

@@ -7,9 +7,9 @@ use piola::Inversion;
 use piola::mesh::Bounds;
 use piola::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
 use piola::system::{Body, Pins};
+use piola_cli::render::{Frame, contact_sheet};
 use piola_scenes::geometry::Geometry;
-use piola_scenes::render::{Frame, contact_sheet};
-use piola_scenes::scene::body::HORSE;
+use piola_scenes::scene;
 
 /// Up to here, m, the hooves are held.
 const GROUND: f64 = 0.05;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rubber = Biderman::new(1.837e5, 3.589e3, -1.938e3, 46.02, 2e7)?
         .with_inversion(Inversion::Extend { epsilon: 0.1 })?;
 
-    let horse = Geometry::of(HORSE)?;
+    let horse = Geometry::of(scene::Body::HORSE)?;
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     let hooves = Pins::in_box(&horse.mesh, hooves)?;
     let body = Body::new(&horse.mesh, rubber, 1000.0)?;
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
 
     if let Some(file) = std::env::args().nth(1) {
-        contact_sheet(&frames, &horse.triangles, &HORSE.style).write_png(File::create(file)?)?;
+        contact_sheet(&frames, &horse.triangles, &scene::Body::HORSE.style).write_png(File::create(file)?)?;
     }
 
     let top = |positions: &[[f64; 3]]| positions.iter().fold(0.0, |top: f64, [_, y, _]| top.max(*y));

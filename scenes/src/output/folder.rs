@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// Collects files aside, in a hidden folder inside the target, until [`publish`](Self::publish) moves them into place.
+/// A folder that keeps its files aside, in a hidden folder inside it, until [`publish`](Self::publish) moves
+/// them into place.
 ///
 /// Dropped before that, it leaves the target as it found it.
 #[derive(Debug)]
@@ -19,27 +20,26 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Makes sure that files can be written to `target`, creating it where it does not exist.
+    /// Prepares a folder for files, creating it if it does not exist.
     ///
     /// # Errors
-    /// [`Error::Folder`] where they cannot.
+    /// [`Error::Folder`] if files cannot be written there.
     pub fn prepare(target: &Path) -> Result<Self, Error> {
         // The process number keeps two runs into one folder apart.
         let aside = target.join(format!(".unfinished-{}", std::process::id()));
         let existed = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created = target.ancestors().take_while(existed).map(PathBuf::from).collect();
         let folder = Self { target: target.into(), aside, names: Vec::new(), created };
-        let source = match fs::create_dir_all(&folder.aside) {
-            Ok(()) => return Ok(folder),
-            Err(source) => source,
-        };
-        Err(Error::Folder { path: target.into(), reason: source.to_string() })
+        match fs::create_dir_all(&folder.aside) {
+            Ok(()) => Ok(folder),
+            Err(source) => Err(Error::Folder { path: target.into(), source }),
+        }
     }
 
     /// Writes one file, which `content` fills.
     ///
     /// # Errors
-    /// [`Error::Write`] where the disk is full or `content` fails.
+    /// [`Error::Write`] if the disk is full or `content` fails.
     pub fn write(
         &mut self,
         name: &str,
@@ -50,32 +50,33 @@ impl Folder {
             content(&mut file)?;
             file.flush()
         });
-        written.map_err(|source| self.failure(name, &source))?;
+        written.map_err(|source| self.failure(name, source))?;
         self.names.push(name.into());
         Ok(())
     }
 
-    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are removed.
+    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are
+    /// removed.
     ///
     /// # Errors
-    /// [`Error::Write`] where a file of that name is in the way and cannot be replaced.
+    /// [`Error::Write`] if a file of that name cannot be replaced.
     pub fn publish(mut self) -> Result<(), Error> {
         for stale in fs::read_dir(&self.target).into_iter().flatten().flatten() {
             let name = stale.file_name().to_string_lossy().into_owned();
             if is_frame(&name) && !self.names.contains(&name) {
-                fs::remove_file(stale.path()).map_err(|source| self.failure(&name, &source))?;
+                fs::remove_file(stale.path()).map_err(|source| self.failure(&name, source))?;
             }
         }
         for name in &self.names {
             fs::rename(self.aside.join(name), self.target.join(name))
-                .map_err(|source| self.failure(name, &source))?;
+                .map_err(|source| self.failure(name, source))?;
         }
         self.created.clear();
         Ok(())
     }
 
-    fn failure(&self, name: &str, source: &io::Error) -> Error {
-        Error::Write { path: self.target.join(name), reason: source.to_string() }
+    fn failure(&self, name: &str, source: io::Error) -> Error {
+        Error::Write { path: self.target.join(name), source }
     }
 }
 

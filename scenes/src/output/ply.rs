@@ -5,7 +5,7 @@ use std::io::{self, Write};
 /// Writes a triangle surface: positions in metres, triangles as triples of vertices from 0.
 ///
 /// # Errors
-/// Where `target` cannot be written to.
+/// If `target` cannot be written to.
 pub fn write_ply(target: &mut impl Write, vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> io::Result<()> {
     write!(
         target,

@@ -1,4 +1,4 @@
-//! A run in numbers.
+//! Results of a run.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// How far each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Newton {
     /// One iteration with line search, whatever residual it leaves.
@@ -19,19 +20,19 @@ pub enum Newton {
 
 /// Stretch and stress of an upright specimen in a testing machine.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Reading {
-    /// How many times as long as at rest it is between its marks.
+pub struct TensileReading {
+    /// Stretch between the marks.
     pub stretch: f64,
     /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
     pub nominal_stress: f64,
-    /// What the material of a bar with free sides says to that stretch, Pa; NaN where it says nothing.
+    /// Stress of the material at that stretch with free sides, Pa; NaN if it has none.
     pub uniaxial_stress: f64,
 }
 
-/// Where a body that is not back comes to rest.
+/// Kind of the equilibrium of a body that has not recovered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Place {
+pub enum FinalPlace {
     /// In its rest shape: it was not given the time.
     Rest,
     /// In a minimum of its energy elsewhere.
@@ -44,7 +45,7 @@ pub enum Place {
     NotAtRest,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FinalPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Rest => "not at rest yet; statics takes it back",
@@ -56,25 +57,25 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is known of a body that is not back, after statics has taken it from the final frame to where it rests.
+/// Equilibrium of a body that has not recovered, where statics has taken it from the final frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Standing {
-    /// Where it rests.
-    pub place: Place,
-    /// As [`Summary::max_distance_from_rest`], there.
+pub struct FinalState {
+    /// Kind of the equilibrium.
+    pub place: FinalPlace,
+    /// [`Summary::max_distance_from_rest`] in equilibrium.
     pub max_distance_from_rest: f64,
     /// Norm of the forces on free nodes, N.
     pub residual: f64,
-    /// The same as a share of the largest force of an element on a node.
+    /// `residual` as a share of the largest force of an element on a node.
     pub relative_residual: f64,
     /// Whether no element bears stress beyond rounding.
     pub stress_free: bool,
-    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None` where nothing
-    /// is free.
+    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None`
+    /// where nothing is free.
     pub smallest_eigenvalue: Option<f64>,
     /// An exact eigenvalue is no farther from it than this, 1/s².
     pub eigenvalue_error: Option<f64>,
-    /// How many elements are inside out.
+    /// Number of elements that are inside out.
     pub inverted: usize,
     /// The smallest λ2 + λ3 of an element.
     pub smallest_sum: f64,
@@ -82,7 +83,7 @@ pub struct Standing {
     pub newton_iterations: usize,
 }
 
-impl fmt::Display for Standing {
+impl fmt::Display for FinalState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "  {}, {:.2e} body heights from rest", self.place, self.max_distance_from_rest)?;
         match self.stress_free {
@@ -100,14 +101,14 @@ impl fmt::Display for Standing {
     }
 }
 
-/// What came of a run. In JSON the keys are the names of the fields.
+/// Results of a run. In JSON the keys are the names of the fields.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Name of the scene.
     pub scene: String,
     /// Name of the material.
     pub material: String,
-    /// Its parameters by name, in SI units.
+    /// Parameters of the material by name, in SI units.
     pub parameters: BTreeMap<&'static str, Vec<f64>>,
     /// Number of tetrahedra.
     pub tets: usize,
@@ -121,14 +122,14 @@ pub struct Summary {
     pub dt: f64,
     /// Newton iterations per step, on average.
     pub newton_iterations_mean: f64,
-    /// How many tetrahedra are inside out before the first step: det F < 0.
+    /// Number of tetrahedra that are inside out before the first step: det F < 0.
     pub inverted_at_start: usize,
     /// Whether no force acts on the body at the start although it is not at rest: it stays as it is.
     pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
-    /// The largest distance of a node from its rest position in the final frame, in body heights. After the best rigid
-    /// motion where fewer than three nodes are pinned.
+    /// The largest distance of a node from its rest position in the final frame, in body heights. After the
+    /// best rigid motion where fewer than three nodes are pinned.
     pub max_distance_from_rest: f64,
     /// Elastic energy of the final frame, J.
     pub energy: f64,
@@ -138,38 +139,38 @@ pub struct Summary {
     pub steps_per_second: f64,
     /// How far each step was solved.
     pub newton: Newton,
-    /// Whether the body is back: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
+    /// Whether the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
     pub recovered: bool,
-    /// What a testing machine reads at the end, of a scene that is one.
+    /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub reading: Option<Reading>,
-    /// What is known of a body that is not back.
+    pub reading: Option<TensileReading>,
+    /// Equilibrium of a body that has not recovered.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub standing: Option<Standing>,
+    pub final_state: Option<FinalState>,
 }
 
 impl Summary {
-    /// A body is back where no node is farther from its place than this share of its height.
+    /// A body has recovered if no node is farther from its place than this share of the body's height.
     pub const RECOVERED: f64 = 1e-3;
 
     /// Writes the summary as JSON.
     ///
     /// # Errors
-    /// Where `target` cannot be written to.
+    /// If `target` cannot be written to.
     pub fn write_json(&self, target: &mut impl Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut *target, self)?;
         target.write_all(b"\n")
     }
 }
 
-/// A number in five digits.
+/// A value in five digits.
 fn short(value: f64) -> String {
     let digits = format!("{value:.4e}");
     digits.parse::<f64>().map_or(digits, |rounded| rounded.to_string())
 }
 
 impl fmt::Display for Summary {
-    /// Some lines for a reader.
+    /// Formats the results as some lines of text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let &Self { ref scene, ref material, tets, nodes, frames, dt, .. } = self;
         write!(f, "{scene}: {tets} tetrahedra, {nodes} nodes, {material}")?;
@@ -190,7 +191,7 @@ impl fmt::Display for Summary {
         )?;
         writeln!(f, "  smallest det F  {:.4}", self.min_det_f)?;
         writeln!(f, "  elastic energy  {:.3e} J at the end", self.energy)?;
-        if let Some(Reading { stretch, nominal_stress, uniaxial_stress }) = self.reading {
+        if let Some(TensileReading { stretch, nominal_stress, uniaxial_stress }) = self.reading {
             writeln!(
                 f,
                 "  stretch {stretch:.3} at a nominal stress of {nominal_stress:.4e} Pa; \
@@ -203,6 +204,6 @@ impl fmt::Display for Summary {
             if self.recovered { "recovered" } else { "not recovered" },
             self.max_distance_from_rest
         )?;
-        self.standing.map_or(Ok(()), |standing| write!(f, "\n{standing}"))
+        self.final_state.map_or(Ok(()), |state| write!(f, "\n{state}"))
     }
 }

@@ -7,7 +7,7 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::scene::{Amplitude, Start};
 
-/// Where the nodes are in frame 0, m.
+/// Positions of the nodes in frame 0, m.
 pub(super) fn positions(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
     let mesh = &geometry.mesh;
     let bounds = mesh.bounds();
@@ -49,11 +49,11 @@ mod tests {
     use piola::mesh::TetMesh;
 
     use super::*;
-    use crate::scene::{SCRAMBLE, body};
+    use crate::scene::{Body, SCRAMBLE};
     use crate::settings::Settings;
 
     fn scrambled(seed: u64, amplitude: Amplitude, pins: &Pins) -> (TetMesh, Vec<[f64; 3]>) {
-        let settings = Settings { body: body::DINOSAUR, ..Settings::of(&SCRAMBLE) };
+        let settings = Settings::new(&SCRAMBLE).with_body(Body::DINOSAUR);
         let geometry = Geometry::load(&settings).expect("a body of the program");
         let positions = positions(Start::Scrambled { seed, amplitude }, &geometry, pins);
         (geometry.mesh, positions)

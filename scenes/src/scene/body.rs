@@ -1,15 +1,15 @@
 //! The bodies that come with the program.
 
 use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::Error;
-use crate::render::Style;
 
-/// A body and what it looks like in pictures. In files it is its name.
-#[derive(Clone, Copy, Debug)]
+/// A body and its looks in pictures. Serialised as its name.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(into = "String")]
 pub struct Body {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: &'static str,
     /// Its tetrahedra and its surface.
     pub shape: Shape,
@@ -17,19 +17,18 @@ pub struct Body {
     pub style: Style,
 }
 
-impl Serialize for Body {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name)
-    }
+/// Looks of a body in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Linear RGB reflectance of the body, each in [0, 1].
+    pub colour: [f32; 3],
+    /// Direction from which the camera looks, degrees: about the vertical axis y, from z towards x.
+    pub azimuth: f32,
+    /// Direction from which the camera looks, degrees above the horizon.
+    pub elevation: f32,
 }
 
-impl<'de> Deserialize<'de> for Body {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
-    }
-}
-
-/// Where the tetrahedra of a body and its surface come from.
+/// Source of the tetrahedra of a body and of its surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {
     /// Files.
@@ -53,48 +52,62 @@ pub enum Shape {
 pub struct Asset {
     /// Its name, for messages.
     pub name: &'static str,
-    /// What is in it.
+    /// Content.
     pub text: &'static str,
 }
 
-/// A horse in a cage of 2646 tetrahedra.
-pub const HORSE: Body = Body {
-    name: "horse",
-    shape: Shape::Files {
-        mesh: Asset { name: "horse.msh", text: include_str!("../../assets/horse.msh") },
-        surface: Asset { name: "horse.obj", text: include_str!("../../assets/horse.obj") },
-    },
-    style: Style { colour: [0.42, 0.20, 0.10], azimuth: 35.0, elevation: 14.0 },
-};
+impl Body {
+    /// A horse in a cage of 2646 tetrahedra.
+    pub const HORSE: Self = Self {
+        name: "horse",
+        shape: Shape::Files {
+            mesh: Asset { name: "horse.msh", text: include_str!("../../assets/horse.msh") },
+            surface: Asset { name: "horse.obj", text: include_str!("../../assets/horse.obj") },
+        },
+        style: Style { colour: [0.42, 0.20, 0.10], azimuth: 35.0, elevation: 14.0 },
+    };
 
-/// A dinosaur in a cage of 1031 tetrahedra.
-pub const DINOSAUR: Body = Body {
-    name: "dinosaur",
-    shape: Shape::Files {
-        mesh: Asset { name: "dinosaur.msh", text: include_str!("../../assets/dinosaur.msh") },
-        surface: Asset { name: "dinosaur.obj", text: include_str!("../../assets/dinosaur.obj") },
-    },
-    style: Style { colour: [0.20, 0.36, 0.13], azimuth: 60.0, elevation: 20.0 },
-};
+    /// A dinosaur in a cage of 1031 tetrahedra.
+    pub const DINOSAUR: Self = Self {
+        name: "dinosaur",
+        shape: Shape::Files {
+            mesh: Asset { name: "dinosaur.msh", text: include_str!("../../assets/dinosaur.msh") },
+            surface: Asset { name: "dinosaur.obj", text: include_str!("../../assets/dinosaur.obj") },
+        },
+        style: Style { colour: [0.20, 0.36, 0.13], azimuth: 60.0, elevation: 20.0 },
+    };
 
-/// An upright bar of four times its width, of 1536 tetrahedra.
-pub const BAR: Body = Body {
-    name: "bar",
-    shape: Shape::Box { cells: [4, 16, 4], size: [0.25, 1.0, 0.25] },
-    style: Style { colour: [0.12, 0.24, 0.42], azimuth: 30.0, elevation: 16.0 },
-};
+    /// An upright bar of 1536 tetrahedra, four times as high as wide.
+    pub const BAR: Self = Self {
+        name: "bar",
+        shape: Shape::Box { cells: [4, 16, 4], size: [0.25, 1.0, 0.25] },
+        style: Style { colour: [0.12, 0.24, 0.42], azimuth: 30.0, elevation: 16.0 },
+    };
 
-/// Every body, in the order in which they are listed.
-pub const BODIES: &[Body] = &[HORSE, DINOSAUR, BAR];
+    /// Every body, in the order in which they are listed.
+    pub const ALL: &[Self] = &[Self::HORSE, Self::DINOSAUR, Self::BAR];
 
-/// The body of that name.
-///
-/// # Errors
-/// With the names that exist, where it is none of them.
-pub fn find(name: &str) -> Result<Body, Error> {
-    let body = BODIES.iter().copied().find(|body| body.name == name);
-    body.ok_or_else(|| Error::UnknownBody {
-        name: name.into(),
-        known: BODIES.iter().map(|body| body.name).collect(),
-    })
+    /// The body of a name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownBody`] with the names that exist.
+    pub fn find(name: &str) -> Result<Self, Error> {
+        let body = Self::ALL.iter().copied().find(|body| body.name == name);
+        body.ok_or_else(|| Error::UnknownBody {
+            name: name.into(),
+            known: Self::ALL.iter().map(|body| body.name).collect(),
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for Body {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
+impl From<Body> for String {
+    fn from(body: Body) -> Self {
+        body.name.into()
+    }
 }

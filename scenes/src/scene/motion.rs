@@ -5,9 +5,9 @@ use piola::mesh::Bounds;
 /// Springs from some of the nodes to points that move away from them, until they are let go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pull {
-    /// Which nodes, in shares of the bounding box.
+    /// The nodes that are pulled, in shares of the bounding box.
     pub region: Bounds,
-    /// Where the points go.
+    /// Motion of the points.
     pub motion: Motion,
     /// The motion is steady until this time, s, and the points then stay.
     pub reached: f64,
@@ -25,7 +25,7 @@ pub enum Motion {
 }
 
 impl Pull {
-    /// The share of the full motion at a time, None once released.
+    /// Share of the full motion at a time, s; `None` once released.
     #[must_use]
     pub fn share_at(&self, time: f64) -> Option<f64> {
         (time < self.released).then(|| (time / self.reached).clamp(0.0, 1.0))
@@ -33,7 +33,7 @@ impl Pull {
 }
 
 impl Motion {
-    /// Where a point, m, has gone after a share of the motion of a body with these bounds, m.
+    /// Position, m, of a point after a share of the motion, for a body with these bounds, m.
     #[must_use]
     pub fn place(self, rest: [f64; 3], share: f64, bounds: Bounds) -> [f64; 3] {
         match self {

@@ -1,23 +1,23 @@
-//! What a body looks like before the first step.
+//! Positions of the nodes before the first step.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Where the nodes are before the first step, all without velocity. Nodes that are pinned are where the mesh has them.
+/// Positions of the nodes before the first step, without velocity. Pinned nodes are where the mesh has them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Start {
-    /// Where the mesh has them.
+    /// The positions of the mesh.
     Rest,
     /// Straight down, or up, in the horizontal plane under the surface's lowest vertex.
     Flattened,
-    /// Anywhere near.
+    /// Displaced at random.
     Scrambled {
-        /// Of the random numbers: the same seed gives the same start on every machine.
+        /// Seed of the random displacements: equal seeds give equal starts on every machine.
         seed: u64,
-        /// How near.
+        /// How far a node may be displaced.
         amplitude: Amplitude,
     },
     /// Reflected through the middle of the bounding box.
@@ -26,7 +26,7 @@ pub enum Start {
     Collapsed,
 }
 
-/// How far from its place a node may be put.
+/// Bound of random displacements.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Amplitude {
@@ -39,7 +39,7 @@ pub enum Amplitude {
 impl FromStr for Amplitude {
     type Err = &'static str;
 
-    /// Reads `box` or a number of mean edge lengths.
+    /// Parses `box` or a number of mean edge lengths.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text {
             "box" => Ok(Self::Box),

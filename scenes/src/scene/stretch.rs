@@ -7,25 +7,22 @@
 use piola::mesh::Bounds;
 use piola::step::Damping;
 
-use super::body::{Body, Shape};
-use super::{Motion, Pull, Scene, Start, body};
-use crate::energy::Energy;
+use super::{Body, COMMON, Motion, Pull, Scene, Shape};
+use crate::material::MaterialSpec;
 use crate::region::EVERYWHERE;
 
-/// Drawn to seven times its length, where Treloar's rubber \[Tre44\] stiffens, and held there.
+/// A bar that is drawn to seven times its length, where Treloar's rubber \[Tre44\] stiffens, and held there.
 ///
-/// The ends are held across as well, so that the bar is uniform only away from them: the stretch is that of the gauge.
+/// The ends are held across as well, so that the bar is uniform only away from them: the stretch is that of
+/// the gauge.
 pub const STRETCH: Scene = Scene {
     name: "stretch",
     about: "an upright bar of Treloar's rubber is drawn to seven times its length and held there",
-    body: Body { shape: Shape::Box { cells: [3, 18, 3], size: [0.16, 1.0, 0.16] }, ..body::BAR },
-    energy: treloar,
-    density: 1000.0,
+    body: Body { shape: Shape::Box { cells: [3, 18, 3], size: [0.16, 1.0, 0.16] }, ..Body::BAR },
+    material: treloar,
     damping: Damping::Mass { rate: 8.0 },
-    dt: 1.0 / 30.0,
     frames: 240,
     pinned: Some(Bounds { max: [f64::INFINITY, 0.0, f64::INFINITY], ..EVERYWHERE }),
-    start: Start::Rest,
     pulls: &[Pull {
         region: Bounds { min: [f64::NEG_INFINITY, 1.0, f64::NEG_INFINITY], ..EVERYWHERE },
         motion: Motion::Shift([0.0, 6.0, 0.0]),
@@ -33,12 +30,17 @@ pub const STRETCH: Scene = Scene {
         released: f64::INFINITY,
     }],
     gauge: Some([0.4, 0.6]),
+    ..COMMON
 };
 
 /// Ogden's three terms for the rubber of \[Tre44\] at 20 °C, as \[Ogden72\] gives them.
 ///
-/// The source is incompressible. The bulk modulus is that of ordinary rubber, 1 GPa, two thousand times the shear modulus.
-fn treloar() -> Energy {
+/// The source is incompressible. The bulk modulus is that of ordinary rubber, 1 GPa, two thousand times the
+/// shear modulus.
+fn treloar() -> MaterialSpec {
     let mu = [0.63e6, 0.0012e6, -0.01e6];
-    Energy::of("Ogden").with("mu", mu).with("alpha", [1.3, 5.0, -2.0]).with("kappa", [1e9])
+    MaterialSpec::new("Ogden")
+        .with_parameter("mu", mu)
+        .with_parameter("alpha", [1.3, 5.0, -2.0])
+        .with_parameter("kappa", [1e9])
 }

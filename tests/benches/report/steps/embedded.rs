@@ -45,7 +45,7 @@ fn fly<E: Stages>(
     narrow: fn(f64) -> E,
     widen: fn(E) -> f64,
 ) -> Result<(Track, f64), Box<dyn std::error::Error>> {
-    let geometry = Geometry::load(&Settings::of(&DINOSAUR))?;
+    let geometry = Geometry::load(&Settings::new(&DINOSAUR))?;
     let mesh = &geometry.mesh;
     let material = free_material()?;
     let body = Body::new(mesh, material, DINOSAUR.density)?;

@@ -116,7 +116,7 @@ fn stage(
         Body::FlatHorse | Body::Horse => &HORSE,
         Body::Dinosaur | Body::Free => &DINOSAUR,
     };
-    let settings = Settings { dt: TIME_STEP / division, ..Settings::of(scene) };
+    let settings = Settings::new(scene).with_dt(TIME_STEP / division);
     let geometry = Geometry::load(&settings)?;
     let mesh = &geometry.mesh;
     let stage = if body == Body::Free {

@@ -1,0 +1,100 @@
+//! A material of the catalogue on the bench: `piola curve`, `piola fit` and `piola check`.
+
+mod check;
+mod curve;
+mod fit;
+
+use std::path::Path;
+
+use clap::Args;
+use piola_laboratory::chart;
+use piola_laboratory::curve::{Mode, Volume};
+use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::output::write_whole;
+
+use crate::error::Error;
+
+pub(crate) use check::Check;
+pub(crate) use curve::Curve;
+pub(crate) use fit::Fit;
+
+/// A material of the catalogue.
+#[derive(Debug, Args)]
+struct Material {
+    /// The material, as listed by `piola materials`.
+    material: String,
+
+    /// Value of a parameter; lists as NAME=V,V,V [default: the typical one of `piola materials`].
+    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::command::parameter)]
+    parameters: Vec<(String, Vec<f64>)>,
+}
+
+impl Material {
+    /// The material with these parameters and else typical ones.
+    fn spec(self) -> Result<MaterialSpec, Error> {
+        let typical = MaterialSpec::typical(&self.material)?;
+        let parameters = self.parameters.into_iter();
+        Ok(parameters.fold(typical, |spec, (name, values)| spec.with_parameter(&name, values)))
+    }
+}
+
+/// Measured points from a file, or Treloar's.
+fn measurements(file: &Path) -> Result<Measurements, Error> {
+    if file.as_os_str().eq_ignore_ascii_case("treloar") {
+        return Measurements::read(TRELOAR_1944).map_err(Error::bench);
+    }
+    let path = file.to_owned();
+    match std::fs::read_to_string(file) {
+        Ok(text) => Measurements::read(&text).map_err(|source| Error::Data { path, source }),
+        Err(source) => Err(Error::UnreadableData { path, source }),
+    }
+}
+
+/// The values of all parameters as options of the command line, with seven digits.
+fn as_options<'a>(parameters: impl Iterator<Item = (&'a str, &'a [f64])>) -> String {
+    let options = parameters.map(|(name, values)| {
+        let values: Vec<_> = values.iter().map(|&value| rounded(value).to_string()).collect();
+        format!("--param {name}={}", values.join(","))
+    });
+    options.collect::<Vec<_>>().join(" ")
+}
+
+/// A value in seven digits: rounding changes no stress that is measured.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
+}
+
+/// Evenly spaced values, both ends among them.
+fn spaced(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1) as f64;
+    (0..count).map(|k| from + (to - from) * (k as f64 / last)).collect()
+}
+
+/// The least and the greatest control that was measured in a mode, rest included.
+fn measured_range(data: &Measurements, mode: Mode) -> [f64; 2] {
+    let controls = data.of(mode).map(|point| point.control);
+    controls.fold([mode.rest(); 2], |[least, greatest], control| [least.min(control), greatest.max(control)])
+}
+
+fn titled(material: &str, volume: Volume) -> String {
+    match volume {
+        Volume::Free => material.to_owned(),
+        Volume::Kept => format!("{material}, incompressible"),
+    }
+}
+
+/// Draws curves under their title, with the options that describe the material below it.
+fn draw(
+    file: &Path,
+    title: &str,
+    options: &str,
+    curves: &[chart::Curve],
+    data: Option<(&Measurements, &Agreement)>,
+) -> Result<(), Error> {
+    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::bench)?;
+    Ok(write_whole(file, svg.as_bytes())?)
+}
+
+/// Points of a curve in a chart: more of them would be rounded to pixels unevenly.
+const FINE: usize = 81;

@@ -1,0 +1,67 @@
+//! `piola check`: where a material is stable.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use piola::Inversion;
+use piola_laboratory::stability::{Settings, map, survey};
+use piola_scenes::output::write_whole;
+
+use super::Material;
+use crate::error::Error;
+
+/// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
+/// rest.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    material: Material,
+
+    /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which
+    /// the energy is extended by polynomials.
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::command::inversion, default_value = "refuse")]
+    #[arg(allow_negative_numbers = true)]
+    inversion: Inversion,
+
+    /// Least stretch of the box and of the tests.
+    #[arg(long, value_name = "A", default_value_t = 0.3, allow_negative_numbers = true)]
+    from: f64,
+
+    /// Greatest stretch of the box and of the tests.
+    #[arg(long, value_name = "B", default_value_t = 3.0, allow_negative_numbers = true)]
+    to: f64,
+
+    /// Stretches along each axis of the box.
+    #[arg(long, value_name = "N", default_value_t = 41)]
+    resolution: usize,
+
+    /// Draw a map over the stretches in a sheet and in plane strain.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+impl Check {
+    /// Examines the material and writes the map if one is wanted.
+    pub(crate) fn run(self) -> Result<String, Error> {
+        let material = self.material.spec()?.with_inversion(self.inversion);
+        let stretches = Settings { from: self.from, to: self.to, resolution: self.resolution };
+        let description = material.description()?;
+        let parameters = description.parameters.iter().map(|parameter| {
+            let values: Vec<_> = material.values_of(parameter.name).iter().map(short).collect();
+            format!(" {}={}", parameter.name, values.join(","))
+        });
+        let title = description.name.to_owned() + &parameters.collect::<String>();
+        let specimen = material.specimen()?;
+        let report = survey(&*specimen, &stretches).map_err(Error::bench)?;
+        if let Some(path) = self.svg {
+            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::bench)?.as_bytes())?;
+        }
+        Ok(format!("{title}\n  ψ = {}\n\n{report}", description.formula))
+    }
+}
+
+/// The shorter of 2.04e5 and 204000, or the latter.
+fn short(number: &f64) -> String {
+    let (plain, scientific) = (number.to_string(), format!("{number:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
+}

@@ -1,0 +1,136 @@
+//! `piola fit`: parameters of a material from measured curves.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use piola::Inversion;
+use piola_laboratory::chart;
+use piola_laboratory::curve::{Mode, Volume, curve};
+use piola_laboratory::fit::{self, Candidate, Difference, Standing, Warning};
+use piola_scenes::error::Error as SceneError;
+
+use super::{FINE, Material, as_options, draw, measured_range, measurements, rounded, spaced, titled};
+use crate::error::Error;
+
+/// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
+#[derive(Debug, Args)]
+pub(crate) struct Fit {
+    #[command(flatten)]
+    material: Material,
+
+    /// Measured points: a file with the columns mode,stretch,nominal_stress_MPa (or _kPa, _Pa), or `treloar`.
+    #[arg(long, value_name = "FILE|treloar")]
+    data: PathBuf,
+
+    /// Keep a parameter, all entries of a list, or one as NAME_1; may be repeated.
+    #[arg(long = "hold", value_name = "NAME")]
+    held: Vec<String>,
+
+    /// Minimise differences relative to the measured stress, so that small strains count as much as large
+    /// ones: the default.
+    #[arg(long)]
+    relative: bool,
+
+    /// Minimise differences relative to the greatest stress of all, so that large stresses decide.
+    #[arg(long, conflicts_with = "relative")]
+    absolute: bool,
+
+    /// Keep the volume, whatever the bulk modulus: the default unless the data have a volumetric test.
+    #[arg(long)]
+    incompressible: bool,
+
+    /// Let the sides move as the energy demands.
+    #[arg(long, conflicts_with = "incompressible")]
+    compressible: bool,
+
+    /// Descents from random parameters beside the one from those given.
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    starts: usize,
+
+    /// Seed of the random parameters: the same seed gives the same fit.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Draw the fitted curves with the points.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+impl Fit {
+    /// Fits the parameters, and draws the result if wanted.
+    pub(crate) fn run(self) -> Result<String, Error> {
+        let spec = self.material.spec()?.with_inversion(Inversion::Refuse);
+        let material = spec.build()?.name;
+        let candidate = spec.candidate()?;
+        let data = measurements(&self.data)?;
+        let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
+        let volume = match self.compressible || is_volumetric && !self.incompressible {
+            true => Volume::Free,
+            false => Volume::Kept,
+        };
+        let (difference, kind) = match self.absolute {
+            true => (Difference::Absolute, "differences by the greatest stress"),
+            false => (Difference::Relative, "relative differences"),
+        };
+        let settings =
+            fit::Settings { volume, difference, held: self.held, restarts: self.starts, seed: self.seed };
+        let fit = fit::fit(&*candidate, &data, &settings)
+            .map_err(|source| Error::Fit { material: material.into(), source })?;
+        let names: Vec<_> =
+            candidate.description().parameters.iter().map(|parameter| parameter.name).collect();
+        let options =
+            |values: &[Vec<f64>]| as_options(names.iter().copied().zip(values.iter().map(Vec::as_slice)));
+
+        let title = titled(material, volume);
+        let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
+        text += &format!("  {}\n", options(&fit.values));
+        for number in &fit.numbers {
+            text += &format!("  {:12} {:<14}", number.name, rounded(number.value));
+            match (number.standing, number.error) {
+                (Standing::Free, Some(error)) => {
+                    text += &format!(" ± {error:.1e} ({:.1} %)\n", 100.0 * (error / number.value).abs());
+                }
+                (Standing::Free, None) => text.push('\n'),
+                (Standing::Held, _) => text += " held\n",
+                (Standing::Indifferent, _) => text += " held: the data say nothing about it\n",
+            }
+        }
+        text += &format!("  R²           {}\n", fit.agreement);
+        text += &format!("  differences  {:.3} % (root mean square)\n", 100.0 * fit.difference);
+        let start = match fit.start {
+            0 => "the parameters given".into(),
+            start => format!("random start {start}"),
+        };
+        let (descents, ended, evaluations) = (fit.descents, &fit.ended, fit.evaluations);
+        text += &format!(
+            "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations\n"
+        );
+        for warning in &fit.warnings {
+            match warning {
+                Warning::OtherMinimum { values, difference, found, .. } => {
+                    let ([difference, found], options) =
+                        ([difference, found].map(|share| 100.0 * share), options(values));
+                    text += &format!(
+                        "warning: another minimum has differences of {difference:.3} %, beside {found:.3} % of this one: {options}\n"
+                    );
+                }
+                // The table has it.
+                Warning::Indifferent { .. } => {}
+                warning => text += &format!("warning: {warning}\n"),
+            }
+        }
+        if let Some(file) = &self.svg {
+            let fitted: Box<dyn Candidate> = candidate
+                .with_values(&fit.values)
+                .map_err(|source| SceneError::Inadmissible { material, source })?;
+            let curve = |mode| {
+                let [from, to] = measured_range(&data, mode);
+                let points = curve(&*fitted, mode, volume, &spaced(from, to, FINE));
+                chart::Curve { mode, points }
+            };
+            let curves: Vec<_> = data.modes().map(curve).collect();
+            draw(file, &title, &options(&fit.values), &curves, Some((&data, &fit.agreement)))?;
+        }
+        Ok(text)
+    }
+}

@@ -1,0 +1,283 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+use piola::Inversion;
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::output::Newton;
+use piola_scenes::run::Output;
+use piola_scenes::scene::{Amplitude, Body, SCENES, Scene, Start};
+use piola_scenes::settings::{Files, Settings};
+
+use crate::bench::{Check, Curve, Fit};
+use crate::error::Error;
+use crate::view::recording::Recording;
+use crate::view::state::State;
+use crate::view::{Begin, Options};
+
+/// Elastic bodies that collapse, invert and recover.
+///
+/// Without arguments, runs the scene `horse` and writes to the folder out/horse.
+#[derive(Debug, Parser)]
+#[command(version)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a scene and write its surfaces, a picture and a summary.
+    #[command(after_help = scenes())]
+    Run(Box<Run>),
+    /// Show a scene in a browser, to be pulled with the mouse.
+    ///
+    /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it.
+    #[command(after_help = scenes())]
+    View(Box<View>),
+    /// List the materials with formula, parameters and typical values of them, domain and small-strain
+    /// moduli.
+    Materials,
+    /// Print test curves of a material, with R² of measured ones.
+    Curve(Box<Curve>),
+    /// Fit the parameters of a material to measured curves.
+    Fit(Box<Fit>),
+    /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
+    ///
+    /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
+    /// rest.
+    Check(Box<Check>),
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    choice: Choice,
+
+    /// Number of time steps [default: the scene's].
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+
+    /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Write the tetrahedra as well, frame_NNNN.vtu with fields and frames.pvd with times, for ParaView.
+    #[arg(long)]
+    vtu: bool,
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub(crate) struct View {
+    #[command(flatten)]
+    choice: Choice,
+
+    /// Port of the page on 127.0.0.1; 0 for any that is free.
+    #[arg(long, default_value_t = 8017)]
+    port: u16,
+
+    /// File for the state that the page's button saves [default: kept in memory].
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+
+    /// Continue a saved state, to the last bit; it names its scene and options itself.
+    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    load: Option<PathBuf>,
+
+    /// Record every pull and every change in a file.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+
+    /// Play a recording back, which names its scene and options itself; at its end the page takes over.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+}
+
+/// A scene and overrides of its defaults.
+#[derive(Debug, PartialEq, Parser)]
+struct Choice {
+    /// The scene.
+    #[arg(default_value = "horse")]
+    scene: String,
+
+    /// Time step in s [default: the scene's, 1/30].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    dt: Option<f64>,
+
+    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the
+    /// scene's.
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+
+    /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all
+    /// or none.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    parameters: Vec<(String, Vec<f64>)>,
+
+    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
+    /// energy is extended by polynomials [default: 0.1 where it can be].
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
+    inversion: Option<Inversion>,
+
+    /// Density in kg/m³ [default: the scene's, 1000].
+    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
+    density: Option<f64>,
+
+    /// Gravity in m/s², downwards [default: 0].
+    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    gravity: Option<f64>,
+
+    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
+    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
+    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
+    pins: Vec<String>,
+
+    /// Another body that comes with the program: horse, dinosaur or bar [default: the scene's].
+    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
+    body: Option<String>,
+
+    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default:
+    /// the scene's, 1].
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere
+    /// in the body's bounding box [default: the scene's, 0.3].
+    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
+    amplitude: Option<Amplitude>,
+
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
+    /// become shares of its bounding box.
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+
+    /// The surface to embed in them, OBJ [default: their boundary].
+    #[arg(long, value_name = "FILE", requires = "mesh")]
+    surface: Option<PathBuf>,
+
+    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
+    #[arg(long, value_enum, default_value_t = Newton::Single)]
+    newton: Newton,
+
+    /// Threads for the solver; 0 for one per core.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    threads: usize,
+}
+
+impl Run {
+    /// Settings of the run, and the files that it leaves.
+    pub(crate) fn settings(self) -> Result<(Settings, Output), Error> {
+        let mut settings = self.choice.settings()?;
+        settings.frames = self.frames.unwrap_or(settings.frames);
+        let name = settings.scene.name;
+        let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
+        Ok((settings, Output::new(folder).with_vtu(self.vtu)))
+    }
+}
+
+impl View {
+    /// Options of the viewer.
+    pub(crate) fn options(self) -> Result<Options, Error> {
+        let begin = match (&self.load, &self.replay) {
+            (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
+            _ if self.choice != Choice::parse_from(["piola"]) => return Err(Error::ScenesOwn),
+            (Some(path), _) => Begin::State(Box::new(State::read(path)?)),
+            (None, Some(path)) => Begin::Replay(Box::new(Recording::read(path)?)),
+        };
+        Ok(Options::new(begin).with_port(self.port).with_save(self.save).with_record(self.record))
+    }
+}
+
+impl Choice {
+    /// The scene with the overrides.
+    fn settings(self) -> Result<Settings, Error> {
+        let scene = Scene::find(&self.scene)?;
+        let mut settings = Settings::new(scene);
+        if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
+            settings.material = MaterialSpec::matching(&name, settings.material.build()?.moduli);
+        }
+        for (name, values) in self.parameters {
+            settings.material = settings.material.with_parameter(&name, values);
+        }
+        if let Some(inversion) = self.inversion {
+            settings.material = settings.material.with_inversion(inversion);
+        }
+        if let Some(name) = self.body {
+            settings.body = Body::find(&name)?;
+        }
+        settings.start = start(scene, self.seed, self.amplitude)?;
+        settings.density = self.density.unwrap_or(settings.density);
+        settings.gravity = self.gravity.unwrap_or(settings.gravity);
+        settings.dt = self.dt.unwrap_or(settings.dt);
+        let files = self.mesh.map(|mesh| Files { mesh, surface: self.surface });
+        Ok(settings
+            .with_files(files)
+            .with_pins(self.pins)
+            .with_newton(self.newton)
+            .with_threads(self.threads))
+    }
+}
+
+/// The scene's start, with another seed or amplitude if it is a random one.
+fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
+    let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
+    match (scene.start, seed, amplitude) {
+        (Start::Scrambled { seed, amplitude }, other_seed, other_amplitude) => Ok(Start::Scrambled {
+            seed: other_seed.unwrap_or(seed),
+            amplitude: other_amplitude.unwrap_or(amplitude),
+        }),
+        (start, None, None) => Ok(start),
+        (_, seed, _) => Err(Error::NotScrambled {
+            option: if seed.is_some() { "--seed" } else { "--amplitude" },
+            scene: scene.name,
+            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
+        }),
+    }
+}
+
+fn scenes() -> String {
+    let mut text = String::from("Scenes:\n");
+    for scene in SCENES {
+        text += &format!("  {:24} {}\n", scene.name, scene.about);
+    }
+    text
+}
+
+/// Reads `NAME=V,V,V`.
+pub(crate) fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
+    let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
+    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
+    Ok((name.trim().into(), values.split(',').map(number).collect::<Result<_, _>>()?))
+}
+
+/// Reads `refuse` or the stretch where an extension begins.
+pub(crate) fn inversion(text: &str) -> Result<Inversion, String> {
+    if text == "refuse" {
+        return Ok(Inversion::Refuse);
+    }
+    let epsilon = text.parse().map_err(|_| "write `refuse`, or a stretch between 0 and 1")?;
+    Ok(Inversion::Extend { epsilon })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn lists_and_numbers_are_parameters() {
+        assert_eq!(parameter("mu=1e5"), Ok(("mu".into(), vec![1e5])));
+        assert_eq!(parameter("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
+        assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
+        assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));
+    }
+}

@@ -1,0 +1,170 @@
+//! Why the command ends without success.
+
+use std::io;
+use std::path::PathBuf;
+
+use piola::material::Inadmissible;
+use piola_laboratory::data::DataError;
+use piola_laboratory::fit::FitError;
+use piola_scenes::error::Error as SceneError;
+
+/// Why the command ends without success.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A scene cannot start or go on.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An option for random starts is given for a scene that starts elsewhere.
+    #[error(
+        "the scene `{scene}` has no use for {option}: only {} displace nodes at random",
+        known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    )]
+    NotScrambled {
+        /// The option, such as `--seed`.
+        option: &'static str,
+        /// The scene.
+        scene: &'static str,
+        /// The scenes that start at random.
+        known: Vec<&'static str>,
+    },
+    /// A file that names its scene is given beside a scene or its options.
+    #[error(
+        "the file names its scene and options itself; leave out all but --load or --replay, --port, --save and --record"
+    )]
+    ScenesOwn,
+    /// The page cannot be served at the port.
+    #[error("cannot serve the page at port {port}: {source}; name another one with --port, or 0 for any")]
+    Port {
+        /// The port as given.
+        port: u16,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// A thread cannot be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(#[source] io::Error),
+    /// A file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// A file is not a saved state.
+    #[error("{}: is not a saved state: {source}", path.display())]
+    NotState {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        source: serde_json::Error,
+    },
+    /// A file is not a recording.
+    #[error("{}:{line}: is not a line of a recording: {reason}", path.display())]
+    NotRecording {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Reason.
+        reason: String,
+    },
+    /// A state cannot be resumed.
+    #[error("the state cannot be resumed: {0}")]
+    Unsound(
+        /// Why.
+        &'static str,
+    ),
+    /// There is no state to go back to.
+    #[error("no state has been saved yet")]
+    NothingSaved,
+    /// A file of measured points cannot be read.
+    #[error("{} cannot be read: {source}; give a file, or `treloar`", path.display())]
+    UnreadableData {
+        /// The file.
+        path: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// A file is not a table of measured points.
+    #[error("{}:{}: {}", path.display(), source.line, source.fault)]
+    Data {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        source: DataError,
+    },
+    /// The bench refuses the material, the stretches or the chart.
+    #[error(transparent)]
+    Bench(Box<dyn std::error::Error + Send + Sync>),
+    /// Parameters cannot be fitted to the data.
+    #[error(
+        "{material} cannot be fitted: {source}{}",
+        match source {
+            FitError::Start(_) => " (--param gives others)",
+            FitError::TooFewPoints { .. } => " (--hold)",
+            _ => "",
+        }
+    )]
+    Fit {
+        /// Name of the material.
+        material: String,
+        /// Why.
+        source: FitError,
+    },
+}
+
+impl Error {
+    /// An error of the bench.
+    pub(crate) fn bench(source: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self::Bench(Box::new(source))
+    }
+
+    /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if
+    /// something failed on the way.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Thread(_)
+            | Self::Scene(
+                SceneError::Threads(_)
+                | SceneError::Write { .. }
+                | SceneError::Equilibrium(_)
+                | SceneError::Step { .. },
+            ) => 1,
+            _ => 2,
+        }
+    }
+
+    /// A hint at what to change on the command line, to be put behind the message.
+    pub(crate) fn remedy(&self) -> String {
+        let Self::Scene(error) = self else { return String::new() };
+        match error {
+            SceneError::UnknownBody { .. } => ", or a file with --mesh".into(),
+            SceneError::UnknownMaterial { .. } => ". `piola materials` describes them".into(),
+            SceneError::MissingParameters { missing, .. } => {
+                let options: Vec<_> = missing.iter().map(|name| format!("--param {name}=…")).collect();
+                format!("; add {}", options.join(" "))
+            }
+            SceneError::Inadmissible {
+                source: Inadmissible::NoExtension { .. } | Inadmissible::DoesNotRestore { .. },
+                ..
+            } => " (`--inversion refuse`)".into(),
+            SceneError::OutOfRange { quantity, .. } => match *quantity {
+                "the time step" => " (--dt)",
+                "the density" => " (--density)",
+                "the gravity" => " (--gravity)",
+                "the number of frames" => " (--frames)",
+                "the amplitude" => " (--amplitude)",
+                "the number of threads" => " (--threads)",
+                _ => "",
+            }
+            .into(),
+            SceneError::Pin { .. } => "; choose a place with --pin".into(),
+            SceneError::Folder { .. } => "; name another one with --out".into(),
+            SceneError::Step { .. } => "; nothing was written".into(),
+            _ => String::new(),
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
+//!
+//! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
+//! acts; `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between
+//! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server` and
+//! `request` decide who comes in, and `page` is what they get. [`state`] and [`recording`] are the files.
+//!
+//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. There is no other
+//! protection: anyone who can open the page on this machine can pull.
+
+mod connection;
+mod driver;
+mod page;
+pub mod protocol;
+pub mod recording;
+mod request;
+mod server;
+pub mod session;
+mod show;
+pub mod state;
+
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::sync_channel;
+use std::thread::{self, JoinHandle};
+
+use driver::{Driver, Order};
+use piola_scenes::error::Error as SceneError;
+use piola_scenes::settings::Settings;
+
+use crate::error::Error;
+use recording::{Recorder, Recording};
+use server::Server;
+use session::Session;
+use state::State;
+
+/// Orders that wait for the driver; a connection with more of them waits itself.
+const ORDERS: usize = 256;
+
+/// Settings of a viewer.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Options {
+    /// The beginning.
+    pub begin: Begin,
+    /// The port on 127.0.0.1; 0 for any that is free.
+    pub port: u16,
+    /// The file for the page's button to save the state; without one, the state is kept in memory.
+    pub save: Option<PathBuf>,
+    /// The file that gets a recording.
+    pub record: Option<PathBuf>,
+}
+
+impl Options {
+    /// A viewer at any free port, which writes no files.
+    #[must_use]
+    pub fn new(begin: Begin) -> Self {
+        Self { begin, port: 0, save: None, record: None }
+    }
+
+    /// Serves at this port on 127.0.0.1; 0 for any that is free.
+    #[must_use]
+    pub fn with_port(mut self, port: u16) -> Self {
+        self.port = port;
+        self
+    }
+
+    /// Saves the state to a file when the page's button is pressed.
+    #[must_use]
+    pub fn with_save(mut self, file: impl Into<Option<PathBuf>>) -> Self {
+        self.save = file.into();
+        self
+    }
+
+    /// Records every act in a file.
+    #[must_use]
+    pub fn with_record(mut self, file: impl Into<Option<PathBuf>>) -> Self {
+        self.record = file.into();
+        self
+    }
+}
+
+/// Beginning of a viewer.
+#[derive(Clone, Debug)]
+pub enum Begin {
+    /// A scene before its first step.
+    Scene(Box<Settings>),
+    /// A saved state.
+    State(Box<State>),
+    /// A recording, which is played back before the page takes over.
+    Replay(Box<Recording>),
+}
+
+/// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is
+/// closed.
+#[derive(Debug)]
+pub struct Viewer {
+    address: SocketAddr,
+    is_over: Arc<AtomicBool>,
+    server: Option<JoinHandle<()>>,
+}
+
+impl Viewer {
+    /// Starts to play and to serve.
+    ///
+    /// # Errors
+    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], or that of a file that
+    /// cannot be written.
+    pub fn start(options: Options) -> Result<Self, Error> {
+        let (session, replay) = match options.begin {
+            Begin::Scene(settings) => (Session::new(*settings)?, None),
+            Begin::State(state) => (Session::resume(*state)?, None),
+            Begin::Replay(recording) => (Session::resume(recording.start().clone())?, Some(*recording)),
+        };
+        let no_port = |source| Error::Port { port: options.port, source };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(no_port)?;
+        let address = listener.local_addr().map_err(no_port)?;
+        let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
+
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
+        let threads = threads.map_err(SceneError::from)?;
+        let topology = show::topology(session.geometry());
+        let first = connection::after(session.pulls().map(|(drag, _)| drag));
+        let (orders, taken) = sync_channel::<Order>(ORDERS);
+        let is_over = Arc::new(AtomicBool::new(false));
+        let driver = Driver::new(session, threads, options.save, recorder, replay);
+        let server =
+            Server { listener, port: address.port(), topology, orders, is_over: is_over.clone(), first };
+        let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
+            thread::Builder::new().name(name.into()).spawn(work).map_err(Error::Thread)
+        };
+        // The driver ends when the server and all its connections have.
+        start("driver", Box::new(move || driver.run(&taken)))?;
+        let server = Some(start("server", Box::new(move || server.run()))?);
+        Ok(Self { address, is_over, server })
+    }
+
+    /// Address of the page.
+    #[must_use]
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Serves until the process is ended from outside.
+    pub fn wait(mut self) {
+        if let Some(server) = self.server.take() {
+            // A server that panics has nothing to say.
+            let _ = server.join();
+        }
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Relaxed);
+        // The server looks up when somebody comes.
+        if self.server.is_some() && TcpStream::connect(self.address).is_ok() {
+            let _ = self.server.take().map(JoinHandle::join);
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! The socket of a page: passes its messages on as orders, and answers back.
+//!
+//! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
+//! in long ones.
+
+use std::io::{self, ErrorKind, Read};
+use std::net::TcpStream;
+use std::ops::Range;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
+use std::time::{Duration, Instant};
+
+use tungstenite::handshake::server::{Response, write_response};
+use tungstenite::protocol::frame::coding::CloseCode;
+use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
+use tungstenite::{Bytes, Error as SocketError, Message as Envelope, WebSocket};
+
+use super::driver::{Answer, Order};
+use super::protocol::{Act, Message};
+
+/// The longest message that makes sense is a long list of parameters.
+const MAX_MESSAGE: usize = 16 * 1024;
+/// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other
+/// pages.
+const DRAGS: u64 = 1 << 32;
+/// How long a page that waits for a frame waits longer than it must.
+const TURN: Duration = Duration::from_millis(3);
+/// How long a page that does not may wait for anything else.
+const LONG_TURN: Duration = Duration::from_millis(200);
+/// A page that takes nothing for so long is given up.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// How long the last words of a page that is shut out are listened to, so that it gets to hear why.
+const LAST_WORDS: Duration = Duration::from_secs(1);
+
+/// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
+pub(super) fn serve(
+    mut stream: TcpStream,
+    response: &Response,
+    number: u64,
+    topology: Bytes,
+    orders: &SyncSender<Order>,
+) {
+    let greeting = stream
+        .set_write_timeout(Some(PATIENCE))
+        .and_then(|()| stream.set_nodelay(true))
+        .map_err(SocketError::from)
+        .and_then(|()| write_response(&mut stream, response));
+    if greeting.is_err() {
+        return;
+    }
+    let limits = WebSocketConfig::default()
+        .max_message_size(Some(MAX_MESSAGE))
+        .max_frame_size(Some(MAX_MESSAGE))
+        .read_buffer_size(MAX_MESSAGE);
+    let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
+    let (answer, answers) = channel();
+    let drags = number * DRAGS..(number + 1) * DRAGS;
+    let _leave = Leave { drags: drags.clone(), orders };
+    let mut connection =
+        Connection { socket, drags, orders, answer, answers, waits: false, seen: 0, revision: 0 };
+    if connection.send(Envelope::Binary(topology)).is_ok() {
+        let end = connection.talk();
+        connection.part(end);
+    }
+}
+
+/// Releases the drags of a page at the end of its connection.
+struct Leave<'a> {
+    drags: Range<u64>,
+    orders: &'a SyncSender<Order>,
+}
+
+impl Drop for Leave<'_> {
+    fn drop(&mut self) {
+        // Where the driver is gone, so are its pulls.
+        let _ = self.orders.send(Order::Leave { drags: self.drags.clone() });
+    }
+}
+
+/// The first number for a connection none of whose drags is among these.
+pub(super) fn after(drags: impl Iterator<Item = u64>) -> u64 {
+    drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
+}
+
+struct Connection<'a> {
+    socket: WebSocket<TcpStream>,
+    drags: Range<u64>,
+    orders: &'a SyncSender<Order>,
+    answer: Sender<Answer>,
+    answers: Receiver<Answer>,
+    /// Whether the page has asked for a frame that has not come.
+    waits: bool,
+    /// The state and the revision of the setup that the page has seen last.
+    seen: u64,
+    revision: u64,
+}
+
+/// Why a conversation ends.
+enum End {
+    /// The other side has gone.
+    Gone,
+    /// It is to be told this.
+    Because(CloseCode, String),
+}
+
+impl Connection<'_> {
+    fn talk(&mut self) -> End {
+        loop {
+            if let Err(end) = self.listen().and_then(|()| self.reply()) {
+                return end;
+            }
+        }
+    }
+
+    /// Takes one message, or none in this turn.
+    fn listen(&mut self) -> Result<(), End> {
+        let turn = if self.waits { TURN } else { LONG_TURN };
+        self.socket.get_ref().set_read_timeout(Some(turn)).map_err(|_| End::Gone)?;
+        match self.socket.read() {
+            Ok(Envelope::Text(text)) => {
+                let message = Message::parse(&text);
+                self.order(message.map_err(|reason| End::Because(CloseCode::Policy, reason))?)
+            }
+            Ok(Envelope::Binary(_)) => Err(End::Because(CloseCode::Unsupported, "messages are text".into())),
+            Ok(Envelope::Ping(_) | Envelope::Pong(_) | Envelope::Close(_) | Envelope::Frame(_)) => Ok(()),
+            Err(SocketError::Io(error)) if is_silence(&error) => Ok(()),
+            Err(SocketError::Capacity(error)) => Err(End::Because(CloseCode::Size, error.to_string())),
+            Err(SocketError::Utf8(error)) => Err(End::Because(CloseCode::Invalid, error)),
+            Err(SocketError::Protocol(error)) => Err(End::Because(CloseCode::Protocol, error.to_string())),
+            Err(_) => Err(End::Gone),
+        }
+    }
+
+    fn order(&mut self, message: Message) -> Result<(), End> {
+        let answer = self.answer.clone();
+        let order = match message {
+            Message::Act(act) => Order::Act { act: self.as_own(act)?, answer },
+            Message::Run(run) => Order::Run(run),
+            // One frame is under way already.
+            Message::Look {} if self.waits => return Ok(()),
+            Message::Look {} => {
+                self.waits = true;
+                Order::Look { seen: self.seen, answer }
+            }
+        };
+        self.orders.send(order).map_err(|_| End::Because(CloseCode::Away, "the viewer ends".into()))
+    }
+
+    /// Numbers the drag so that it belongs to this page.
+    fn as_own(&self, act: Act) -> Result<Act, End> {
+        let own = |drag: u64| match drag < DRAGS {
+            true => Ok(self.drags.start + drag),
+            false => Err(End::Because(CloseCode::Policy, format!("the drag {drag} is not below {DRAGS}"))),
+        };
+        Ok(match act {
+            Act::Pull { drag, vertex, target } => Act::Pull { drag: own(drag)?, vertex, target },
+            Act::Release { drag } => Act::Release { drag: own(drag)? },
+            act => act,
+        })
+    }
+
+    /// Passes on what has come for the page.
+    fn reply(&mut self) -> Result<(), End> {
+        while let Ok(answer) = self.answers.try_recv() {
+            match answer {
+                Answer::Refused(text) => self.send(Envelope::Text(text))?,
+                Answer::Frame(frame) => {
+                    self.waits = false;
+                    self.seen = frame.state;
+                    if self.revision != frame.revision {
+                        self.revision = frame.revision;
+                        self.send(Envelope::Text(frame.setup))?;
+                    }
+                    self.send(Envelope::Text(frame.figures))?;
+                    self.send(Envelope::Binary(frame.positions))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn send(&mut self, envelope: Envelope) -> Result<(), End> {
+        self.socket.send(envelope).map_err(|_| End::Gone)
+    }
+
+    /// Sends the reason and waits until the other side has read it: unread data would make the system cut the
+    /// line.
+    fn part(&mut self, end: End) {
+        let End::Because(code, reason) = end else { return };
+        let reason = reason.chars().take(100).collect::<String>();
+        if self.socket.close(Some(CloseFrame { code, reason: reason.into() })).is_err() {
+            return;
+        }
+        // The bytes themselves: a socket must not be read on after an error.
+        let stream = self.socket.get_mut();
+        let (deadline, mut words) = (Instant::now() + LAST_WORDS, [0; 4096]);
+        while Instant::now() < deadline {
+            match stream.read(&mut words) {
+                Ok(0) => return,
+                Ok(_) => {}
+                Err(error) if is_silence(&error) => {}
+                Err(_) => return,
+            }
+        }
+    }
+}
+
+fn is_silence(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted)
+}

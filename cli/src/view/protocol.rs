@@ -1,0 +1,123 @@
+//! Messages of a page: JSON in one of the forms of [`Message`], and nothing else.
+//!
+//! ```
+//! use piola_cli::view::protocol::{Act, Message};
+//!
+//! let text = r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
+//! let pull = Act::Pull { drag: 1, vertex: 7, target: [0.0, 1.0, 0.5] };
+//! assert_eq!(Message::parse(text), Ok(Message::Act(pull)));
+//! assert!(Message::parse(r#"{"act": {"jump": {}}}"#).is_err());
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+/// A message from a page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Message {
+    /// Changes the body, its material or its time step.
+    Act(Act),
+    /// Changes when steps are made.
+    Run(Run),
+    /// Asks for one frame: the present one, or the next if the page has seen that.
+    Look {},
+}
+
+/// A change of the state from which the next step starts; recordings consist of these.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Act {
+    /// Draws a vertex of the surface towards a point, by a spring, until it is released.
+    Pull {
+        /// Number by which a page tells its drags apart; a drag that has begun moves on.
+        drag: u64,
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The point, m.
+        target: [f64; 3],
+    },
+    /// Ends a pull, if there is one.
+    Release {
+        /// Number of the drag.
+        drag: u64,
+    },
+    /// Ends all pulls but those of the scene.
+    ReleaseAll {},
+    /// Replaces the material; the body stays where it is.
+    Material {
+        /// Name in the catalogue.
+        name: String,
+        /// Whether it gets the small-strain moduli that the body has, in place of its typical ones.
+        as_stiff: bool,
+    },
+    /// Changes a parameter of the material.
+    Parameter {
+        /// Its name.
+        name: String,
+        /// All its values, several for a list.
+        values: Vec<f64>,
+    },
+    /// Changes the time step.
+    TimeStep {
+        /// The length, s.
+        seconds: f64,
+    },
+    /// Puts the body of the present material where the scene starts.
+    Reset {},
+    /// Saves the state.
+    Save {},
+    /// Goes back to the state that was saved last, material and time step included.
+    Restore {},
+}
+
+/// A change of when steps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Run {
+    /// Pauses, or goes on.
+    Pause {
+        /// Whether to pause.
+        paused: bool,
+    },
+    /// Makes a single step, and pauses.
+    Step {},
+    /// Steps in real time, or as fast as steps can be solved.
+    Pace {
+        /// Whether to keep to real time.
+        real_time: bool,
+    },
+}
+
+impl Message {
+    /// Parses a message.
+    ///
+    /// # Errors
+    /// The reason why it is not a message.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        serde_json::from_str(text).map_err(|error| error.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nonsense_is_refused_with_its_reason() {
+        for (text, guilty) in [
+            ("", "EOF"),
+            ("look", "expected value"),
+            (r#"{"look": {}, "act": {}}"#, "expected"),
+            (r#"{"look": {"far": 1}}"#, "far"),
+            (r#"{"leap": {}}"#, "leap"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": -7, "target": [0, 1, 2]}}}"#, "-7"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1]}}}"#, "length 3"),
+            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1, null]}}}"#, "null"),
+            (r#"{"act": {"time_step": {"seconds": 1e999}}}"#, "out of range"),
+            (r#"{"act": {"time_step": {"seconds": NaN}}}"#, "expected"),
+        ] {
+            let reason = Message::parse(text).expect_err(text);
+            assert!(reason.contains(guilty), "{text}: {reason}");
+        }
+    }
+}

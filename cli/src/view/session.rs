@@ -1,0 +1,271 @@
+//! A scene to interact with: every act has its effect before some step, and the same acts before the same
+//! steps give the same bits.
+//!
+//! This module knows no threads, no clock on the wall and no sockets.
+
+use std::collections::BTreeMap;
+
+use piola::mesh::Anchor;
+use piola::step::StepReport;
+use piola_scenes::error::Error as SceneError;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::play::Play;
+use piola_scenes::settings::Settings;
+
+use super::protocol::Act;
+use super::state::{Drag, State};
+use crate::error::Error;
+
+/// Most pulls at a time; people have fewer fingers.
+const MAX_PULLS: usize = 64;
+/// Bound of the numbers of drags in files, above which there are others for drags to come.
+const MAX_DRAG: u64 = 1 << 62;
+/// Greatest distance of a pull's target from where the vertex is at rest, in body heights.
+const REACH: f64 = 100.0;
+/// Greatest speed of a drag, in body heights per second.
+///
+/// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a
+/// second, may fold into itself and find another equilibrium from which no elastic energy brings it back.
+const SPEED: f64 = 4.0;
+
+/// A scene in motion, its present material, and the pulls of pages at it.
+#[derive(Debug)]
+pub struct Session {
+    geometry: Geometry,
+    /// Settings with material and time step as they are now.
+    settings: Settings,
+    material_at_start: MaterialSpec,
+    play: Play,
+    pulls: BTreeMap<u64, Drag>,
+    saved: Option<State>,
+    steps: u64,
+}
+
+impl Session {
+    /// A session before the first step of its scene.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the settings are out of range or do not fit the body.
+    pub fn new(settings: Settings) -> Result<Self, Error> {
+        let material = settings.material.explicit()?;
+        let settings = settings.with_material(material);
+        let geometry = Geometry::load(&settings)?;
+        let play = Play::new(&settings, &geometry)?;
+        let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
+        Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None, steps: 0 })
+    }
+
+    /// Continues from a saved state, to the last bit.
+    ///
+    /// # Errors
+    /// Like [`Session::new`], and [`Error::Unsound`] if the state does not fit the body.
+    pub fn resume(state: State) -> Result<Self, Error> {
+        let mut session = Self::new(state.settings.clone())?;
+        session.go_to(&state)?;
+        session.saved = Some(state);
+        Ok(session)
+    }
+
+    /// The present state, to be resumed.
+    #[must_use]
+    pub fn state(&self) -> State {
+        let simulation = self.play.simulation();
+        State::new(
+            self.settings.clone(),
+            self.material_at_start.clone(),
+            self.play.clock(),
+            [simulation.positions(), simulation.velocities()],
+            self.pulls.clone(),
+        )
+    }
+
+    /// The body's shape at rest, and its surface.
+    #[must_use]
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// The scene and its overrides, with material and time step as they are now.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The body in motion.
+    #[must_use]
+    pub fn play(&self) -> &Play {
+        &self.play
+    }
+
+    /// Pulls of pages, with their numbers.
+    pub fn pulls(&self) -> impl Iterator<Item = (u64, Drag)> {
+        self.pulls.iter().map(|(&number, &drag)| (number, drag))
+    }
+
+    /// The state that was saved last.
+    #[must_use]
+    pub fn saved(&self) -> Option<&State> {
+        self.saved.as_ref()
+    }
+
+    /// Number of steps in this session, resets or not.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes the next step, in the rayon pool of the caller.
+    ///
+    /// # Errors
+    /// [`SceneError::Step`]; the state before the step is then untouched.
+    pub fn step(&mut self) -> Result<StepReport, SceneError> {
+        let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
+        let mut pulls = self.pulls.clone();
+        for drag in pulls.values_mut() {
+            drag.place = towards(drag.place, drag.target, way);
+        }
+        let springs = pulls.values().filter_map(|drag| {
+            let anchor = self.geometry.anchor(drag.vertex)?;
+            Some(self.play.pull_at(anchor, drag.place))
+        });
+        self.play.hold(springs.collect());
+        let report = self.play.step()?;
+        self.pulls = pulls;
+        self.steps += 1;
+        Ok(report)
+    }
+
+    /// Does what a page asks for, before the next step.
+    ///
+    /// # Errors
+    /// [`Error::Scene`], [`Error::NothingSaved`] or [`Error::Unsound`]; the state is then as before.
+    pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
+        match act {
+            &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),
+            Act::Release { drag } => {
+                self.pulls.remove(drag);
+                Ok(())
+            }
+            Act::ReleaseAll {} => {
+                self.pulls.clear();
+                Ok(())
+            }
+            Act::Material { name, as_stiff } => {
+                let material = self.material(name, *as_stiff)?;
+                self.change(self.settings.clone().with_material(material))
+            }
+            Act::Parameter { name, values } => {
+                let material = self.settings.material.clone().with_parameter(name, values.clone());
+                self.change(self.settings.clone().with_material(material))
+            }
+            &Act::TimeStep { seconds } => {
+                let settings = self.settings.clone().with_dt(seconds);
+                settings.check()?;
+                self.settings = settings;
+                self.play.set_dt(seconds);
+                Ok(())
+            }
+            Act::Reset {} => {
+                self.play = Play::new(&self.settings, &self.geometry)?;
+                self.pulls.clear();
+                Ok(())
+            }
+            Act::Save {} => {
+                self.saved = Some(self.state());
+                Ok(())
+            }
+            Act::Restore {} => {
+                let state = self.saved.take().ok_or(Error::NothingSaved)?;
+                let result = self.go_to(&state);
+                self.saved = Some(state);
+                result
+            }
+        }
+    }
+
+    fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), SceneError> {
+        let anchor = self.check(vertex, target)?;
+        // One that holds already moves on; a new one begins where the vertex is.
+        let holds = self.pulls.get(&number).filter(|drag| drag.vertex == vertex).map(|drag| drag.place);
+        let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
+        if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&number) {
+            let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
+            return Err(SceneError::OutOfRange { quantity, value, requirement: "at most 64" });
+        }
+        self.pulls.insert(number, Drag { vertex, target, place });
+        Ok(())
+    }
+
+    /// The point of the body that a pull holds, if there is that vertex and the target is not out of the
+    /// world.
+    fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
+        let anchor = self.geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
+            quantity: "the vertex of a pull",
+            value: vertex as f64,
+            requirement: "one of the surface",
+        })?;
+        let rest = &self.geometry.mesh;
+        let reach = REACH * rest.bounds().size()[1];
+        let place = anchor.position(&rest.positions);
+        // NaN is not near.
+        let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
+        match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
+            None => Ok(anchor),
+            Some((value, _)) => Err(SceneError::OutOfRange {
+                quantity: "a coordinate of a pull's target",
+                value,
+                requirement: "at most a hundred body heights from where the vertex is at rest",
+            }),
+        }
+    }
+
+    /// The material of that name, with the parameters that it had at the start, or else typical ones.
+    fn material(&self, name: &str, as_stiff: bool) -> Result<MaterialSpec, SceneError> {
+        if self.material_at_start.is(name) {
+            return Ok(self.material_at_start.clone());
+        }
+        if as_stiff {
+            MaterialSpec::matching(name, self.play.moduli()).explicit()
+        } else {
+            MaterialSpec::typical(name)
+        }
+    }
+
+    /// Makes the body another one where it is, with the speed that it has.
+    fn change(&mut self, settings: Settings) -> Result<(), Error> {
+        let mut play = Play::new(&settings, &self.geometry)?;
+        let simulation = self.play.simulation();
+        play.resume(self.play.clock(), simulation.positions(), simulation.velocities())?;
+        (self.play, self.settings) = (play, settings);
+        Ok(())
+    }
+
+    /// Makes the state what it was. All or nothing.
+    fn go_to(&mut self, state: &State) -> Result<(), Error> {
+        if !state.clock.is_sound() || state.clock.dt() != state.settings.dt {
+            return Err(Error::Unsound("its clock is wrong"));
+        }
+        let mut play = Play::new(&state.settings, &self.geometry)?;
+        play.resume(state.clock, &state.positions, &state.velocities)?;
+        if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&number| number >= MAX_DRAG) {
+            return Err(Error::Unsound("it has too many pulls"));
+        }
+        for drag in state.pulls.values() {
+            self.check(drag.vertex, drag.target)?;
+            self.check(drag.vertex, drag.place)?;
+        }
+        self.play = play;
+        self.settings = state.settings.clone();
+        self.material_at_start = state.material_at_start.clone();
+        self.pulls = state.pulls.clone();
+        Ok(())
+    }
+}
+
+/// From one point to another, but at most so far.
+fn towards(from: [f64; 3], to: [f64; 3], way: f64) -> [f64; 3] {
+    let by: [f64; 3] = std::array::from_fn(|c| to[c] - from[c]);
+    let distance = by.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if distance <= way { to } else { std::array::from_fn(|c| from[c] + way / distance * by[c]) }
+}

@@ -1,0 +1,147 @@
+//! Messages to a page: the surface's triangles once, then frames as it asks for them.
+//!
+//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`. Binary
+//! messages begin with three unsigned numbers of 32 bits, little-endian as all that follows:
+//!
+//! ```text
+//! 0, triangles, edges    then three vertices for each triangle, two nodes for each edge of the cage, as u32
+//! 1, vertices, nodes     then three coordinates for each, m, as f32
+//! ```
+
+use std::collections::BTreeSet;
+
+use piola::material::Parameter;
+use piola::step::Energies;
+use piola_materials::CATALOGUE;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::measure;
+use serde_json::json;
+use tungstenite::{Bytes, Utf8Bytes};
+
+use super::protocol::Act;
+use super::session::Session;
+
+/// The body at one moment, for a page.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    /// Counts states; a page that has seen this one waits for another.
+    pub(super) state: u64,
+    /// Counts changes of the setup; a page that knows this one needs no other.
+    pub(super) revision: u64,
+    pub(super) setup: Utf8Bytes,
+    pub(super) figures: Utf8Bytes,
+    pub(super) positions: Bytes,
+}
+
+/// Figures of the last steps, measured by the driver.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FrameStats {
+    pub(super) paused: bool,
+    pub(super) real_time: bool,
+    /// Whether a recording decides what happens.
+    pub(super) replays: bool,
+    /// Steps per second of the solver's own time; `None` before the first.
+    pub(super) steps_per_second: Option<f64>,
+    /// Newton iterations of the last step.
+    pub(super) newton_iterations: usize,
+    /// Energies after the last step, J.
+    pub(super) energies: Energies,
+    /// Why the last step failed, or the last file could not be written.
+    pub(super) trouble: Option<String>,
+}
+
+/// Triangles of the surface and edges of the tetrahedra, as a binary message.
+pub(super) fn topology(geometry: &Geometry) -> Bytes {
+    let mut edges = BTreeSet::new();
+    for &[a, b, c, d] in &geometry.mesh.tets {
+        for (one, other) in [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)] {
+            edges.insert([one.min(other) as u32, one.max(other) as u32]);
+        }
+    }
+    let header = [0, geometry.triangles.len() as u32, edges.len() as u32];
+    let triangles = geometry.triangles.as_flattened().iter().copied();
+    let numbers = header.into_iter().chain(triangles).chain(edges.into_iter().flatten());
+    numbers.flat_map(u32::to_le_bytes).collect()
+}
+
+/// Positions of the surface and the nodes, as a binary message.
+pub(super) fn positions(session: &Session) -> Bytes {
+    let nodes = session.play().simulation().positions();
+    let vertices = session.geometry().surface_at(nodes);
+    let header = [1, vertices.len() as u32, nodes.len() as u32];
+    let coordinates = vertices.as_flattened().iter().copied();
+    let coordinates = coordinates.chain(nodes.as_flattened().iter().map(|&x| x as f32));
+    header.into_iter().flat_map(u32::to_le_bytes).chain(coordinates.flat_map(f32::to_le_bytes)).collect()
+}
+
+/// The scene and its material, which change with acts only.
+pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
+    let settings = session.settings();
+    let mesh = &session.geometry().mesh;
+    let bounds = mesh.bounds();
+    let style = settings.body.style;
+    let parameter = |parameter: &Parameter| {
+        json!({
+            "name": parameter.name,
+            "doc": parameter.doc,
+            "is_list": parameter.is_list,
+            "values": settings.material.values_of(parameter.name),
+        })
+    };
+    let material = settings.material.description().map(|description| {
+        json!({
+            "name": session.play().material(),
+            "summary": description.summary,
+            "formula": description.formula,
+            "domain": description.domain,
+            "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        })
+    });
+    let materials = CATALOGUE.iter().map(|entry| (entry.name, entry.description.summary));
+    let setup = json!({
+        "scene": settings.scene.name,
+        "about": settings.scene.about,
+        "colour": style.colour, // linear RGB
+        "azimuth": style.azimuth,
+        "elevation": style.elevation,
+        "bounds": [bounds.min, bounds.max], // of the tetrahedra at rest, m
+        "tets": mesh.tets.len(),
+        "nodes": mesh.positions.len(),
+        "vertices": session.geometry().surface_vertices(),
+        "dt": settings.dt,
+        "dt_of_scene": settings.scene.dt,
+        "material": material.ok(),
+        "materials": materials.collect::<Vec<_>>(),
+        "is_saved": session.saved().is_some(),
+        "file": file, // for saved states
+    });
+    json!({ "setup": setup }).to_string().into()
+}
+
+/// Figures that change with each step.
+pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
+    let mesh = &session.geometry().mesh;
+    let (play, positions) = (session.play(), session.play().simulation().positions());
+    let figures = json!({
+        "frame": play.clock().frame(),
+        "time": play.clock().time(),
+        "paused": stats.paused,
+        "real_time": stats.real_time,
+        "replays": stats.replays,
+        "steps_per_second": stats.steps_per_second,
+        "newton_iterations": stats.newton_iterations,
+        "min_det_f": measure::min_det_f(&mesh.positions, positions, &mesh.tets),
+        "inverted": measure::inverted(&mesh.positions, positions, &mesh.tets),
+        "from_rest": measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
+        "elastic_energy": stats.energies.elastic,
+        "kinetic_energy": stats.energies.kinetic,
+        "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
+        "trouble": stats.trouble,
+    });
+    json!({ "figures": figures }).to_string().into()
+}
+
+/// The reason why an act was refused.
+pub(super) fn refused(act: &Act, reason: &str) -> Utf8Bytes {
+    json!({ "refused": { "act": act, "reason": reason } }).to_string().into()
+}

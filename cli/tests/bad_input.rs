@@ -1,0 +1,173 @@
+//! Whatever is wrong with the input, `piola` says what and how to mend it, ends with status 2 and writes
+//! nothing.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn piola(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+    command.current_dir(folder).args(arguments).output().expect("the command starts")
+}
+
+fn files_in(folder: &Path) -> Vec<PathBuf> {
+    fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect()
+}
+
+/// Runs `piola` in a folder with these files; `guilty` must all be in its message, and no file may be new.
+#[track_caller]
+fn check(files: &[(&str, String)], arguments: &[&str], guilty: &[&str]) {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content).expect("a scratch file");
+    }
+    let before = files_in(folder.path());
+    let output = piola(folder.path(), arguments);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    for word in guilty {
+        assert!(message.contains(word), "{arguments:?}: `{word}` is not in: {message}");
+    }
+    assert!(output.stdout.is_empty(), "{arguments:?} wrote to standard output");
+    assert_eq!(files_in(folder.path()), before, "{arguments:?} wrote files");
+}
+
+/// Gmsh text of a unit tetrahedron between these nodes.
+fn tetrahedron(nodes: [usize; 4]) -> String {
+    let [a, b, c, d] = nodes;
+    format!(
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\
+         $Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n\
+         $Elements\n1 1 7 7\n3 1 4 1\n7 {a} {b} {c} {d}\n$EndElements\n"
+    )
+}
+
+fn good_mesh() -> (&'static str, String) {
+    ("cage.msh", tetrahedron([1, 2, 3, 4]))
+}
+
+#[test]
+fn missing_mesh() {
+    check(&[], &["run", "horse", "--mesh", "cage.msh"], &["cage.msh", "cannot be read"]);
+    let files = [good_mesh()];
+    check(&files, &["run", "horse", "--mesh", "cage.msh", "--surface", "skin.obj"], &["skin.obj"]);
+}
+
+#[test]
+fn malformed_mesh_names_file_and_line() {
+    let mesh = tetrahedron([1, 2, 3, 4]).replace("0 1 0\n", "0 one 0\n");
+    check(&[("cage.msh", mesh)], &["run", "horse", "--mesh", "cage.msh"], &["cage.msh:13", "`one`"]);
+    let files = [good_mesh(), ("skin.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n".into())];
+    let arguments = ["run", "horse", "--mesh", "cage.msh", "--surface", "skin.obj"];
+    check(&files, &arguments, &["skin.obj:4", "9"]);
+}
+
+#[test]
+fn element_without_positive_volume_is_named() {
+    let inside_out = ("cage.msh", tetrahedron([1, 2, 4, 3]));
+    check(&[inside_out], &["run", "horse", "--mesh", "cage.msh"], &["cage.msh", "7", "volume"]);
+}
+
+#[test]
+fn surface_outside_the_cage() {
+    let files = [good_mesh(), ("skin.obj", "v 0 0 0\nv 1 0 0\nv 0 9 0\nf 1 2 3\n".into())];
+    let arguments = ["run", "horse", "--mesh", "cage.msh", "--surface", "skin.obj"];
+    check(&files, &arguments, &["skin.obj", "vertex 3", "outside"]);
+}
+
+#[test]
+fn unknown_names_are_answered_with_those_that_exist() {
+    check(&[], &["run", "hrose"], &["`hrose`", "`horse`", "`dinosaur`"]);
+    check(&[], &["run", "horse", "--body", "cow"], &["`cow`", "`horse`", "`bar`", "--mesh"]);
+    check(&[], &["run", "horse", "--material", "steel"], &["`steel`", "piola materials"]);
+    check(&[], &["run", "horse", "--param", "mue=1"], &["`mue`", "`mu`", "`lambda`"]);
+    check(&[], &["run", "horse", "--pin", "hoof"], &["`hoof`", "LOW:HIGH"]);
+    check(&[], &["run", "horse", "--pin", ":,90:,:"], &["`:,90:,:`", "no node"]);
+    check(&[], &["jump", "horse"], &["jump"]);
+}
+
+#[test]
+fn inadmissible_parameters() {
+    check(&[], &["run", "horse", "--param", "mu=NaN"], &["`mu`", "NaN", "finite"]);
+    check(&[], &["run", "horse", "--param", "mu=-1"], &["mu", "-1"]);
+    check(&[], &["run", "horse", "--param", "mu=1,2"], &["mu"]);
+    check(&[], &["run", "horse", "--param", "mu"], &["NAME=VALUE"]);
+    check(&[], &["run", "horse", "--material", "stvk", "--param", "mu=1"], &["`lambda`", "--param"]);
+    check(&[], &["run", "dinosaur", "--inversion", "1.5"], &["1.5", "epsilon"]);
+}
+
+#[test]
+fn numbers_out_of_range() {
+    for (option, value) in
+        [("--dt", "NaN"), ("--dt", "-1"), ("--dt", "0"), ("--density", "-2"), ("--density", "inf")]
+    {
+        check(&[], &["run", "horse", option, value], &[option, "positive"]);
+    }
+    check(&[], &["run", "horse", "--gravity", "NaN"], &["--gravity", "finite"]);
+    check(&[], &["run", "horse", "--frames", "0"], &["--frames", "at least 1"]);
+    check(&[], &["run", "horse", "--frames", "-3"], &["-3"]);
+    check(&[], &["run", "horse", "--threads", "100000"], &["--threads", "100000", "at most"]);
+}
+
+#[test]
+fn only_scenes_that_scramble_take_a_seed() {
+    check(&[], &["run", "horse", "--seed", "3"], &["`horse`", "--seed", "`scramble`"]);
+    check(&[], &["run", "point", "--amplitude", "1"], &["`point`", "--amplitude", "`scramble`"]);
+    check(&[], &["run", "scramble", "--amplitude", "far"], &["far", "`box`"]);
+    for amplitude in ["-1", "NaN", "inf"] {
+        check(&[], &["run", "scramble", "--amplitude", amplitude], &["--amplitude", "finite"]);
+    }
+}
+
+#[test]
+fn folder_that_cannot_be_written_to() {
+    let occupied = ("out", String::from("a file, not a folder"));
+    check(std::slice::from_ref(&occupied), &["run", "horse", "--frames", "1"], &["out", "--out"]);
+    check(&[occupied], &["run", "horse", "--frames", "1", "--out", "out/deeper"], &["out/deeper"]);
+}
+
+#[test]
+fn files_of_the_viewer_that_are_none() {
+    check(&[], &["view", "hrose"], &["`hrose`", "`horse`"]);
+    check(&[], &["view", "--load", "state.json"], &["state.json", "cannot be read"]);
+    check(&[], &["view", "dinosaur", "--load", "state.json"], &["leave out", "--load"]);
+    check(&[], &["view", "--load", "one", "--replay", "other"], &["--load", "--replay"]);
+    let state = ("state.json", String::from("{\"format\": \"piola state 0\"}"));
+    check(&[state], &["view", "--load", "state.json"], &["state.json", "piola state 0"]);
+    let recording = ("pulls.jsonl", String::from("{\"until\": {\"steps\": 1}}\n{\"until\": {}}\n"));
+    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl:2", "steps"]);
+    let recording = ("pulls.jsonl", String::new());
+    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
+    check(&[], &["view", "--port", "65536"], &["65536"]);
+}
+
+#[test]
+fn what_a_bench_cannot_do() {
+    let data = |text: &str| [("rubber.csv", text.to_owned())];
+    check(&[], &["curve", "ruber"], &["`ruber`", "piola materials"]);
+    check(&[], &["curve", "gent", "--param", "mue=1"], &["`mue`", "`jm`"]);
+    check(&[], &["curve", "gent", "--param", "mu=-1"], &["mu", "-1"]);
+    check(&[], &["curve", "gent", "--mode", "twist"], &["`twist`", "`pure_shear`"]);
+    check(&[], &["curve", "gent", "--from", "2", "--to", "1"], &["--to", "above --from"]);
+    check(&[], &["curve", "gent", "--from", "-1"], &["--from", "positive"]);
+    check(&[], &["fit", "gent"], &["--data"]);
+    check(&[], &["fit", "gent", "--data", "rubber.csv"], &["rubber.csv", "cannot be read", "treloar"]);
+    let arguments = ["fit", "gent", "--data", "rubber.csv"];
+    check(&data("mode,stretch\nuniaxial,2\n"), &arguments, &["rubber.csv:1", "nominal_stress_MPa"]);
+    let text = "mode,stretch,nominal_stress_kPa\nuniaxial,two,3\n";
+    check(&data(text), &arguments, &["rubber.csv:2", "`two`", "not a number"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--hold", "nu"], &["`nu`", "mu, jm, kappa"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--param", "jm=10"], &["λ = 3.57", "--param"]);
+    check(&[], &["fit", "stretch_spline", "--data", "treloar"], &["fit"]);
+    let text = "mode,stretch,nominal_stress_kPa\nuniaxial,2,300\n";
+    check(&data(text), &arguments, &["1 points", "--hold"]);
+}
+
+#[test]
+fn checks_of_nonsense() {
+    check(&[], &["check", "rubber"], &["no material `rubber`", "`neo_hookean_lnj`"]);
+    check(&[], &["check", "gent", "--param", "mue=1"], &["no parameter `mue`", "`mu`"]);
+    check(&[], &["check", "gent", "--param", "mu=-1"], &["mu > 0"]);
+    check(&[], &["check", "gent", "--from", "2"], &["from 2 to 3", "0 < from < 1 < to"]);
+    check(&[], &["check", "gent", "--resolution", "1"], &["resolution is 1", "2 to 400"]);
+}

@@ -1,0 +1,369 @@
+//! Materials of bodies, chosen by name. No other file here knows the catalogue.
+//!
+//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+//! incompressible rubberlike solids*, 1972.
+
+use std::collections::BTreeMap;
+
+use piola::Inversion;
+use piola::batch;
+use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
+use piola_laboratory::Specimen;
+use piola_laboratory::fit::Candidate;
+use piola_materials::{CATALOGUE, Entry, FittableVisitor, Visitor};
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+
+/// The stretch below which a material is extended unless its specification says otherwise.
+///
+/// Small enough that no body in equilibrium gets there, large enough that the extension's stiffness, of the
+/// order of μ/ε², does not swamp that of the body.
+pub const EXTENSION: f64 = 0.1;
+
+/// Small-strain moduli of most scenes: E = 1 MPa, ν = 0.45.
+#[must_use]
+pub fn soft_moduli() -> Moduli {
+    const YOUNG: f64 = 1e6;
+    const POISSON: f64 = 0.45;
+    Moduli {
+        mu: YOUNG / (2.0 * (1.0 + POISSON)),
+        lambda: YOUNG * POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON)),
+    }
+}
+
+/// Ogden's three exponents \[Ogden72\] with the shear modulus shared 0.6 : 0.2 : 0.2 among them.
+///
+/// The small-strain shear modulus is Σ μₚαₚ/2, so a term with the share s has μₚ = 2 s μ/αₚ; the bulk
+/// response is that of the first Lamé parameter. The third term, of which natural rubber has a fortieth,
+/// resists flattening.
+#[must_use]
+pub fn ogden(moduli: Moduli) -> MaterialSpec {
+    const EXPONENTS: [f64; 3] = [1.3, 5.0, -2.0];
+    const SHARES: [f64; 3] = [0.6, 0.2, 0.2];
+    let mu: [f64; 3] = std::array::from_fn(|p| 2.0 * SHARES[p] * moduli.mu / EXPONENTS[p]);
+    MaterialSpec::new("Ogden")
+        .with_parameter("mu", mu)
+        .with_parameter("alpha", EXPONENTS)
+        .with_parameter("kappa", [moduli.lambda])
+}
+
+/// A material of the catalogue with its parameters, not yet checked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialSpec {
+    material: String,
+    parameters: Vec<(String, Vec<f64>)>,
+    /// Small-strain moduli [μ, λ] that the parameters follow from if none is given.
+    #[serde(rename = "moduli")]
+    lame: Option<[f64; 2]>,
+    inversion: Option<StoredInversion>,
+}
+
+impl MaterialSpec {
+    /// The material of a name, still without parameters; ignores case, spaces, `_` and `-`.
+    #[must_use]
+    pub fn new(material: &str) -> Self {
+        Self { material: material.into(), parameters: Vec::new(), lame: None, inversion: None }
+    }
+
+    /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
+    /// catalogue, [matched](Entry::matching). A parameter that is given later on replaces them all, so that
+    /// the others must be given, too.
+    #[must_use]
+    pub fn matching(material: &str, moduli: Moduli) -> Self {
+        match same_name(material, "Ogden") {
+            true => ogden(moduli),
+            false => Self { lame: Some([moduli.mu, moduli.lambda]), ..Self::new(material) },
+        }
+    }
+
+    /// Gives a parameter its value, or several to a list; an earlier value of that name is replaced.
+    #[must_use]
+    pub fn with_parameter(mut self, parameter: &str, values: impl Into<Vec<f64>>) -> Self {
+        self.parameters.retain(|(name, _)| name != parameter);
+        self.parameters.push((parameter.into(), values.into()));
+        self
+    }
+
+    /// Chooses the behaviour outside of the domain; otherwise a material that can be extended is, below
+    /// [`EXTENSION`].
+    #[must_use]
+    pub fn with_inversion(mut self, inversion: Inversion) -> Self {
+        self.inversion = Some(match inversion {
+            Inversion::Refuse => StoredInversion::Refuse,
+            Inversion::Extend { epsilon } => StoredInversion::Extend(epsilon),
+        });
+        self
+    }
+
+    /// The material of a name with its typical parameters in the catalogue.
+    ///
+    /// # Errors
+    /// [`Error::UnknownMaterial`].
+    pub fn typical(material: &str) -> Result<Self, Error> {
+        let entry = find(material)?;
+        let parameters = entry.description.parameters.iter().zip(entry.typical);
+        Ok(parameters.fold(Self::new(entry.name), |spec, (parameter, values)| {
+            spec.with_parameter(parameter.name, *values)
+        }))
+    }
+
+    /// The specification with every parameter given, those that follow from moduli too.
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`].
+    pub fn explicit(&self) -> Result<Self, Error> {
+        let parameters = self.build()?.parameters.into_iter();
+        let parameters = parameters.map(|(name, values)| (name.to_owned(), values)).collect();
+        Ok(Self { parameters, lame: None, ..self.clone() })
+    }
+
+    /// Whether it is the material of a name, in either spelling of the catalogue.
+    #[must_use]
+    pub fn is(&self, material: &str) -> bool {
+        find(&self.material).is_ok_and(|entry| find(material).is_ok_and(|other| std::ptr::eq(entry, other)))
+    }
+
+    /// The declaration of the material in words.
+    ///
+    /// # Errors
+    /// [`Error::UnknownMaterial`].
+    pub fn description(&self) -> Result<&'static Description, Error> {
+        find(&self.material).map(|entry| &entry.description)
+    }
+
+    /// Values given for a parameter, several for a list; empty if none is given.
+    #[must_use]
+    pub fn values_of(&self, parameter: &str) -> &[f64] {
+        let given = self.parameters.iter().find(|(name, _)| name == parameter);
+        given.map_or(&[], |(_, values)| values)
+    }
+
+    /// Looks the material up and checks its parameters.
+    ///
+    /// # Errors
+    /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
+    /// [`Error::Inadmissible`].
+    pub fn build(&self) -> Result<MaterialInfo, Error> {
+        self.resolve(|entry, values, inversion| {
+            let names = entry.description.parameters.iter().map(|parameter| parameter.name);
+            Ok(MaterialInfo {
+                name: entry.name,
+                parameters: names.zip(values).map(|(name, values)| (name, values.to_vec())).collect(),
+                elements: entry.elements(values, inversion)?,
+                moduli: entry.moduli(values, inversion)?,
+            })
+        })
+    }
+
+    /// The material as a specimen of the laboratory, for test curves and their stability.
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`].
+    pub fn specimen(&self) -> Result<Box<dyn Specimen>, Error> {
+        self.resolve(|entry, values, inversion| entry.visit(values, inversion, Boxed))
+    }
+
+    /// The material as a candidate of the laboratory, for fits of its parameters.
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`], and [`Error::Inadmissible`] if the material has functions as parameters.
+    pub fn candidate(&self) -> Result<Box<dyn Candidate>, Error> {
+        self.resolve(|entry, values, inversion| entry.visit_fittable(values, inversion, Boxed))
+    }
+
+    /// Looks the material up, gives each parameter its values in the order of the declaration, and makes
+    /// something of them.
+    fn resolve<T>(
+        &self,
+        make: impl FnOnce(&'static Entry, &[&[f64]], Inversion) -> Result<T, Inadmissible>,
+    ) -> Result<T, Error> {
+        let entry = find(&self.material)?;
+        let refused = |source| Error::Inadmissible { material: entry.name, source };
+        let matched;
+        let values = match self.lame {
+            Some([mu, lambda]) if self.parameters.is_empty() => {
+                matched = entry.matching(Moduli { mu, lambda }).map_err(refused)?;
+                matched.iter().map(Vec::as_slice).collect()
+            }
+            _ => self.values(entry.name, &entry.description)?,
+        };
+        let inversion = match self.inversion {
+            Some(StoredInversion::Extend(epsilon)) => Inversion::Extend { epsilon },
+            None if entry.description.extends => Inversion::Extend { epsilon: EXTENSION },
+            _ => Inversion::Refuse,
+        };
+        make(entry, &values, inversion).map_err(refused)
+    }
+
+    /// The values in the order of the declaration.
+    fn values(&self, material: &'static str, description: &Description) -> Result<Vec<&[f64]>, Error> {
+        let known: Vec<_> = description.parameters.iter().map(|parameter| parameter.name).collect();
+        if let Some((parameter, _)) = self.parameters.iter().find(|(name, _)| !known.contains(&name.as_str()))
+        {
+            return Err(Error::UnknownParameter { material, parameter: parameter.clone(), known });
+        }
+        let value = |wanted: &str| {
+            self.parameters.iter().find(|(name, _)| name == wanted).map(|(_, values)| values.as_slice())
+        };
+        let missing: Vec<_> = known.iter().copied().filter(|name| value(name).is_none()).collect();
+        if missing.is_empty() {
+            Ok(known.into_iter().filter_map(value).collect())
+        } else {
+            Err(Error::MissingParameters { material, missing })
+        }
+    }
+}
+
+/// An inversion in files: `"refuse"` or `{"extend": STRETCH}`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum StoredInversion {
+    Refuse,
+    Extend(f64),
+}
+
+/// A material behind a pointer, whichever of the catalogue it is.
+struct Boxed;
+
+impl Visitor for Boxed {
+    type Output = Box<dyn Specimen>;
+
+    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+        Box::new(material)
+    }
+}
+
+impl FittableVisitor for Boxed {
+    type Output = Box<dyn Candidate>;
+
+    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
+        Box::new(material)
+    }
+}
+
+/// Values by the names of the parameters.
+pub type Parameters = BTreeMap<&'static str, Vec<f64>>;
+
+/// A material whose parameters have been checked.
+pub struct MaterialInfo {
+    /// Name in the catalogue.
+    pub name: &'static str,
+    /// All parameters.
+    pub parameters: Parameters,
+    /// The energy for the elements of a body.
+    pub elements: Box<dyn batch::TileMaterial<f64>>,
+    /// Small-strain moduli.
+    pub moduli: Moduli,
+}
+
+/// The entry of a name, in the catalogue's spelling or that of the declaration.
+fn find(material: &str) -> Result<&'static Entry, Error> {
+    let matches =
+        |entry: &&Entry| same_name(entry.name, material) || same_name(entry.description.name, material);
+    CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
+        name: material.into(),
+        known: CATALOGUE.iter().map(|entry| entry.name).collect(),
+    })
+}
+
+/// Whether two names agree in letters and digits, ignoring case.
+fn same_name(one: &str, other: &str) -> bool {
+    let letters = |name: &str| -> String {
+        name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    };
+    letters(one) == letters(other)
+}
+
+#[cfg(test)]
+mod tests {
+    use piola::material::Parameter;
+
+    use super::*;
+
+    const GENT: Description = Description {
+        name: "Gent",
+        summary: "Rubber that locks.",
+        formula: "…",
+        parameters: &[
+            Parameter { name: "mu", doc: "Shear modulus, Pa.", is_list: false },
+            Parameter { name: "jm", doc: "Where it locks.", is_list: false },
+        ],
+        domain: "J > 0",
+        extends: true,
+        refusal: None,
+        admissible: &[],
+        moduli: ["mu", "kappa"],
+    };
+
+    #[test]
+    fn most_bodies_are_as_stiff_as_said() {
+        assert_eq!(Moduli::from_young_poisson(1e6, 0.45), Ok(soft_moduli()));
+    }
+
+    #[test]
+    fn values_come_in_the_order_of_the_declaration() {
+        let energy = MaterialSpec::new("gent")
+            .with_parameter("jm", [3.0])
+            .with_parameter("mu", [1.0])
+            .with_parameter("mu", [2.0]);
+        assert_eq!(energy.values("gent", &GENT).ok(), Some(vec![&[2.0][..], &[3.0][..]]));
+    }
+
+    #[test]
+    fn energies_survive_being_written() -> Result<(), Box<dyn std::error::Error>> {
+        for inversion in [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }] {
+            let energy =
+                MaterialSpec::new("gent").with_parameter("mu", [0.1, 1e300]).with_inversion(inversion);
+            let text = serde_json::to_string(&energy)?;
+            assert_eq!(serde_json::from_str::<MaterialSpec>(&text)?, energy, "{text}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn unknown_and_missing_parameters_are_named() {
+        let message =
+            |energy: MaterialSpec| energy.values("gent", &GENT).err().map(|error| error.to_string());
+        assert_eq!(
+            message(MaterialSpec::new("gent").with_parameter("mue", [1.0])).as_deref(),
+            Some("gent has no parameter `mue`; it has `mu`, `jm`")
+        );
+        assert_eq!(
+            message(MaterialSpec::new("gent").with_parameter("mu", [1.0])).as_deref(),
+            Some("gent needs a value for `jm`")
+        );
+    }
+
+    #[test]
+    fn moduli_stand_in_for_parameters() {
+        for name in ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"] {
+            let moduli = MaterialSpec::matching(name, soft_moduli()).build().map(|info| info.moduli);
+            let error =
+                moduli.map(|moduli| (moduli.young() / 1e6 - 1.0).abs().max((moduli.poisson() - 0.45).abs()));
+            // A dozen roundings.
+            assert!(error.as_ref().is_ok_and(|&error| error < 1e-14), "{name}: {error:?}");
+        }
+        let matched = MaterialSpec::matching("gent", soft_moduli());
+        let explicit = matched.explicit();
+        assert!(explicit.as_ref().is_ok_and(|energy| energy.values_of("jm") == [108.0]), "{explicit:?}");
+        let moduli = |energy: &MaterialSpec| energy.build().ok().map(|info| info.moduli);
+        assert_eq!(explicit.ok().and_then(|energy| moduli(&energy)), moduli(&matched));
+        let incomplete =
+            MaterialSpec::matching("stvk", soft_moduli()).with_parameter("mu", [1.0]).build().err();
+        assert!(matches!(incomplete, Some(Error::MissingParameters { .. })), "{incomplete:?}");
+    }
+
+    #[test]
+    fn a_material_answers_to_both_its_names() {
+        let energy = MaterialSpec::new("stvk");
+        assert!(energy.is("StVK") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
+    }
+
+    #[test]
+    fn spelling_of_names_is_forgiven() {
+        assert!(same_name("Saint Venant–Kirchhoff", "saint-venant_kirchhoff"));
+        assert!(!same_name("neo-Hookean", "stable neo-Hookean"));
+    }
+}

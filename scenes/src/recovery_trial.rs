@@ -1,0 +1,71 @@
+//! A scene played to see whether the body recovers its shape, without files.
+
+use crate::error::Error;
+use crate::geometry::Geometry;
+use crate::measure;
+use crate::output::{FinalState, Summary};
+use crate::play::Play;
+use crate::settings::Settings;
+use crate::statics::find_equilibrium;
+
+/// A body has recovered once it was near rest for so many frames in a row: passing by does not count.
+const STAY: usize = 10;
+
+/// Outcome of a trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrialOutcome {
+    /// First frame from which on the body was near rest; `None` if it was not at the end.
+    pub recovered: Option<usize>,
+    /// Number of elements that were inside out before the first step.
+    pub inverted_at_start: usize,
+    /// Whether every position after every step was finite.
+    pub finite: bool,
+    /// The largest increase of what a step minimises, as a share of the energies before it and of Young's
+    /// modulus over the volume: rounding, or a mistake.
+    pub largest_rise: f64,
+    /// Equilibrium of a body that has not recovered.
+    pub final_state: Option<FinalState>,
+}
+
+/// Plays a scene on one thread, up to the settings' number of frames or until the body has recovered.
+///
+/// # Errors
+/// Those of [`Play::new`] and [`Play::step`], and [`Error::Equilibrium`].
+pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+    continue_trial(Play::new(settings, geometry)?, settings.frames, geometry)
+}
+
+/// Continues a scene on one thread, up to a number of frames or until the body has recovered.
+///
+/// # Errors
+/// Those of [`Play::step`], and [`Error::Equilibrium`].
+pub fn continue_trial(mut play: Play, frames: usize, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+    let mesh = &geometry.mesh;
+    let pinned = play.simulation().pinned().len();
+    let start = play.simulation().positions();
+    let mut outcome = TrialOutcome {
+        recovered: None,
+        inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
+        finite: true,
+        largest_rise: f64::NEG_INFINITY,
+        final_state: None,
+    };
+    let unit = play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets);
+    for frame in 1..=frames {
+        let before = play.simulation_mut().energies();
+        let report = play.step()?;
+        let energies = before.elastic.abs() + before.kinetic + before.springs + before.gravity.abs();
+        outcome.largest_rise = outcome.largest_rise.max(report.newton.change / (unit + energies));
+        let positions = play.simulation().positions();
+        outcome.finite &= positions.iter().flatten().all(|x| x.is_finite());
+        if measure::distance_from_rest(mesh, positions, pinned) > Summary::RECOVERED {
+            outcome.recovered = None;
+        } else if frame - *outcome.recovered.get_or_insert(frame) >= STAY {
+            break;
+        }
+    }
+    if outcome.recovered.is_none() {
+        outcome.final_state = Some(find_equilibrium(&mut play, mesh)?);
+    }
+    Ok(outcome)
+}

@@ -1,0 +1,58 @@
+//! The equilibrium in which a body that has not recovered comes to rest.
+
+use piola::mesh::TetMesh;
+use piola::step::{Convergence, Equilibrium, NewtonSettings, Stability};
+
+use crate::error::Error;
+use crate::measure;
+use crate::output::{FinalPlace, FinalState, Summary};
+use crate::play::Play;
+
+/// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the
+/// calls before.
+const CALLS: usize = 20;
+const ITERATIONS: usize = 10;
+
+/// Takes a body without inertia to the equilibrium that it is drawn to, and examines it there.
+///
+/// # Errors
+/// [`Error::Equilibrium`] if a force is not finite or memory does not suffice.
+pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh) -> Result<FinalState, Error> {
+    let simulation = play.simulation_mut();
+    let settings = *simulation.settings();
+    let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
+    simulation.set_settings(settings.with_newton(newton))?;
+    let mut newton_iterations = 0;
+    for _ in 0..CALLS {
+        // If statics fails, the body stays where it is and is examined there.
+        let Ok(report) = simulation.equilibrate() else { break };
+        newton_iterations += report.newton.iterations;
+        if report.newton.convergence != Convergence::Limit {
+            break;
+        }
+    }
+    simulation.set_settings(settings)?;
+
+    let found = Equilibrium::of(simulation)?;
+    let pinned = simulation.pinned().len();
+    let max_distance_from_rest = measure::distance_from_rest(mesh, simulation.positions(), pinned);
+    let place = match found.stability() {
+        _ if max_distance_from_rest <= Summary::RECOVERED => FinalPlace::Rest,
+        Stability::Unbalanced => FinalPlace::NotAtRest,
+        Stability::Stable => FinalPlace::StableElsewhere,
+        Stability::Saddle => FinalPlace::Saddle,
+        Stability::Undecided => FinalPlace::UndecidedElsewhere,
+    };
+    Ok(FinalState {
+        place,
+        max_distance_from_rest,
+        residual: found.residual,
+        relative_residual: found.residual / found.largest_force.max(f64::MIN_POSITIVE),
+        stress_free: found.is_stress_free(),
+        smallest_eigenvalue: found.smallest_eigenvalue.map(|eigenvalue| eigenvalue.value),
+        eigenvalue_error: found.smallest_eigenvalue.map(|eigenvalue| eigenvalue.error),
+        inverted: found.inverted,
+        smallest_sum: found.smallest_sum,
+        newton_iterations,
+    })
+}
