@@ -8,12 +8,11 @@ use piola::material;
 ///
 /// Carroll, *A Strain Energy Function for Vulcanized Rubbers*, 2011. The source is incompressible; the last term, of
 /// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined for J > 0.
-///
-/// Typical: `a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 #[material(
     domain(J > 0.0),
     admissible(a >= 0.0, b >= 0.0, c >= 0.0, kappa > 0.0),
     refuse("√I2 has a kink where two stretches vanish"),
+    typical("natural rubber, fitted to Treloar 1944", a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7),
     fit
 )]
 pub fn Carroll(

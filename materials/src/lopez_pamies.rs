@@ -12,19 +12,18 @@ use piola::material;
 /// threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ > 0 and αₚ ≥ 1: the continued I1b
 /// vanishes at F = 0, where a lesser power has no second derivative. For αₚ < 2 the tangent at F = 0 itself cannot be
 /// computed, and the status of that point is not finite.
-///
-/// Typical: `mu = [3.53e5, 15.9], alpha = [1.0, 4.45], kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
 #[material(
     domain(J > 0.0),
     admissible(alpha[p] != 0.0, kappa > 0.0),
     extend(mu[p] > 0.0, alpha[p] >= 1.0),
+    typical("natural rubber, fitted to Treloar 1944", mu = [3.53e5, 15.9], alpha = [1.0, 4.45], kappa = 2e7),
     fit
 )]
 pub fn LopezPamies<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /// Moduli μₚ, Pa.
     mu: [f64; N],
-    /// Exponents αₚ.
+    /// Exponents αₚ, dimensionless.
     alpha: [f64; N],
     /// Bulk modulus κ, Pa.
     kappa: f64,

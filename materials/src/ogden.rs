@@ -11,15 +11,21 @@ use piola::material;
 /// −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of volume. κ is the first Lamé
 /// parameter at small strain. Defined for J > 0; continued below a threshold stretch with
 /// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ αₚ < 0 would attract collapse.
-///
-/// Typical: `mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7`, natural rubber, the three terms of the
-/// source.
-#[material(domain(J > 0.0), admissible(alpha[p] != 0.0), extend(mu[p] * alpha[p] > 0.0, kappa >= 0.0), fit)]
+#[material(
+    domain(J > 0.0),
+    admissible(alpha[p] != 0.0),
+    extend(mu[p] * alpha[p] > 0.0, kappa >= 0.0),
+    typical(
+        "natural rubber, the three terms of the source",
+        mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7
+    ),
+    fit
+)]
 pub fn Ogden<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /// Moduli μₚ, Pa.
     mu: [f64; N],
-    /// Exponents αₚ.
+    /// Exponents αₚ, dimensionless.
     alpha: [f64; N],
     /// Volumetric modulus κ, Pa.
     kappa: f64,

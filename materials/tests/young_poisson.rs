@@ -65,15 +65,16 @@ fn materials_are_as_stiff_as_asked() -> Result<(), Inadmissible> {
     check(|young, poisson| Yeoh::from_young_poisson(young, poisson, -1.46e3, 40.4))
 }
 
-/// Parameters that are differences of moduli, one of them with a constant, and names of what is emitted.
+/// Parameters that are differences of moduli, one of them with a constant, and names of what is emitted. Without units, since the
+/// constant has one.
 #[material(domain(J > 0.0))]
 pub fn Own(
     [l1, l2, l3]: [f64; 3],
-    /// A quarter of the shear modulus, less 3 Pa.
+    /// A quarter of the shear modulus, less 3.
     c: f64,
     /// Stiffening.
     young: f64,
-    /// First Lamé parameter less 4/3 of the shear modulus, Pa.
+    /// First Lamé parameter less 4/3 of the shear modulus.
     a: f64,
 ) -> f64 {
     let shear = c + 3.0;

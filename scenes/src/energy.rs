@@ -97,7 +97,7 @@ impl Energy {
     /// Where there is no such material.
     pub fn typical(material: &str) -> Result<Self, Error> {
         let entry = find(material)?;
-        let parameters = entry.description.parameters.iter().zip(entry.typical);
+        let parameters = entry.description.parameters.iter().zip(entry.typical());
         Ok(parameters
             .fold(Self::of(entry.name), |energy, (parameter, values)| energy.with(parameter.name, *values)))
     }
@@ -271,7 +271,7 @@ pub fn pages() -> impl Iterator<Item = Page<'static>> {
     CATALOGUE.iter().map(|entry| Page {
         name: entry.name,
         description: &entry.description,
-        typical: entry.typical,
+        typical: entry.typical(),
     })
 }
 
@@ -292,7 +292,7 @@ impl fmt::Display for Page<'_> {
         writeln!(f, "{name}\n  {summary}")?;
         writeln!(f, "  ψ = {formula}")?;
         for parameter in *parameters {
-            let list = if parameter.is_list { " One for each term." } else { "" };
+            let list = if parameter.is_list() { " One for each term." } else { "" };
             writeln!(f, "  {:12} {}{list}", parameter.name, parameter.doc)?;
         }
         if !admissible.is_empty() {
@@ -377,7 +377,7 @@ fn same_name(one: &str, other: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use piola::material::Parameter;
+    use piola::material::{Form, Parameter, Unit};
 
     use super::*;
 
@@ -386,14 +386,15 @@ mod tests {
         summary: "Rubber that locks.",
         formula: "…",
         parameters: &[
-            Parameter { name: "mu", doc: "Shear modulus, Pa.", is_list: false },
-            Parameter { name: "jm", doc: "Where it locks.", is_list: false },
+            Parameter { name: "mu", doc: "Shear modulus, Pa.", unit: Some(Unit::Pascal), form: Form::Number },
+            Parameter { name: "jm", doc: "Where it locks.", unit: None, form: Form::Number },
         ],
         domain: "J > 0",
         extends: true,
         refusal: None,
         admissible: &[],
         moduli: ["mu", "kappa"],
+        typical: None,
     };
 
     #[test]
@@ -432,7 +433,9 @@ mod tests {
 
     #[test]
     fn moduli_stand_in_for_parameters() {
-        for name in ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"] {
+        for name in
+            ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "st_venant_kirchhoff"]
+        {
             let moduli = Energy::like(name, soft()).build().map(|substance| substance.moduli);
             let error =
                 moduli.map(|moduli| (moduli.young() / 1e6 - 1.0).abs().max((moduli.poisson() - 0.45).abs()));
@@ -444,13 +447,13 @@ mod tests {
         assert!(explicit.as_ref().is_ok_and(|energy| energy.values_of("jm") == [108.0]), "{explicit:?}");
         let moduli = |energy: &Energy| energy.build().map(|substance| substance.moduli);
         assert_eq!(explicit.and_then(|energy| moduli(&energy)), moduli(&matched));
-        let incomplete = Energy::like("stvk", soft()).with("mu", [1.0]).build().err();
+        let incomplete = Energy::like("st_venant_kirchhoff", soft()).with("mu", [1.0]).build().err();
         assert!(matches!(incomplete, Some(Error::MissingParameters { .. })), "{incomplete:?}");
     }
 
     #[test]
     fn a_material_answers_to_both_its_names() {
-        let energy = Energy::of("stvk");
+        let energy = Energy::of("st_venant_kirchhoff");
         assert!(energy.is("StVK") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
     }
 

@@ -77,7 +77,7 @@ fn run() -> Result<usize, String> {
     let mut work = Vec::new();
     for entry in CATALOGUE {
         let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|&(_, values)| values);
-        for values in std::iter::once(entry.typical).chain(others) {
+        for values in std::iter::once(entry.typical()).chain(others) {
             work.extend([Inversion::Refuse, EXTEND].map(|inversion| (entry, values, inversion)));
         }
     }

@@ -62,7 +62,7 @@ fn what_is_inside_out_turns_if_its_energy_knows() -> Result<(), Error> {
     for body in [body::HORSE, body::DINOSAUR] {
         let neo_hookean = play(&INSIDE_OUT, body, "stable neo-Hookean", INSIDE_OUT.start, Newton::Single)?;
         assert!(neo_hookean.recovered.is_some(), "{}: {neo_hookean:?}", body.name);
-        let kirchhoff = play(&INSIDE_OUT, body, "stvk", INSIDE_OUT.start, Newton::Single)?;
+        let kirchhoff = play(&INSIDE_OUT, body, "st_venant_kirchhoff", INSIDE_OUT.start, Newton::Single)?;
         assert!(kirchhoff.recovered.is_none(), "{}: {kirchhoff:?}", body.name);
         let standing = kirchhoff.standing.expect("it is not back");
         assert_eq!((standing.place, standing.stress_free), (Place::StableElsewhere, true), "{standing:?}");

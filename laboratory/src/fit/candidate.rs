@@ -57,7 +57,7 @@ impl Numbers {
         let lists = candidate.values();
         let parameters = candidate.description().parameters;
         let names = parameters.iter().zip(&lists).flat_map(|(parameter, list)| {
-            (1..=list.len()).map(|entry| match parameter.is_list {
+            (1..=list.len()).map(|entry| match parameter.is_list() {
                 true => format!("{}_{entry}", parameter.name),
                 false => parameter.name.to_owned(),
             })

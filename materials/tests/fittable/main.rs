@@ -25,7 +25,7 @@ const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
 /// Typical parameters, but none zero, where steps relative to it would be none and conditions often end.
 fn values(entry: &Entry) -> Vec<Vec<f64>> {
     let nonzero = |&value: &f64| if value == 0.0 { 0.5 } else { value };
-    entry.typical.iter().map(|list| list.iter().map(nonzero).collect()).collect()
+    entry.typical().iter().map(|list| list.iter().map(nonzero).collect()).collect()
 }
 
 fn visit<V: FittableVisitor>(

@@ -81,7 +81,7 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
     let parameter = |parameter: &'static piola::material::Parameter| Parameter {
         name: parameter.name,
         doc: parameter.doc,
-        is_list: parameter.is_list,
+        is_list: parameter.is_list(),
         values: settings.energy.values_of(parameter.name),
     };
     let material = settings.energy.description().map(|description| Material {

@@ -8,6 +8,8 @@ use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::nearest;
 
+use super::typical::Typical;
+
 /// The arguments of the attribute.
 #[derive(Default)]
 pub struct Options {
@@ -19,6 +21,8 @@ pub struct Options {
     pub extend: Option<Vec<Expr>>,
     /// Why there is no extension.
     pub refuse: Option<LitStr>,
+    /// Parameters of some real material.
+    pub typical: Option<Typical>,
     /// The rest state is meant to carry stress.
     pub prestressed: bool,
     /// Derivatives by the parameters are asked for.
@@ -28,11 +32,12 @@ pub struct Options {
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 6] = [
+const FORMS: [(&str, &str); 7] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
+    ("typical", "typical(\"natural rubber\", mu = 4e5)"),
     ("prestressed", "prestressed"),
     ("fit", "fit"),
 ];
@@ -64,6 +69,7 @@ impl Options {
             ("extend", Meta::List(list)) => self.extend = Some(comparisons(&list.tokens, diagnostics)),
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
+            ("typical", Meta::List(list)) => self.typical = Typical::read(name, &list.tokens, diagnostics),
             ("prestressed", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
             (text, _) => {

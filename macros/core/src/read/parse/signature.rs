@@ -9,7 +9,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// What every material has by name, which a parameter's own method would hide.
-const MEMBERS: [&str; 31] = [
+const MEMBERS: [&str; 33] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -37,6 +37,8 @@ const MEMBERS: [&str; 31] = [
     // Of `Fittable`.
     "values",
     "gradient_by_parameters",
+    "constraints",
+    "domain_constraints",
     // Of `Varying`.
     "energy_of",
     "gradient_of",
