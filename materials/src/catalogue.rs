@@ -35,8 +35,9 @@ pub trait FittableVisitor {
     fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output;
 }
 
-/// Declares the energies of the crate: for each its feature, its file, its type with the lengths that its lists may have at run
-/// time, and whether it is `without fit`, the derivatives with respect to its parameters.
+/// Declares the energies of the crate: for each its feature, its file, its type with the lengths that its
+/// lists may have at run time, and whether it is `without fit`, the derivatives with respect to its
+/// parameters.
 macro_rules! catalogue {
     ($($feature:literal $module:ident::$Material:ident $(<$($length:literal),+>)? $(without $fit:ident)?,)+) => {
         $(
@@ -75,7 +76,8 @@ macro_rules! catalogue {
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// [`Inadmissible`] if the constructor of the material refuses, or a list is longer than the catalogue provides for.
+            /// [`Inadmissible`] if the constructor of the material refuses, or a list is longer than the
+            /// catalogue provides for.
             pub fn visit<V: Visitor>(
                 &self,
                 values: &[&[f64]],
@@ -91,12 +93,14 @@ macro_rules! catalogue {
                 )+}
             }
 
-            /// Builds the material and shows it to the visitor, together with its derivatives with respect to the parameters.
+            /// Builds the material and shows it to the visitor, together with its derivatives with respect to
+            /// the parameters.
             ///
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// Those of [`Entry::visit`], and [`Inadmissible::NotFittable`] if a parameter is a function.
+            /// [`Inadmissible`], see [`Entry::visit`]; [`Inadmissible::NotFittable`] if a parameter is a
+            /// function.
             pub fn visit_fittable<V: FittableVisitor>(
                 &self,
                 values: &[&[f64]],
@@ -154,7 +158,8 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
-    /// Typical parameters as declared: one slice for each parameter of the description, in its order, in SI units.
+    /// Typical parameters as declared: one slice for each parameter of the description, in its order, in SI
+    /// units.
     ///
     /// The constructor accepts them, and the extension where there is one.
     #[must_use]
@@ -165,7 +170,7 @@ impl Entry {
     /// The material for the elements of a body: dispatched once for each block of them.
     ///
     /// # Errors
-    /// Those of [`Entry::visit`].
+    /// [`Inadmissible`], see [`Entry::visit`].
     pub fn elements(
         &self,
         values: &[&[f64]],
@@ -184,7 +189,7 @@ impl Entry {
     /// Small-strain moduli, Pa.
     ///
     /// # Errors
-    /// Those of [`Entry::visit`].
+    /// [`Inadmissible`], see [`Entry::visit`].
     pub fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, Inadmissible> {
         struct Small;
         impl Visitor for Small {

@@ -6,8 +6,8 @@ use piola::material;
 ///
 /// ψ = c1 (I1 − 3) + c2 (I2 − 3) + a (J² − 1) − (2 c1 + 4 c2 + 2 a) ln J.
 ///
-/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
+/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982. Defined
+/// for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
 #[material(
     domain(J > 0.0),
     admissible(c1 >= 0.0, c2 >= 0.0, a >= 0.0),

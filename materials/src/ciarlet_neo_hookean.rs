@@ -6,8 +6,9 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1 − 3) + λ/4 (J² − 1) − (λ/2 + μ) ln J.
 ///
-/// Ciarlet, *Mathematical Elasticity I*, 1988, ch. 4, for the volumetric part a J² − b ln J, which makes ψ polyconvex.
-/// Defined for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
+/// Ciarlet, *Mathematical Elasticity I*, 1988, ch. 4, for the volumetric part a J² − b ln J, which makes ψ
+/// polyconvex. Defined for J > 0; continued below a threshold stretch with
+/// [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),

@@ -6,9 +6,9 @@ use piola::material;
 ///
 /// ψ = μ/k (exp(k ‖dev ln V‖²) − 1) + κ/(2k̂) (exp(k̂ (ln J)²) − 1) with ‖dev ln V‖² = Σ (ln λi − ln J/3)².
 ///
-/// Neff, Ghiba, Lankeit, *The exponentiated Hencky-logarithmic strain energy. Part I: Constitutive issues and rank-one
-/// convexity*, 2015; the constants are taken off, so that ψ vanishes at rest. Defined for J > 0. Far from rest the
-/// exponentials leave the range of the numbers, and the status of the point says so.
+/// Neff, Ghiba, Lankeit, *The exponentiated Hencky-logarithmic strain energy. Part I: Constitutive issues and
+/// rank-one convexity*, 2015; the constants are taken off, so that ψ vanishes at rest. Defined for J > 0. Far
+/// from rest the exponentials leave the range of the numbers, and the status of the point says so.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, k > 0.0, kappa > 0.0, k_hat > 0.0),

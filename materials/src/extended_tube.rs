@@ -7,9 +7,9 @@ use piola::material;
 /// ψ = Gc/2 ((1 − δ²) D/(1 − δ² D) + ln(1 − δ² D)) + 2 Ge/β² Σ (λ̄i^(−β) − 1) + κ/2 ((J² − 1)/2 − ln J)
 /// with D = I1b − 3 and λ̄i = J^(−1/3) λi.
 ///
-/// Kaliske, Heinrich, *An extended tube-model for rubber elasticity: statistical-mechanical theory and finite element
-/// implementation*, 1999. The source leaves the volumetric part open; this one is that of Simo, Hughes, *Computational
-/// Inelasticity*, 1998, §9.2. Defined for J > 0 and δ² D < 1.
+/// Kaliske, Heinrich, *An extended tube-model for rubber elasticity: statistical-mechanical theory and finite
+/// element implementation*, 1999. The source leaves the volumetric part open; this one is that of Simo,
+/// Hughes, *Computational Inelasticity*, 1998, §9.2. Defined for J > 0 and δ² D < 1.
 #[material(
     domain(J > 0.0, delta * delta * (I1b - 3.0) < 1.0),
     admissible(gc >= 0.0, ge >= 0.0, beta > 0.0, kappa > 0.0),

@@ -6,8 +6,8 @@ use piola::material;
 ///
 /// ψ = μ Σ (λi − 1)² + λ/2 (J − 1)².
 ///
-/// Stomakhin, Howes, Schroeder, Teran, *Energetically consistent invertible elasticity*, 2012, eq. 7. Defined for every
-/// deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
+/// Stomakhin, Howes, Schroeder, Teran, *Energetically consistent invertible elasticity*, 2012, eq. 7. Defined
+/// for every deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
 #[material(
     admissible(mu > 0.0),
     typical(

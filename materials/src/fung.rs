@@ -6,8 +6,9 @@ use piola::material;
 ///
 /// ψ = c/2 (e^Q − 1) with Q = a1 (Σ Ei)² + a2 Σ Ei² and Ei = (λi² − 1)/2.
 ///
-/// Fung, *Biomechanics: Mechanical Properties of Living Tissues*, 2nd ed. 1993, §7.10, in its isotropic form. Defined for every
-/// deformation; the exponential leaves the range of the numbers at moderate strain, and the status of the point says so.
+/// Fung, *Biomechanics: Mechanical Properties of Living Tissues*, 2nd ed. 1993, §7.10, in its isotropic form.
+/// Defined for every deformation; the exponential leaves the range of the numbers at moderate strain, and the
+/// status of the point says so.
 #[material(
     admissible(c > 0.0),
     typical(

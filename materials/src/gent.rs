@@ -6,9 +6,10 @@ use piola::material;
 ///
 /// ψ = −μ Jm/2 ln(1 − (I1 − 3)/Jm) − μ ln J + κ/2 (J − 1)².
 ///
-/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is incompressible, and the
-/// others free the rest state of stress and penalise changes of volume. Defined for J > 0 and I1 − 3 < Jm; the first of
-/// these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0, the second stays.
+/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is
+/// incompressible, and the others free the rest state of stress and penalise changes of volume. Defined for J
+/// > 0 and I1 − 3 < Jm; the first of these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend)
+/// if κ ≥ 0, the second stays.
 #[material(
     domain(J > 0.0, I1 - 3.0 < jm),
     admissible(mu > 0.0, jm > 0.0),

@@ -6,9 +6,10 @@ use piola::material;
 ///
 /// ψ = −μ Jm/2 ln(1 − (I1b − 3)/Jm) + c2 ln(I2b/3) + κ/2 ((J² − 1)/2 − ln J).
 ///
-/// Pucci, Saccomandi, *A note on the Gent model for rubber-like materials*, 2002, named and fitted by Ogden, Saccomandi,
-/// Sgura, *Fitting hyperelastic models to experimental data*, 2004. The source is incompressible; the last term, of Simo,
-/// Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined for J > 0 and I1b − 3 < Jm.
+/// Pucci, Saccomandi, *A note on the Gent model for rubber-like materials*, 2002, named and fitted by Ogden,
+/// Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004. The source is incompressible;
+/// the last term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume.
+/// Defined for J > 0 and I1b − 3 < Jm.
 #[material(
     domain(J > 0.0, I1b - 3.0 < jm),
     admissible(mu > 0.0, jm > 0.0, c2 >= 0.0, kappa > 0.0),

@@ -6,9 +6,10 @@ use piola::material;
 ///
 /// ψ = μ Σ (ln λi)² + λ/2 (ln J)².
 ///
-/// Hencky, *Über die Form des Elastizitätsgesetzes bei ideal elastischen Stoffen*, 1928; Xiao, Chen, *Hencky's elasticity
-/// model and linear stress-strain relations in isotropic finite hyperelasticity*, 2002. Defined for J > 0; continued below
-/// a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend).
+/// Hencky, *Über die Form des Elastizitätsgesetzes bei ideal elastischen Stoffen*, 1928; Xiao, Chen,
+/// *Hencky's elasticity model and linear stress-strain relations in isotropic finite hyperelasticity*, 2002.
+/// Defined for J > 0; continued below a threshold stretch with
+/// [`Inversion::Extend`](piola::Inversion::Extend).
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),

@@ -6,8 +6,9 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1b − 3) + κ/2 ((J² − 1)/2 − ln J).
 ///
-/// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2. Defined for J > 0; continued below a threshold stretch with
-/// [`Inversion::Extend`](piola::Inversion::Extend), since −ln J pushes even a collapsed point open.
+/// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2. Defined for J > 0; continued below a threshold
+/// stretch with [`Inversion::Extend`](piola::Inversion::Extend), since −ln J pushes even a collapsed point
+/// open.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, kappa > 0.0),

@@ -1,5 +1,6 @@
 //! A catalogue of isotropic hyperelastic energies, each declared once with
-//! [`#[piola::material]`](macro@piola::material), one file each: citation, formula, domain, deviation from the source.
+//! [`#[piola::material]`](macro@piola::material), one file each: citation, formula, domain, deviation from
+//! the source.
 //!
 //! Each energy is a type with a checked constructor; all of them can also be chosen by name at run time, from
 //! [`CATALOGUE`].
@@ -18,26 +19,29 @@
 //!
 //! # Energies
 //!
-//! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and says whether it extends
-//! beyond J > 0. Each energy has a cargo feature, and all are on by default. A program that needs one compiles one:
+//! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and says
+//! whether it extends beyond J > 0. Each energy has a cargo feature, and all are on by default. A program
+//! that needs one compiles one:
 //!
 //! ```toml
 //! piola-materials = { version = "0.1", default-features = false, features = ["neo-hookean"] }
 //! ```
 //!
-//! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend); some only for
-//! parameters with which the extension restores, as each says. A point of one that extends comes back from every inverted
-//! or collapsed state that was tried if ε is small enough for how incompressible it is: where −ln J alone keeps the volume
-//! from vanishing, in `ciarlet_geymonat`, `ciarlet_neo_hookean` and those with an isochoric part, an ε above about 2μ/κ
-//! leaves a second equilibrium, a wide disc of hardly any thickness.
+//! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend);
+//! some only for parameters with which the extension restores, as each says. A point of one that extends
+//! comes back from every inverted or collapsed state that was tried if ε is small enough for how
+//! incompressible it is: where −ln J alone keeps the volume from vanishing, in `ciarlet_geymonat`,
+//! `ciarlet_neo_hookean` and those with an isochoric part, an ε above about 2μ/κ leaves a second equilibrium,
+//! a wide disc of hardly any thickness.
 //!
 //! # Typical parameters
 //!
-//! Each energy is declared with parameters of some real material and their source; [`Entry::typical`] has them for programs.
-//! Those *fitted to Treloar 1944* are least squares of the relative difference between the nominal stresses of the
-//! incompressible solid and those that Treloar, *Stress-strain data for vulcanised rubber under various types of
-//! deformation*, Trans. Faraday Soc. 40, 1944, measured in uniaxial tension, equibiaxial tension and pure shear. With
-//! them goes a bulk modulus of 20 MPa, Poisson's ratio 0.49, as is common in simulation; rubber itself has about 2 GPa.
+//! Each energy is declared with parameters of some real material and their source; [`Entry::typical`] has
+//! them for programs. Those *fitted to Treloar 1944* are least squares of the relative difference between the
+//! nominal stresses of the incompressible solid and those that Treloar, *Stress-strain data for vulcanised
+//! rubber under various types of deformation*, Trans. Faraday Soc. 40, 1944, measured in uniaxial tension,
+//! equibiaxial tension and pure shear. With them goes a bulk modulus of 20 MPa, Poisson's ratio 0.49, as is
+//! common in simulation; rubber itself has about 2 GPa.
 //!
 //! The crate holds no derivative and no algorithm: those come from the macro and from `piola`.
 

@@ -5,15 +5,17 @@ use piola::material::{Inadmissible, Moduli};
 
 use crate::Entry;
 
-/// The shear modulus does not depend on a parameter that changes it by no more than this share: a few roundings.
+/// The shear modulus does not depend on a parameter that changes it by no more than this share: a few
+/// roundings.
 const ROUNDING: f64 = 1e-12;
 
 impl Entry {
     /// The typical parameters, rescaled to these small-strain moduli.
     ///
-    /// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is one and it can be;
-    /// then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for Young's modulus. An energy is
-    /// proportional to these together, so that its shape, exponents and limits included, stays that of the typical material.
+    /// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is
+    /// one and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for
+    /// Young's modulus. An energy is proportional to these together, so that its shape, exponents and limits
+    /// included, stays that of the typical material.
     ///
     /// ```
     /// use piola::Inversion;
@@ -30,7 +32,7 @@ impl Entry {
     /// ```
     ///
     /// # Errors
-    /// Where the material refuses its parameters, as for moduli that are not positive.
+    /// [`Inadmissible`] if the material refuses the parameters, as for moduli that are not positive.
     pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, Inadmissible> {
         let typical: Vec<Vec<f64>> = self.typical().iter().map(|values| values.to_vec()).collect();
         let values = self.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);

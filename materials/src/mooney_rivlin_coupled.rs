@@ -6,8 +6,8 @@ use piola::material;
 ///
 /// ψ = C10 (I1 − 3) + C01 (I2 − 3) − 2 (C10 + 2 C01) ln J + κ/2 (J − 1)².
 ///
-/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982, for the form; the
-/// volumetric part here is κ/2 (J − 1)². Defined for J > 0; continued below a threshold stretch
+/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982, for the
+/// form; the volumetric part here is κ/2 (J − 1)². Defined for J > 0; continued below a threshold stretch
 /// with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
 #[material(
     domain(J > 0.0),

@@ -6,8 +6,9 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
 ///
-/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
+/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined
+/// for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥
+/// 0.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),

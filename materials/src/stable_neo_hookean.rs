@@ -6,8 +6,8 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1 − 3) + λ/2 (J − a)² − μ/2 ln(I1 + 1) with a = 1 + μ/λ − μ/(4λ).
 ///
-/// Smith, de Goes, Kim, *Stable Neo-Hookean Flesh Simulation*, 2018, eq. 14, with the paper's raw μ and λ: at small strain
-/// the Lamé parameters are 3μ/4 and λ − 5μ/8. The energy of the rest state is not zero.
+/// Smith, de Goes, Kim, *Stable Neo-Hookean Flesh Simulation*, 2018, eq. 14, with the paper's raw μ and λ: at
+/// small strain the Lamé parameters are 3μ/4 and λ − 5μ/8. The energy of the rest state is not zero.
 #[material(
     admissible(mu > 0.0, lambda > 0.0),
     typical(

@@ -6,11 +6,12 @@ use piola::material;
 ///
 /// ψ = Σₚ 2μₚ/αₚ² (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3 + (J^(−αₚβₚ) − 1)/βₚ).
 ///
-/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for compressible rubberlike
-/// solids*, 1972; in this form Storåkers, *On material representation and constitutive branching in finite compressible
-/// elasticity*, 1986. Σ μₚ is the shear modulus; with one term, β/(1 + 2β) is Poisson's ratio. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ > 0, αₚ ≥ 2 and
-/// βₚ > 0: a positive power of a negative J would let ψ fall without bound.
+/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+/// compressible rubberlike solids*, 1972; in this form Storåkers, *On material representation and
+/// constitutive branching in finite compressible elasticity*, 1986. Σ μₚ is the shear modulus; with one term,
+/// β/(1 + 2β) is Poisson's ratio. Defined for J > 0; continued below a threshold stretch with
+/// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ > 0, αₚ ≥ 2 and βₚ > 0: a positive power of a
+/// negative J would let ψ fall without bound.
 #[material(
     domain(J > 0.0),
     admissible(alpha[p] != 0.0, beta[p] != 0.0),

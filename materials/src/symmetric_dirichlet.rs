@@ -6,9 +6,9 @@ use piola::material;
 ///
 /// ψ = μ/2 Σ (λi² + λi⁻² − 2).
 ///
-/// Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015, §3, in three dimensions. Even in each
-/// stretch, and defined wherever none is zero: it separates inverted elements from others by an infinite barrier, which
-/// [`Inversion::Extend`](piola::Inversion::Extend) opens.
+/// Smith, Schaefer, *Bijective parameterization with free boundaries*, 2015, §3, in three dimensions. Even in
+/// each stretch, and defined wherever none is zero: it separates inverted elements from others by an infinite
+/// barrier, which [`Inversion::Extend`](piola::Inversion::Extend) opens.
 #[material(
     domain(J != 0.0),
     admissible(mu > 0.0),

@@ -6,9 +6,9 @@ use piola::material;
 ///
 /// ψ = 2μ (λ1 + λ2 + λ3 − 3) − 2μ ln J + κ/2 (J − 1)².
 ///
-/// Varga, *Stress-Strain Behavior of Elastic Materials*, 1966, for the first term; the source is incompressible, and the others
-/// free the rest state of stress and penalise changes of volume. Defined for J > 0; continued
-/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
+/// Varga, *Stress-Strain Behavior of Elastic Materials*, 1966, for the first term; the source is
+/// incompressible, and the others free the rest state of stress and penalise changes of volume. Defined for J
+/// > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),

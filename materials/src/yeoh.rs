@@ -6,7 +6,8 @@ use piola::material;
 ///
 /// ψ = Σₖ Cₖ (I1b − 3)ᵏ + κ/2 (J − 1)², k = 1, 2, 3.
 ///
-/// Yeoh, *Some Forms of the Strain Energy Function for Rubber*, 1993, eq. 5, in isochoric form. Defined for J > 0.
+/// Yeoh, *Some Forms of the Strain Energy Function for Rubber*, 1993, eq. 5, in isochoric form. Defined for J
+/// > 0.
 #[material(
     domain(J > 0.0),
     admissible(c1 > 0.0, kappa > 0.0),

@@ -1,4 +1,4 @@
-//! What a declaration says of itself, for programs that meet a material at run time.
+//! Descriptions of declared materials, for programs that choose one at run time.
 
 /// The texts and data of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,13 +11,13 @@ pub struct Description {
     pub formula: &'static str,
     /// The parameters in the order of the constructor.
     pub parameters: &'static [Parameter],
-    /// Where ψ is defined, such as `J > 0`.
+    /// The domain of ψ, such as `J > 0`.
     pub domain: &'static str,
     /// Whether the material can be built with [`Inversion::Extend`](super::Inversion::Extend).
     pub extends: bool,
-    /// Why not, if it cannot and the declaration says so.
+    /// The reason why it does not extend, if the declaration states one.
     pub refusal: Option<&'static str>,
-    /// What the parameters must satisfy beside being finite.
+    /// Conditions on the parameters, which must also be finite.
     pub admissible: &'static [&'static str],
     /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
     pub moduli: [&'static str; 2],
@@ -28,11 +28,12 @@ pub struct Description {
 /// A parameter of a declared energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// As in the declaration.
+    /// The name in the declaration.
     pub name: &'static str,
     /// Its documentation, units included.
     pub doc: &'static str,
-    /// The unit that its documentation states, as in `Shear modulus μ, Pa.`; of a function that of its values.
+    /// The unit that its documentation states, as in `Shear modulus μ, Pa.`; of a function that of its
+    /// values.
     pub unit: Option<Unit>,
     /// Its form as values at run time.
     pub form: Form,
@@ -45,9 +46,9 @@ impl Parameter {
         self.form != Form::Number
     }
 
-    /// Multiplies by powers of a factor what is in powers of Pa among the values of this parameter, so that an energy whose
-    /// parameters are all rescaled is multiplied by the factor. Gives whether that is known: the parameter has a unit, and a
-    /// function in Pa is given by points.
+    /// Multiplies by powers of a factor what is in powers of Pa among the values of this parameter, so that
+    /// an energy whose parameters are all rescaled is multiplied by the factor. Gives whether that is known:
+    /// the parameter has a unit, and a function in Pa is given by points.
     ///
     /// ```
     /// use piola::material::{Form, Parameter, Unit};
@@ -75,8 +76,8 @@ impl Parameter {
 
 /// Units that the documentation of a parameter can end with.
 ///
-/// `#[piola::material]` checks that ψ is in Pa, as far as its parameters have units. Without one nothing is checked, and
-/// nothing can be derived from it.
+/// `#[piola::material]` checks that ψ is in Pa, as far as its parameters have units. Without one nothing is
+/// checked, and nothing can be derived from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unit {

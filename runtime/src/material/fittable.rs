@@ -4,7 +4,8 @@ use super::Declared;
 
 /// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
 ///
-/// The derivatives come from the expressions that all others come from; without the word nothing is generated.
+/// The derivatives come from the expressions that all others come from; without the word nothing is
+/// generated.
 ///
 /// ```
 /// use piola::material;
@@ -45,14 +46,16 @@ pub trait Fittable: Declared {
     /// [`Declared::from_values`] takes them.
     fn values(&self) -> Vec<Vec<f64>>;
 
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of [`values`](Fittable::values), lists
-    /// entry by entry. Pa for each unit of p.
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
+    /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p.
     ///
-    /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are meaningless and may be NaN.
+    /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
+    /// meaningless and may be NaN.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
 
-    /// The conditions that the constructor checks, apart from finite values and `!=`: the comparisons of `admissible(…)`, one
-    /// for each entry where they are on entries, and positive moduli at rest unless the material is `prestressed`.
+    /// The conditions that the constructor checks, apart from finite values and `!=`: the comparisons of
+    /// `admissible(…)`, one for each entry where they are on entries, and positive moduli at rest unless the
+    /// material is `prestressed`.
     ///
     /// ```
     /// use piola::material;
@@ -75,8 +78,8 @@ pub trait Fittable: Declared {
     /// ```
     fn constraints(&self) -> Vec<Constraint>;
 
-    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, those on J alone left out: at stretches that are kept, these
-    /// are conditions on the parameters too.
+    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, those on J alone left out: at stretches
+    /// that are kept, these are conditions on the parameters too.
     fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
         let _ = stretches;
         Vec::new()
@@ -90,12 +93,12 @@ pub struct Constraint {
     pub limit: Limit,
     /// A measure of the distance to the limit, positive inside: for `a > b` the difference a − b.
     pub value: f64,
-    /// The derivative of the value with respect to each number among the parameters, in the order of [`Fittable::values`], lists
-    /// entry by entry.
+    /// The derivative of the value with respect to each number among the parameters, in the order of
+    /// [`Fittable::values`], lists entry by entry.
     pub gradient: Vec<f64>,
 }
 
-/// What limits the parameters of a material.
+/// A limit on the parameters of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
@@ -119,8 +122,8 @@ impl Constraint {
         all.map(|(k, (limit, value))| Self { limit, value, gradient: gradient(k) }).collect()
     }
 
-    /// A constraint that depends on a few numbers alone, each given by parameter, place in its list, and derivative; `values` are
-    /// those of the material.
+    /// A constraint that depends on a few numbers alone, each given by parameter, place in its list, and
+    /// derivative; `values` are those of the material.
     #[doc(hidden)]
     #[must_use]
     pub fn of_entry(limit: Limit, value: f64, values: Vec<Vec<f64>>, slopes: &[(usize, usize, f64)]) -> Self {

@@ -173,7 +173,9 @@ impl Check {
     /// What is asked for.
     pub(crate) fn settings(self) -> Result<CheckSettings, Error> {
         let energy = self.material.energy()?.inverting(self.inversion);
-        let stretches = stability::Settings { from: self.from, to: self.to, resolution: self.resolution };
+        let stretches = stability::SurveySettings::default()
+            .with_range(self.from, self.to)
+            .with_resolution(self.resolution);
         Ok(CheckSettings { energy, stretches, svg: self.svg })
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use piola_laboratory::stability::{Report, Settings, map, survey};
+use piola_laboratory::stability::{Report, SurveySettings, map, survey};
 
 use crate::energy::Energy;
 use crate::error::Error;
@@ -15,7 +15,7 @@ pub struct CheckSettings {
     /// The material, every parameter given.
     pub energy: Energy,
     /// Which stretches are looked at.
-    pub stretches: Settings,
+    pub stretches: SurveySettings,
     /// File for the map.
     pub svg: Option<PathBuf>,
 }

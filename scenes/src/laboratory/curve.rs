@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use piola::Inversion;
 use piola_laboratory::chart::Curve;
-use piola_laboratory::curve::{Mode, NoResponse, Response, Volume, curve as points};
-use piola_laboratory::data::{Agreement, Measured, Unanswered};
+use piola_laboratory::curve::{Mode, Response, ResponseError, Volume, sweep};
+use piola_laboratory::data::{Agreement, Measured, PointError};
 
 use super::{FINE, Source, as_options, draw, measured_range, spaced};
 use crate::energy::Energy;
@@ -65,11 +65,11 @@ pub fn curve(settings: &CurveSettings) -> Result<CurveReport, Error> {
             [_, ..] if !asks_for_range => measured.iter().map(|point| point.control).collect(),
             _ => spaced(from, to, settings.rows.unwrap_or(ROWS)),
         };
-        let responses = points(specimen.as_ref(), mode, settings.volume, &controls);
+        let responses = sweep(specimen.as_ref(), mode, settings.volume, &controls);
         let measured = if asks_for_range { Vec::new() } else { measured };
         tables.push(Table { mode, controls, responses, measured });
         let fine = spaced(from, to, FINE);
-        curves.push(Curve { mode, points: points(specimen.as_ref(), mode, settings.volume, &fine) });
+        curves.push(Curve { mode, points: sweep(specimen.as_ref(), mode, settings.volume, &fine) });
     }
     let agreement = data.as_ref().map(|data| data.agreement(specimen.as_ref(), settings.volume));
     let name = substance.name;
@@ -121,14 +121,14 @@ pub struct CurveReport {
     title: String,
     given: String,
     tables: Vec<Table>,
-    agreement: Option<Result<Agreement, Unanswered>>,
+    agreement: Option<Result<Agreement, PointError>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Table {
     mode: Mode,
     controls: Vec<f64>,
-    responses: Vec<Result<Response, NoResponse>>,
+    responses: Vec<Result<Response, ResponseError>>,
     /// At the same controls, if any.
     measured: Vec<Measured>,
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use piola::Inversion;
 use piola_laboratory::chart::Curve;
-use piola_laboratory::curve::{Mode, Volume, curve as points};
+use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, Difference, Fit, Standing, Warning};
 
 use super::curve::titled;
@@ -45,15 +45,14 @@ pub fn fit(settings: &FitSettings) -> Result<FitReport, Error> {
     let data = settings.data.read()?;
     let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
     let volume = settings.volume.unwrap_or(if is_volumetric { Volume::Free } else { Volume::Kept });
-    let how = fit::Settings {
-        volume,
-        difference: settings.difference,
-        held: settings.held.clone(),
-        restarts: settings.restarts,
-        seed: settings.seed,
-    };
+    let how = fit::FitSettings::default()
+        .with_volume(volume)
+        .with_difference(settings.difference)
+        .with_held(&settings.held)
+        .with_restarts(settings.restarts)
+        .with_seed(settings.seed);
     let failure = |reason| Error::Fit { material: material.into(), reason };
-    let fit = fit::fit(candidate.as_ref(), &data, &how).map_err(failure)?;
+    let fit = fit::fit_parameters(candidate.as_ref(), &data, &how).map_err(failure)?;
     let names: Vec<_> = candidate.description().parameters.iter().map(|parameter| parameter.name).collect();
     let report = FitReport {
         material,
@@ -68,7 +67,7 @@ pub fn fit(settings: &FitSettings) -> Result<FitReport, Error> {
         let fitted: Box<dyn Candidate> = fitted.map_err(|reason| Error::Inadmissible { material, reason })?;
         let curve = |mode| {
             let [from, to] = measured_range(&data, mode);
-            Curve { mode, points: points(fitted.as_ref(), mode, volume, &spaced(from, to, FINE)) }
+            Curve { mode, points: sweep(fitted.as_ref(), mode, volume, &spaced(from, to, FINE)) }
         };
         let curves: Vec<_> = data.modes().map(curve).collect();
         let note = report.options(&report.fit.values).replace("--param ", "");
@@ -112,7 +111,7 @@ impl fmt::Display for FitReport {
                 }
                 (Standing::Free, None) => writeln!(f)?,
                 (Standing::Held, _) => writeln!(f, " held")?,
-                (Standing::Indifferent, _) => writeln!(f, " held: the data say nothing about it")?,
+                (Standing::Unidentifiable, _) => writeln!(f, " held: the data say nothing about it")?,
             }
         }
         writeln!(f, "  R²           {}", fit.agreement)?;
@@ -138,7 +137,7 @@ impl fmt::Display for FitReport {
                     )?;
                 }
                 // The table says so.
-                Warning::Indifferent { .. } => {}
+                Warning::Unidentifiable { .. } => {}
                 warning => writeln!(f, "warning: {warning}")?,
             }
         }

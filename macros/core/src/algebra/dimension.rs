@@ -1,7 +1,8 @@
 //! Dimensions of expressions, as exponents of Pa.
 //!
-//! Stretches, literals and what is computed from these alone have none; parameters have those of their units. What is added
-//! has one dimension; logarithms, exponentials, arguments of functions and bases of real powers have none.
+//! Stretches, literals and what is computed from these alone have none; parameters have those of their units.
+//! What is added has one dimension; logarithms, exponentials, arguments of functions and bases of real powers
+//! have none.
 
 use rustc_hash::FxHashMap;
 
@@ -28,7 +29,8 @@ pub struct Dimensions<'a> {
 }
 
 impl<'a> Dimensions<'a> {
-    /// From the exponent of Pa in the unit of each parameter, of a function that of its values; `None` without a unit.
+    /// From the exponent of Pa in the unit of each parameter, of a function that of its values; `None`
+    /// without a unit.
     #[must_use]
     pub fn new(units: &'a [Option<i64>]) -> Self {
         Self { units, memo: FxHashMap::default() }

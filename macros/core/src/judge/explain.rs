@@ -56,10 +56,9 @@ impl Explainer<'_, '_> {
                     term.as_deref().unwrap_or("this"),
                 )
             }
-            Violation::NotInPascals(dimension) => format!(
-                "this energy is {}, but an energy density is in Pa: {UNITS}",
-                in_unit(*dimension)
-            ),
+            Violation::NotInPascals(dimension) => {
+                format!("this energy is {}, but an energy density is in Pa: {UNITS}", in_unit(*dimension))
+            }
             Violation::UnitsClash(Clash::Terms(terms)) => {
                 let [one, other] = terms.map(|(term, dimension)| self.with_unit(term, dimension));
                 format!("{one} is added to {other}, but terms of a sum have one unit: {UNITS}")

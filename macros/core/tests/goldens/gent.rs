@@ -2,9 +2,10 @@
 ///
 /// ψ = −μ Jm/2 ln(1 − (I1 − 3)/Jm) − μ ln J + κ/2 (J − 1)².
 ///
-/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is incompressible, and the
-/// others free the rest state of stress and penalise changes of volume. Defined for J > 0 and I1 − 3 < Jm; the first of
-/// these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0, the second stays.
+/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is
+/// incompressible, and the others free the rest state of stress and penalise changes of volume. Defined for J
+/// > 0 and I1 − 3 < Jm; the first of these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend)
+/// if κ ≥ 0, the second stays.
 ///
 /// ```text
 /// ψ = 1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J

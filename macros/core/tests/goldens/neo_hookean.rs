@@ -2,8 +2,9 @@
 ///
 /// ψ = μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
 ///
-/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
+/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined
+/// for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥
+/// 0.
 ///
 /// ```text
 /// ψ = 1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J

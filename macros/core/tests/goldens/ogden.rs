@@ -2,11 +2,12 @@
 ///
 /// ψ = Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
 ///
-/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for incompressible
-/// rubberlike solids*, Proc. R. Soc. Lond. A 326, 1972, eq. 12, for the shear part. The source is incompressible; here
-/// −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of volume. κ is the first Lamé
-/// parameter at small strain. Defined for J > 0; continued below a threshold stretch with
-/// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ αₚ < 0 would attract collapse.
+/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+/// incompressible rubberlike solids*, Proc. R. Soc. Lond. A 326, 1972, eq. 12, for the shear part. The source
+/// is incompressible; here −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of
+/// volume. κ is the first Lamé parameter at small strain. Defined for J > 0; continued below a threshold
+/// stretch with [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ
+/// αₚ < 0 would attract collapse.
 ///
 /// ```text
 /// ψ = Σₚ μₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3)/αₚ + 1/2 κ (J − 1)² − (Σₚ μₚ) ln J

@@ -29,7 +29,7 @@ pub struct Values {
     /// One value, or the entries of a list.
     pub numbers: Vec<f64>,
     is_list: bool,
-    /// As written, such as `[1.3, -2.0]`.
+    /// The text as written, such as `[1.3, -2.0]`.
     pub text: String,
 }
 
