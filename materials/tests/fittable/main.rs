@@ -13,13 +13,13 @@ const STRETCHES: [[f64; 3]; 6] =
 /// Coefficients of the central difference of order eight, for the steps h, 2h, 3h, 4h to either side.
 const STENCIL: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 
-/// Relative to the parameter. With a truncation error of h⁸/630 times the ninth derivative and a rounding error of u/h this is
-/// about the best step.
+/// Relative to the parameter. With a truncation error of h⁸/630 times the ninth derivative and a rounding
+/// error of u/h this is about the best step.
 const STEP: f64 = 1.0 / 128.0;
 
-/// A gradient has a few hundred roundings at most, each up to u times its largest term; of what is added the eight values of
-/// the difference have two units in all, divided by the step. What is left is truncation, which the parameters' exponents of
-/// up to six raise to (6 ln 2)⁹ h⁸/630: the same order.
+/// A gradient has a few hundred roundings at most, each up to u times its largest term; of what is added the
+/// eight values of the difference have two units in all, divided by the step. What is left is truncation,
+/// which the parameters' exponents of up to six raise to (6 ln 2)⁹ h⁸/630: the same order.
 const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
 
 /// Typical parameters, but none zero, where steps relative to it would be none and conditions often end.
@@ -69,7 +69,8 @@ fn difference<M: Declared>(
     Ok(slope)
 }
 
-/// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the gradient is a sum of.
+/// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the
+/// gradient is a sum of.
 fn scale(material: &impl Fittable, derivatives: &[[f64; 3]]) -> f64 {
     let (values, Moduli { mu, lambda }) = (material.values(), material.moduli());
     let shares = places(&values).into_iter().zip(derivatives);
@@ -128,8 +129,8 @@ struct Homogeneity<'a>(&'a str);
 impl FittableVisitor for Homogeneity<'_> {
     type Output = ();
 
-    /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a few hundred
-    /// roundings of terms of one size at most.
+    /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a
+    /// few hundred roundings of terms of one size at most.
     fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
         let values = material.values();
         for stretches in STRETCHES {

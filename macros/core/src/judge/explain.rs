@@ -59,16 +59,7 @@ impl Explainer<'_, '_> {
             Violation::NotInPascals(dimension) => {
                 format!("this energy is {}, but an energy density is in Pa: {UNITS}", in_unit(*dimension))
             }
-            Violation::UnitsClash(Clash::Terms(terms)) => {
-                let [one, other] = terms.map(|(term, dimension)| self.with_unit(term, dimension));
-                format!("{one} is added to {other}, but terms of a sum have one unit: {UNITS}")
-            }
-            Violation::UnitsClash(Clash::Argument(argument, dimension)) => format!(
-                "{} stands where only a number without unit can, in a logarithm, an exponential, an exponent, a \
-                 power with a parameter as exponent, or a function: divide it by a parameter of the same unit; or \
-                 {UNITS}",
-                self.with_unit(*argument, *dimension)
-            ),
+            Violation::UnitsClash(clash) => self.units_clash(**clash),
             Violation::PowerAtRest { power } => format!(
                 "the base of `{}` vanishes at rest and is negative nearby, if only by rounding, where only whole powers have \
                  a value: write a whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
@@ -136,6 +127,21 @@ impl Explainer<'_, '_> {
                 remove `fit`, or declare numbers in place of the function"
                     .into()
             }
+        }
+    }
+
+    fn units_clash(&mut self, clash: Clash) -> String {
+        match clash {
+            Clash::Terms(terms) => {
+                let [one, other] = terms.map(|(term, dimension)| self.with_unit(term, dimension));
+                format!("{one} is added to {other}, but terms of a sum have one unit: {UNITS}")
+            }
+            Clash::Argument(argument, dimension) => format!(
+                "{} stands where only a number without unit can, in a logarithm, an exponential, an exponent, a \
+                 power with a parameter as exponent, or a function: divide it by a parameter of the same unit; \
+                 or {UNITS}",
+                self.with_unit(argument, dimension)
+            ),
         }
     }
 

@@ -24,7 +24,7 @@ pub(crate) enum Violation {
     /// Two stretches cannot be exchanged. The term is `None` if it is the whole energy.
     Anisotropic { exchanged: [usize; 2], term: Option<Id> },
     /// Parts whose units do not go together.
-    UnitsClash(Clash),
+    UnitsClash(Box<Clash>),
     /// The energy is in another power of Pa than the first.
     NotInPascals(Rational),
     /// The base of a power that is not whole vanishes at rest.

@@ -21,7 +21,7 @@ pub(crate) fn units(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
         }
         Err(clash) => {
             let part = source.blamed_operand(|part| dimensions.of(graph, part).is_err());
-            Some(Finding::new(part, Violation::UnitsClash(clash)))
+            Some(Finding::new(part, Violation::UnitsClash(Box::new(clash))))
         }
     }
 }
