@@ -3,7 +3,7 @@
 mod own;
 
 use piola::Inversion;
-use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter};
+use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter, Unit};
 use piola_materials::{CATALOGUE, Entry, FittableVisitor, find};
 
 /// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
@@ -121,7 +121,7 @@ fn derivatives_are_slopes() -> Result<(), Inadmissible> {
 
 /// Whether it is a stress: energies are proportional to all of these together.
 fn is_stress(parameter: &Parameter) -> bool {
-    parameter.doc.split(|c: char| !c.is_alphanumeric()).any(|word| word == "Pa")
+    parameter.unit == Some(Unit::Pascal)
 }
 
 struct Homogeneity<'a>(&'a str);
@@ -151,6 +151,51 @@ impl FittableVisitor for Homogeneity<'_> {
 fn stresses_are_proportional_to_moduli() -> Result<(), Inadmissible> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         visit(entry, &values(entry), Homogeneity(entry.name))?;
+    }
+    Ok(())
+}
+
+struct Constraints<'a>(&'a str);
+
+impl FittableVisitor for Constraints<'_> {
+    type Output = ();
+
+    /// All hold, and central differences of each value have its gradient. Their truncation is h² by the third
+    /// derivative, which powers of six raise to a hundred times the value.
+    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
+        const STEP: f64 = 1e-5;
+        let Self(name) = self;
+        let all = |values: &[Vec<f64>]| {
+            let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
+            let moved = M::from_values(&values, Inversion::Refuse).expect("near admissible parameters");
+            let domain = moved.domain_constraints([1.3, 1.1, 0.75]);
+            moved.constraints().into_iter().chain(domain).collect::<Vec<_>>()
+        };
+        let values = material.values();
+        let here = all(&values);
+        assert!(here.iter().all(|constraint| constraint.value >= 0.0), "{name}: {here:?}");
+        for (number, (list, place)) in places(&values).into_iter().enumerate() {
+            let value = values[list][place];
+            let [below, above] = [-STEP, STEP].map(|step| {
+                let mut values = values.clone();
+                values[list][place] += step * value;
+                all(&values)
+            });
+            for ((constraint, below), above) in here.iter().zip(&below).zip(&above) {
+                let (slope, change) = (constraint.gradient[number] * value, above.value - below.value);
+                let size = slope.abs().max(constraint.value.abs());
+                let error = (change / (2.0 * STEP) - slope).abs();
+                let tolerance = 100.0 * (STEP * STEP + f64::EPSILON / STEP);
+                assert!(error <= tolerance * size.max(1.0), "{name}: {constraint:?} by {number}: {change:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn constraints_have_their_gradients() -> Result<(), Inadmissible> {
+    for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
+        visit(entry, &values(entry), Constraints(entry.name))?;
     }
     Ok(())
 }
