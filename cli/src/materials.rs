@@ -14,13 +14,13 @@ fn page(entry: &Entry) -> String {
         entry.description;
     let mut text = format!("{}\n  {summary}\n  ψ = {formula}\n", entry.name);
     for parameter in parameters {
-        let list = if parameter.is_list { " One for each term." } else { "" };
+        let list = if parameter.is_list() { " One for each term." } else { "" };
         text += &format!("  {:12} {}{list}\n", parameter.name, parameter.doc);
     }
     if !admissible.is_empty() {
         text += &format!("  admissible   {}\n", admissible.join(", "));
     }
-    let typical = parameters.iter().zip(entry.typical).map(|(parameter, values)| {
+    let typical = parameters.iter().zip(entry.typical()).map(|(parameter, values)| {
         let values: Vec<_> = values.iter().map(f64::to_string).collect();
         format!("{}={}", parameter.name, values.join(","))
     });

@@ -92,7 +92,11 @@ fn inadmissible_parameters() {
     check(&[], &["run", "horse", "--param", "mu=-1"], &["mu", "-1"]);
     check(&[], &["run", "horse", "--param", "mu=1,2"], &["mu"]);
     check(&[], &["run", "horse", "--param", "mu"], &["NAME=VALUE"]);
-    check(&[], &["run", "horse", "--material", "stvk", "--param", "mu=1"], &["`lambda`", "--param"]);
+    check(
+        &[],
+        &["run", "horse", "--material", "st_venant_kirchhoff", "--param", "mu=1"],
+        &["`lambda`", "--param"],
+    );
     check(&[], &["run", "dinosaur", "--inversion", "1.5"], &["1.5", "epsilon"]);
 }
 
@@ -165,7 +169,7 @@ fn what_a_bench_cannot_do() {
 
 #[test]
 fn checks_of_nonsense() {
-    check(&[], &["check", "rubber"], &["no material `rubber`", "`neo_hookean_lnj`"]);
+    check(&[], &["check", "rubber"], &["no material `rubber`", "`neo_hookean`"]);
     check(&[], &["check", "gent", "--param", "mue=1"], &["no parameter `mue`", "`mu`"]);
     check(&[], &["check", "gent", "--param", "mu=-1"], &["mu > 0"]);
     check(&[], &["check", "gent", "--from", "2"], &["from 2 to 3", "0 < from < 1 < to"]);

@@ -199,7 +199,7 @@ fn a_scrambled_body_finds_its_shape() {
 
 #[test]
 fn an_energy_blind_to_reflection_stays_inside_out() {
-    let arguments = ["run", "inside_out", "--material", "stvk", "--frames", "3"];
+    let arguments = ["run", "inside_out", "--material", "st_venant_kirchhoff", "--frames", "3"];
     let summary = check(&arguments, "inside_out", 3);
     assert_eq!(summary["inverted_at_start"], summary["tets"]);
     assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&false.into(), &true.into()));
@@ -213,7 +213,8 @@ fn an_energy_blind_to_reflection_stays_inside_out() {
 fn a_point_without_forces_is_called_a_saddle() {
     // Not by `check`: pictures of a point are smaller than it expects.
     let folder = tempfile::tempdir().expect("a scratch folder");
-    let arguments = ["run", "point", "--material", "stvk", "--body", "dinosaur", "--frames", "1"];
+    let arguments =
+        ["run", "point", "--material", "st_venant_kirchhoff", "--body", "dinosaur", "--frames", "1"];
     let output = piola(folder.path(), &arguments);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = fs::read_to_string(folder.path().join("out/point/summary.json")).expect("a summary");
@@ -241,7 +242,7 @@ fn a_point_unfolds() {
 
 #[test]
 fn another_material_is_as_stiff_as_that_of_the_scene() {
-    let summary = check(&["run", "horse", "--material", "stvk", "--frames", "1"], "horse", 1);
+    let summary = check(&["run", "horse", "--material", "st_venant_kirchhoff", "--frames", "1"], "horse", 1);
     let value = |name: &str| summary["parameters"][name][0].as_f64().expect("a number");
     // E = 1 MPa and ν = 0.45; a dozen roundings.
     assert!((value("mu") * 2.9 / 1e6 - 1.0).abs() < 1e-14, "{summary}");
@@ -262,7 +263,8 @@ fn materials_are_described() {
 #[test]
 fn a_material_is_checked() {
     let folder = tempfile::tempdir().expect("a scratch folder");
-    let output = piola(folder.path(), &["check", "stvk", "--resolution", "9", "--svg", "map.svg"]);
+    let output =
+        piola(folder.path(), &["check", "st_venant_kirchhoff", "--resolution", "9", "--svg", "map.svg"]);
     let (text, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success() && errors.is_empty(), "{errors}");
     // Steel, with its typical parameters, and where an oblique wave stands still under confined compression.

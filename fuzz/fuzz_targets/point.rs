@@ -37,7 +37,7 @@ fuzz_target!(|input: &[u8]| {
         _ => Origin::Anything,
     };
     let parameters: Vec<Vec<f64>> = entry
-        .typical
+        .typical()
         .iter()
         .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
         .collect();

@@ -1,13 +1,13 @@
 //! Test curves and measured points as a chart, in SVG.
 //!
-//! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap where the
-//! material has no stress.
+//! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap
+//! where the material has no stress.
 
 mod panel;
 
 use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
-use crate::curve::{Mode, NoResponse, Response};
+use crate::curve::{Mode, Response, ResponseError};
 use crate::data::{Agreement, Measurements};
 use panel::Panel;
 
@@ -16,10 +16,10 @@ pub use panel::ChartError;
 /// A curve to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// In which test.
+    /// The test.
     pub mode: Mode,
     /// Its points, in the order of their controls.
-    pub points: Vec<Result<Response, NoResponse>>,
+    pub points: Vec<Result<Response, ResponseError>>,
 }
 
 /// Pixels of a panel.
@@ -28,10 +28,11 @@ const HEIGHT: u32 = 520;
 /// Pixels for title and note.
 const HEAD: u32 = 62;
 
-/// The SVG text of a chart with a title, a line that explains, and R² of each mode if there are data to have it of.
+/// The SVG text of a chart with a title, a line that explains, and R² of each mode if there are data to have
+/// it of.
 ///
 /// # Errors
-/// Where there is neither a point of a curve nor one of the data, and what the library of charts says.
+/// [`ChartError`] if there is neither a point of a curve nor one of the data, or the library of charts fails.
 pub fn draw(
     title: &str,
     note: &str,
@@ -58,9 +59,9 @@ pub fn draw(
 /// Modes with axes in common.
 struct Group {
     modes: &'static [Mode],
-    /// What the machine sets.
+    /// The label of what the machine sets.
     control: &'static str,
-    /// What it reads.
+    /// The label of what it reads.
     stress: &'static str,
 }
 

@@ -1,7 +1,7 @@
 //! Test curves: what a testing machine reads from a homogeneous specimen.
 //!
-//! The axes of a test are the one along which it pulls, the one across in the plane, and the thickness. A machine sets
-//! one number, the *control*, and reads one stress:
+//! The axes of a test are the one along which it pulls, the one across in the plane, and the thickness. A
+//! machine sets one number, the *control*, and reads one stress:
 //!
 //! | mode | control | stretches | stress |
 //! |---|---|---|---|
@@ -11,9 +11,10 @@
 //! | simple shear | γ | ℓ, 1/ℓ, 1 with ℓ − 1/ℓ = γ | P12 = (ℓ² ψ1 − ψ2) / (ℓ² + 1) |
 //! | volumetric | J | ∛J, ∛J, ∛J | ∂ψ/∂J = Σ ψi / (3 ∛J²), the mean Cauchy stress: minus the pressure |
 //!
-//! ψi are along these axes here, and all but the last are nominal stresses: force by area at rest, Pa. The stretch t of
-//! the sides is such that nothing pulls at them, ψ3 = 0, or, where the [volume is kept](Volume::Kept), such that J = 1:
-//! the incompressible solid, in which a pressure that does no work frees the sides and the stress is ψ1 − ψ3 t/λ.
+//! ψi are along these axes here, and all but the last are nominal stresses: force by area at rest, Pa. The
+//! stretch t of the sides is such that nothing pulls at them, ψ3 = 0, or, where the [volume is
+//! kept](Volume::Kept), such that J = 1: the incompressible solid, in which a pressure that does no work
+//! frees the sides and the stress is ψ1 − ψ3 t/λ.
 //!
 //! Nothing is formed that cancels at rest, so that the stress is as accurate at the smallest strains as
 //! [`gradient_at_strains`](piola::Material::gradient_at_strains) is.
@@ -26,7 +27,7 @@ use std::str::FromStr;
 use crate::specimen::{self, Specimen};
 use lateral::Side;
 
-/// What the machine does to the specimen.
+/// The test: what the machine does to the specimen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
     /// Pulled or pressed along one axis, free across.
@@ -42,11 +43,11 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// All of them.
+    /// Every mode, in the order of reports.
     pub const ALL: [Self; 5] =
         [Self::Uniaxial, Self::Equibiaxial, Self::PureShear, Self::SimpleShear, Self::Volumetric];
 
-    /// As in files and on the command line, such as `pure_shear`.
+    /// The name in files and on the command line, such as `pure_shear`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,6 +56,23 @@ impl Mode {
             Self::PureShear => "pure_shear",
             Self::SimpleShear => "simple_shear",
             Self::Volumetric => "volumetric",
+        }
+    }
+
+    /// The letter of the control: λ, γ or J.
+    pub(crate) fn letter(self) -> &'static str {
+        match self {
+            Self::SimpleShear => "γ",
+            Self::Volumetric => "J",
+            _ => "λ",
+        }
+    }
+
+    fn quantity(self) -> &'static str {
+        match self {
+            Self::SimpleShear => "the shear",
+            Self::Volumetric => "the volume ratio J",
+            _ => "the stretch",
         }
     }
 
@@ -67,7 +85,7 @@ impl Mode {
         }
     }
 
-    /// Whether a specimen can be brought there: γ is any finite number, λ and J are positive ones.
+    /// Whether a specimen can be brought to a control: γ is any finite number, λ and J are positive ones.
     #[must_use]
     pub fn allows(self, control: f64) -> bool {
         control.is_finite() && (self == Self::SimpleShear || control > 0.0)
@@ -100,56 +118,50 @@ impl fmt::Display for Mode {
 }
 
 impl FromStr for Mode {
-    type Err = UnknownMode;
+    type Err = ModeError;
 
     /// In any case, with spaces or `-` for `_`; `planar` and `planar_tension` are pure shear.
-    fn from_str(text: &str) -> Result<Self, UnknownMode> {
+    fn from_str(text: &str) -> Result<Self, ModeError> {
         let name = text.trim().to_lowercase().replace([' ', '-'], "_");
         let name = if matches!(name.as_str(), "planar" | "planar_tension") { "pure_shear" } else { &name };
         let mode = Self::ALL.into_iter().find(|mode| mode.name() == name);
-        mode.ok_or_else(|| UnknownMode(text.trim().into()))
+        mode.ok_or_else(|| ModeError(text.trim().into()))
     }
 }
 
-/// A name that is no [`Mode`]'s.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownMode(
+/// An unknown name of a test.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no test; write one of {known}", known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", "))]
+pub struct ModeError(
     /// The name as given.
     pub String,
 );
 
-impl fmt::Display for UnknownMode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", ");
-        write!(f, "`{}` is no test; write one of {known}", self.0)
-    }
-}
-
-impl std::error::Error for UnknownMode {}
-
-/// What becomes of the volume of a specimen.
+/// Whether a specimen can change its volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Volume {
-    /// What the energy says: free sides carry no stress.
+    /// The energy decides: free sides carry no stress.
     #[default]
     Free,
-    /// It is kept, whatever the energy says of changes of volume: the incompressible solid.
+    /// Kept, whatever the energy says of changes of volume: the incompressible solid.
     Kept,
 }
 
 /// A point of a test curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// What the machine has set: λ, γ or J.
+    /// The control that the machine has set: λ, γ or J.
     pub control: f64,
-    /// Principal stretches: along, across in the plane, through the thickness. Of simple shear the greatest, the least, and 1.
+    /// Principal stretches: along, across in the plane, through the thickness. Of simple shear the greatest,
+    /// the least, and 1.
     pub stretches: [f64; 3],
     /// The stress it reads, Pa.
     pub stress: f64,
-    /// What the stress is made of: Σ weights · (ψ1, ψ2, ψ3).
+    /// The weights that make up the stress: Σ weights · (ψ1, ψ2, ψ3).
     ///
-    /// Where the sides are free, the weights contain how these give way, so that for whatever the energy depends on, the
-    /// derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the implicit function theorem.
+    /// Where the sides are free, the weights contain how these give way, so that for whatever the energy
+    /// depends on, the derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the
+    /// implicit function theorem.
     pub weights: [f64; 3],
 }
 
@@ -161,103 +173,85 @@ impl Response {
     }
 }
 
-/// Why a test curve has no point there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why a test curve has no point at a control.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NoResponse {
-    /// No specimen can be brought there.
+pub enum ResponseError {
+    /// No specimen can be brought to the control.
+    #[error("{} is {control}; it must be {}finite", mode.quantity(), if *mode == Mode::SimpleShear { "" } else { "positive and " })]
     Control {
-        /// What the machine does.
+        /// The test.
         mode: Mode,
-        /// What it should set.
+        /// The control as given.
         control: f64,
     },
-    /// The deformation is outside the domain of the energy, or its stress is no number.
+    /// The deformation is outside the domain of the energy, or its stress is NaN or infinite.
+    #[error("outside the domain of the energy")]
     OutsideDomain,
-    /// No stretch of the sides between a thousandth and a thousand times that of constant volume frees them of stress.
+    /// No stretch of the sides between a thousandth and a thousand times that of constant volume frees them
+    /// of stress.
+    #[error("no lateral stretch frees the sides of stress")]
     NoEquilibrium,
-    /// A volume that is kept cannot be changed by a volumetric test.
+    /// A volumetric test of a specimen whose volume is kept.
+    #[error("a volumetric test changes the volume; leave it free, or leave the test out")]
     VolumeKept,
 }
-
-impl fmt::Display for NoResponse {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Control { mode: Mode::SimpleShear, control } => {
-                write!(f, "the shear is {control}; it must be finite")
-            }
-            Self::Control { mode: Mode::Volumetric, control } => {
-                write!(f, "the volume ratio J is {control}; it must be positive and finite")
-            }
-            Self::Control { control, .. } => {
-                write!(f, "the stretch is {control}; it must be positive and finite")
-            }
-            Self::OutsideDomain => f.write_str("outside the domain of the energy"),
-            Self::NoEquilibrium => f.write_str("no lateral stretch frees the sides of stress"),
-            Self::VolumeKept => {
-                f.write_str("a volumetric test changes the volume; leave it free, or leave the test out")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoResponse {}
 
 /// The points of a test curve, one for each control.
 ///
 /// ```
-/// use piola_laboratory::curve::{Mode, Volume, curve};
+/// use piola_laboratory::curve::{Mode, Volume, sweep};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let rubber = piola_materials::NeoHookean::new(1e6, 5e6)?;
-/// let points = curve(&rubber, Mode::Uniaxial, Volume::Kept, &[1.0, 2.0, -1.0]);
+/// let points = sweep(&rubber, Mode::Uniaxial, Volume::Kept, &[1.0, 2.0, -1.0]);
 /// // P = μ (λ − 1/λ²), to a few roundings
 /// assert!((points[1]?.stress - 1.75e6).abs() < 1e-8);
 /// assert!(points[2].is_err());
 /// # Ok(())
 /// # }
 /// ```
-pub fn curve(
+pub fn sweep(
     specimen: &dyn Specimen,
     mode: Mode,
     volume: Volume,
     controls: &[f64],
-) -> Vec<Result<Response, NoResponse>> {
+) -> Vec<Result<Response, ResponseError>> {
     controls.iter().map(|&control| respond(specimen, mode, volume, control)).collect()
 }
 
 /// One point of a test curve.
 ///
 /// # Errors
-/// Where there is none.
+/// [`ResponseError`] if the test has no point there.
 pub fn respond(
     specimen: &dyn Specimen,
     mode: Mode,
     volume: Volume,
     control: f64,
-) -> Result<Response, NoResponse> {
+) -> Result<Response, ResponseError> {
     if !mode.allows(control) {
-        return Err(NoResponse::Control { mode, control });
+        return Err(ResponseError::Control { mode, control });
     }
     let (strains, weights) = match (mode, volume) {
         (Mode::SimpleShear, _) => simple_shear(control),
         (Mode::Volumetric, Volume::Free) => volumetric(control),
-        (Mode::Volumetric, Volume::Kept) => return Err(NoResponse::VolumeKept),
+        (Mode::Volumetric, Volume::Kept) => return Err(ResponseError::VolumeKept),
         (_, Volume::Kept) => kept(mode, control),
         (_, Volume::Free) => free(specimen, mode, control)?,
     };
-    let gradient = specimen::gradient(specimen, strains).ok_or(NoResponse::OutsideDomain)?;
+    let gradient = specimen::gradient(specimen, strains).ok_or(ResponseError::OutsideDomain)?;
     // Where the sides are free, this takes away to first order what is left of their stress.
     let stress: f64 = (0..3).map(|axis| weights[axis] * gradient[axis]).sum();
     match stress.is_finite() {
         true => Ok(Response { control, stretches: specimen::stretches(strains), stress, weights }),
-        false => Err(NoResponse::OutsideDomain),
+        false => Err(ResponseError::OutsideDomain),
     }
 }
 
 type StrainsAndWeights = ([f64; 3], [f64; 3]);
 
-/// By dℓ/dγ = ℓ²/(ℓ² + 1) and d(1/ℓ)/dγ = −1/(ℓ² + 1).
+/// Strains and weights from dℓ/dγ = ℓ²/(ℓ² + 1) and d(1/ℓ)/dγ = −1/(ℓ² + 1).
 fn simple_shear(shear: f64) -> StrainsAndWeights {
     let half = 0.5 * shear.abs();
     // ℓ − 1 = γ/2 + √(1 + γ²/4) − 1
@@ -269,22 +263,22 @@ fn simple_shear(shear: f64) -> StrainsAndWeights {
     ([along, across, 0.0], [(1.0 - weight).copysign(shear), -weight.copysign(shear), 0.0])
 }
 
-/// By dλi/dJ = 1/(3 ∛J²).
+/// Strains and weights from dλi/dJ = 1/(3 ∛J²).
 fn volumetric(volume: f64) -> StrainsAndWeights {
     let strain = ((volume - 1.0).ln_1p() / 3.0).exp_m1();
     let weight = 1.0 / (3.0 * volume.cbrt().powi(2));
     ([strain; 3], [weight; 3])
 }
 
-/// By the pressure that frees the sides, which adds −p J/λi to each ψi.
+/// Strains and weights from the pressure that frees the sides, which adds −p J/λi to each ψi.
 fn kept(mode: Mode, stretch: f64) -> StrainsAndWeights {
     let along = stretch - 1.0;
     let side = mode.isochoric(along);
     (mode.strains(along, side), [1.0, 0.0, -(1.0 + side) / stretch])
 }
 
-/// By the stretch of the sides at which ψ3 = 0: dψ1 = ∂ψ1 − (∂ψ1/∂t) (∂ψ3/∂t)⁻¹ ∂ψ3.
-fn free(specimen: &dyn Specimen, mode: Mode, stretch: f64) -> Result<StrainsAndWeights, NoResponse> {
+/// Strains and weights from the stretch of the sides at which ψ3 = 0: dψ1 = ∂ψ1 − (∂ψ1/∂t) (∂ψ3/∂t)⁻¹ ∂ψ3.
+fn free(specimen: &dyn Specimen, mode: Mode, stretch: f64) -> Result<StrainsAndWeights, ResponseError> {
     let along = stretch - 1.0;
     // ∂ψ1/∂t and ∂ψ3/∂t, where the sides of one or of two axes are free.
     let slopes = |strains: [f64; 3]| {
@@ -300,7 +294,8 @@ fn free(specimen: &dyn Specimen, mode: Mode, stretch: f64) -> Result<StrainsAndW
         let [_, slope] = slopes(strains);
         Some(Side { stress, slope })
     };
-    let side = lateral::release(stress_of_sides, mode.isochoric(along)).ok_or(NoResponse::NoEquilibrium)?;
+    let side =
+        lateral::release(stress_of_sides, mode.isochoric(along)).ok_or(ResponseError::NoEquilibrium)?;
     let strains = mode.strains(along, side);
     let [along_slope, slope] = slopes(strains);
     Ok((strains, [1.0, 0.0, -along_slope / slope]))

@@ -7,36 +7,36 @@
 //! uniaxial,1.125,0.134351
 //! ```
 //!
-//! The modes are those of [`Mode`]; under `stretch` stands the control, which is γ for `simple_shear` and J for `volumetric`.
-//! The stress is in the unit that its header ends with, `_Pa`, `_kPa` or `_MPa`, and what [`crate::curve`](mod@crate::curve)
-//! says of each mode. The columns may come in any order.
+//! The modes are those of [`Mode`]; under `stretch` stands the control, which is γ for `simple_shear` and J
+//! for `volumetric`. The stress is in the unit that its header ends with, `_Pa`, `_kPa` or `_MPa`, and what
+//! [`crate::curve`](mod@crate::curve) says of each mode. The columns may come in any order.
 
 use std::fmt;
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
 
-use crate::curve::{Mode, NoResponse, Response, Volume, respond};
+use crate::curve::{Mode, Response, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
 
 /// Vulcanised rubber with 8 % sulphur in uniaxial tension, equibiaxial tension and pure shear, as a file.
 ///
-/// Treloar, *Stress-strain data for vulcanised rubber under various types of deformation*, Trans. Faraday Soc. 40, 1944;
-/// digitised, as its comments say.
+/// Treloar, *Stress-strain data for vulcanised rubber under various types of deformation*, Trans. Faraday
+/// Soc. 40, 1944; digitised, as its comments say.
 pub const TRELOAR_1944: &str = include_str!("../data/treloar1944.csv");
 
 /// A reading of a testing machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// What the machine did.
+    /// The test.
     pub mode: Mode,
-    /// What it had set: λ, γ or J.
+    /// The control that the machine had set: λ, γ or J.
     pub control: f64,
     /// The stress, Pa.
     pub stress: f64,
 }
 
 impl Measured {
-    /// Whether it is the rest point, in which there is nothing to be learnt.
+    /// Whether this is the rest state, from which nothing can be learnt.
     #[must_use]
     pub fn is_rest(&self) -> bool {
         self.control == self.mode.rest()
@@ -68,7 +68,7 @@ impl Measurements {
     /// ```
     ///
     /// # Errors
-    /// At the first line that says nonsense, and where there is no point beside that of rest.
+    /// [`DataError`] of the first malformed line, or if no data point differs from the rest state.
     pub fn read(text: &str) -> Result<Self, DataError> {
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -101,8 +101,8 @@ impl Measurements {
         self.points.iter().filter(move |point| point.mode == mode)
     }
 
-    /// What the specimen answers at each point.
-    pub fn responses(&self, specimen: &dyn Specimen, volume: Volume) -> Vec<Result<Response, NoResponse>> {
+    /// The response of the specimen at each point.
+    pub fn responses(&self, specimen: &dyn Specimen, volume: Volume) -> Vec<Result<Response, ResponseError>> {
         self.points.iter().map(|point| respond(specimen, point.mode, volume, point.control)).collect()
     }
 
@@ -112,16 +112,16 @@ impl Measurements {
     /// R² = 1 − Σ (P − P̂)² / Σ (P − P̄)²
     /// ```
     ///
-    /// of the stresses P with mean P̄, P̂ being those of the specimen. 1 is agreement; below 0 the mean would be a better guess.
-    /// A single point, whose mean is itself, has none and gives −∞ or NaN.
+    /// of the stresses P with mean P̄, P̂ being those of the specimen. 1 is agreement; below 0 the mean would
+    /// be a better guess. A single point, whose mean is itself, has none and gives −∞ or NaN.
     ///
     /// # Errors
-    /// At the first point where the specimen has no stress.
-    pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, Unanswered> {
+    /// [`PointError`] of the first point where the specimen has no stress.
+    pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
         let responses = self.responses(specimen, volume);
         let mut pairs = Vec::with_capacity(self.points.len());
         for (&point, response) in self.points.iter().zip(responses) {
-            let response = response.map_err(|reason| Unanswered { point, reason })?;
+            let response = response.map_err(|reason| PointError { point, reason })?;
             if !point.is_rest() {
                 pairs.push((point, response.stress));
             }
@@ -140,9 +140,9 @@ impl Measurements {
 /// R² by mode and of all points together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
-    /// Of each mode by itself.
+    /// R² of each mode by itself.
     pub modes: Vec<(Mode, f64)>,
-    /// Of the points of all modes.
+    /// R² of the points of all modes.
     pub total: f64,
 }
 
@@ -156,27 +156,15 @@ impl fmt::Display for Agreement {
 }
 
 /// A measured point at which a specimen has no stress.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unanswered {
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{} at {} = {}: {reason}", point.mode, point.mode.letter(), point.control)]
+pub struct PointError {
     /// The point.
     pub point: Measured,
-    /// Why.
-    pub reason: NoResponse,
+    /// Why the specimen has no stress there.
+    #[source]
+    pub reason: ResponseError,
 }
-
-impl fmt::Display for Unanswered {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Measured { mode, control, .. } = self.point;
-        let letter = match mode {
-            Mode::SimpleShear => "γ",
-            Mode::Volumetric => "J",
-            _ => "λ",
-        };
-        write!(f, "{mode} at {letter} = {control}: {}", self.reason)
-    }
-}
-
-impl std::error::Error for Unanswered {}
 
 fn determination(pairs: &[(Measured, f64)]) -> f64 {
     let mean = pairs.iter().map(|(point, _)| point.stress).sum::<f64>() / pairs.len() as f64;
@@ -185,7 +173,7 @@ fn determination(pairs: &[(Measured, f64)]) -> f64 {
     1.0 - unexplained / all
 }
 
-/// Where the columns stand, and what the stresses are multiplied by to be Pa.
+/// The places of the columns, and the factor that brings the stresses to Pa.
 struct Columns {
     mode: usize,
     control: usize,
@@ -230,27 +218,31 @@ impl Columns {
         let stress = self.unit * number(self.stress, "nominal_stress")?;
         match mode.allows(control) {
             true => Ok(Measured { mode, control, stress }),
-            false => Err(at(Fault::Control(NoResponse::Control { mode, control }))),
+            false => Err(at(Fault::Control(ResponseError::Control { mode, control }))),
         }
     }
 }
 
-/// What is wrong with a file of measurements.
-#[derive(Clone, Debug, PartialEq)]
+/// A mistake in a file of measurements.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("line {line}: {fault}")]
 pub struct DataError {
-    /// Counted from 1.
+    /// The line, counted from 1.
     pub line: u64,
-    /// What is wrong there.
+    /// The mistake.
+    #[source]
     pub fault: Fault,
 }
 
-/// What is wrong with a line of a file of measurements.
-#[derive(Clone, Debug, PartialEq)]
+/// A mistake in a line of a file of measurements.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
     /// The file is empty.
+    #[error("there is no table; {HEADER}, then lines such as `uniaxial,1.5,0.37`")]
     NoHeader,
-    /// A column is not there.
+    /// A column is missing.
+    #[error("the header `{found}` has no column `{name}`; {HEADER}")]
     NoColumn {
         /// Its name.
         name: &'static str,
@@ -258,75 +250,51 @@ pub enum Fault {
         found: String,
     },
     /// A column is there more than once.
+    #[error("the header has two columns for `{name}`; keep one")]
     ColumnTwice {
         /// Its name.
         name: &'static str,
     },
-    /// The header of the stress names no unit that is known.
+    /// The header of the stress names no known unit.
+    #[error("`{found}` names no known unit; {HEADER}")]
     Unit {
         /// The header as given.
         found: String,
     },
     /// There is no such test.
+    #[error(transparent)]
     Mode(
-        /// The name as given and those that exist.
-        crate::curve::UnknownMode,
+        /// The name as given.
+        crate::curve::ModeError,
     ),
     /// Something else stands where a finite number is needed.
+    #[error("`{found}` under `{column}` is not a number")]
     Number {
         /// The header of its column.
         column: &'static str,
-        /// What stands there.
+        /// The text there.
         found: String,
     },
-    /// No specimen can be brought there.
+    /// No specimen can be brought to that stretch, shear or volume.
+    #[error(transparent)]
     Control(
-        /// Why.
-        NoResponse,
+        /// The reason.
+        ResponseError,
     ),
-    /// No point says anything.
+    /// There is no point apart from the rest state.
+    #[error("below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`")]
     NoPoints,
-    /// The line is no line of such a table.
+    /// The line is not one of such a table.
+    #[error("{reason}")]
     Malformed {
-        /// What the reader says.
+        /// The message of the reader.
         reason: String,
     },
 }
 
-impl fmt::Display for DataError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.fault)
-    }
-}
+const HEADER: &str = "write `mode,stretch,nominal_stress_MPa` (or `_kPa`, `_Pa`) above the points";
 
-impl std::error::Error for DataError {}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const HEADER: &str = "write `mode,stretch,nominal_stress_MPa` (or `_kPa`, `_Pa`) above the points";
-        match self {
-            Self::NoHeader => {
-                write!(f, "there is no table; {HEADER}, then lines such as `uniaxial,1.5,0.37`")
-            }
-            Self::NoColumn { name, found } => {
-                write!(f, "the header `{found}` has no column `{name}`; {HEADER}")
-            }
-            Self::ColumnTwice { name } => write!(f, "the header has two columns for `{name}`; keep one"),
-            Self::Unit { found } => {
-                write!(f, "`{found}` names no unit that is known; {HEADER}")
-            }
-            Self::Mode(unknown) => unknown.fmt(f),
-            Self::Number { column, found } => write!(f, "`{found}` under `{column}` is not a number"),
-            Self::Control(reason) => reason.fmt(f),
-            Self::NoPoints => f.write_str(
-                "below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`",
-            ),
-            Self::Malformed { reason } => f.write_str(reason),
-        }
-    }
-}
-
-/// The line of what was read from a position on, which is before the comments and empty lines above it.
+/// The line of a record; its position is before the comments and empty lines above it.
 fn line_of(text: &str, position: Option<&Position>) -> u64 {
     let (byte, line) = position.map_or((0, 1), |position| (position.byte(), position.line()));
     let rest = text.get(byte as usize..).unwrap_or_default();

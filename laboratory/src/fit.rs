@@ -1,13 +1,14 @@
 //! Parameters from measured data: nonlinear least squares over the stresses of all tests at once.
 //!
 //! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
-//! ([`Difference`]), are made small in the sum of their squares by the Levenberg–Marquardt method \[Mor78\]. How a stress
-//! changes with a parameter follows from what `fit` in the declaration generates, the sides that give way included
-//! ([`Response::weights`](crate::curve::Response::weights)).
+//! ([`Difference`]), are made small in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
+//! How a stress changes with a parameter follows from what `fit` in the declaration generates, the sides that
+//! give way included ([`Response::weights`](crate::curve::Response::weights)).
 //!
-//! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some combination
-//! of parameters only, and there may be several minima; or the energy refuses the best parameters, or gives way in volume where
-//! the fit keeps it. All five are looked for and said: [`Warning`].
+//! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some
+//! combination of parameters only, and there may be several minima; or the energy refuses the best
+//! parameters, or gives way in volume where the fit keeps it. All five are looked for and reported:
+//! [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
@@ -16,54 +17,64 @@ mod candidate;
 mod edge;
 mod minimum;
 mod others;
+mod outcome;
 mod problem;
-mod refusal;
 mod report;
 mod starts;
+mod trial;
 mod uniqueness;
 
+use crate::curve::Volume;
 use crate::data::{Measured, Measurements};
 
-pub use crate::curve::Volume;
 pub use candidate::Candidate;
-pub use refusal::Refusal;
-pub use report::{Ended, Fit, FitError, Number, Standing, Warning};
+pub use outcome::{Ended, Fit, FitError, Number, Standing, Warning};
+pub use trial::TrialError;
 
 use candidate::Numbers;
 use minimum::Minimum;
 use problem::Problem;
 
-/// What is made small at each measured point.
+/// The measure of the difference at each measured point, whose squares are summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Difference {
-    /// The difference by the measured stress, so that small strains count as much as large ones. Points without stress
-    /// are left out.
+    /// The difference by the measured stress, so that small strains count as much as large ones. Points
+    /// without stress are left out.
     #[default]
     Relative,
-    /// The difference by the greatest measured stress of all, so that stiff tests and large strains decide. It is what makes
-    /// R² great.
+    /// The difference by the greatest measured stress of all, so that stiff tests and large strains decide.
+    /// It is what makes R² great.
     Absolute,
 }
 
-/// How to fit.
+/// Settings of a fit.
+///
+/// ```
+/// use piola_laboratory::curve::Volume;
+/// use piola_laboratory::fit::FitSettings;
+///
+/// let settings = FitSettings::default().with_volume(Volume::Free).with_held(["alpha_1"]);
+/// assert_eq!(settings.restarts, 20);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Whether the specimens keep their volume. Of data without lateral stretches, which most are, this is the
-    /// assumption to make for rubber: default. An energy that gives way in volume is another solid then
+#[non_exhaustive]
+pub struct FitSettings {
+    /// Whether the specimens keep their volume. For data without lateral stretches, which most are, this is
+    /// the assumption to make for rubber: default. An energy that gives way in volume is another solid then
     /// ([`Warning::Compressible`]): fit it with [`Volume::Free`].
     pub volume: Volume,
-    /// Relative differences by default.
+    /// The measure of differences, relative by default.
     pub difference: Difference,
-    /// Parameters that keep their values: names as declared, a list with all its entries, or an entry as `alpha_1`,
-    /// counted from 1.
+    /// Parameters that keep their values: names as declared, a list with all its entries, or an entry as
+    /// `alpha_1`, counted from 1.
     pub held: Vec<String>,
-    /// How many times to start anew from parameters at random about the given ones, default 20.
+    /// Number of further starts from parameters at random about the given ones, default 20.
     pub restarts: usize,
-    /// Of these random parameters, default 1: the same seed gives the same fit.
+    /// Seed of these random parameters, default 1: equal seeds give equal fits.
     pub seed: u64,
 }
 
-impl Default for Settings {
+impl Default for FitSettings {
     fn default() -> Self {
         Self {
             volume: Volume::Kept,
@@ -75,14 +86,50 @@ impl Default for Settings {
     }
 }
 
+impl FitSettings {
+    /// Settings with another [`volume`](Self::volume).
+    #[must_use]
+    pub fn with_volume(self, volume: Volume) -> Self {
+        Self { volume, ..self }
+    }
+
+    /// Settings with another [`difference`](Self::difference).
+    #[must_use]
+    pub fn with_difference(self, difference: Difference) -> Self {
+        Self { difference, ..self }
+    }
+
+    /// Settings with other [`held`](Self::held) parameters.
+    #[must_use]
+    pub fn with_held<S: Into<String>>(self, held: impl IntoIterator<Item = S>) -> Self {
+        Self { held: held.into_iter().map(Into::into).collect(), ..self }
+    }
+
+    /// Settings with another number of [`restarts`](Self::restarts).
+    #[must_use]
+    pub fn with_restarts(self, restarts: usize) -> Self {
+        Self { restarts, ..self }
+    }
+
+    /// Settings with another [`seed`](Self::seed).
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+}
+
 /// The parameters with which an energy agrees best with data, sought from those that it has.
 ///
-/// Trials stay where the constructor accepts the parameters and every measured point has a stress. Where the best fit is
-/// beyond that, the search goes along the edge to the best fit there, and says so: [`Warning::Edge`].
+/// Trials stay where the constructor accepts the parameters and every measured point has a stress. Where the
+/// best fit is beyond that, the search goes along the edge to the best fit there: [`Warning::Edge`].
 ///
 /// # Errors
-/// Where nothing can be fitted: see [`FitError`].
-pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> Result<Fit, FitError> {
+/// [`FitError`] if nothing can be fitted.
+pub fn fit_parameters(
+    start: &dyn Candidate,
+    data: &Measurements,
+    settings: &FitSettings,
+) -> Result<Fit, FitError> {
     let numbers = Numbers::of(start);
     let mut held = held(&numbers, &settings.held)?;
     let points = points(data, settings.difference)?;
@@ -92,15 +139,15 @@ pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> R
     };
 
     let first = problem(&vec![None; held.len()], numbers.values.clone());
-    first.answers().map_err(FitError::Start)?;
+    first.answers()?;
     let elsewhere = starts::without_zeros(&numbers.values, &held);
     let elsewhere = starts::around(&elsewhere, &held, settings)
         .map(|values| problem(&vec![None; values.len()], values))
         .filter(|problem| problem.answers().is_ok())
         .take(1 + settings.restarts);
-    let silent = uniqueness::indifferent(std::iter::once(first).chain(elsewhere), &numbers);
+    let silent = uniqueness::unidentifiable(std::iter::once(first).chain(elsewhere), &numbers);
     for number in silent {
-        held[number].get_or_insert(Standing::Indifferent);
+        held[number].get_or_insert(Standing::Unidentifiable);
     }
     let free = held.iter().filter(|standing| standing.is_none()).count();
     if free == 0 {
@@ -122,7 +169,7 @@ pub fn fit(start: &dyn Candidate, data: &Measurements, settings: &Settings) -> R
     let is_least = |minimum: &&Minimum<'_>| minimum.squares <= least * (1.0 + 1e-9);
     let best = minima.iter().find(is_least).ok_or(FitError::NoMinimum)?;
     let agreement = data.agreement(best.problem.specimen(), settings.volume);
-    let agreement = agreement.map_err(|unanswered| FitError::Start(Refusal::Unanswered(unanswered)))?;
+    let agreement = agreement.map_err(TrialError::Point)?;
     let analysis = uniqueness::analyse(&best.problem, &numbers);
     Ok(report::report(&numbers, &held, &minima, best, agreement, analysis))
 }

@@ -1,14 +1,17 @@
-//! A material on the bench: what a testing machine would say of an energy before any body is made of it.
+//! A material on the bench: test curves, fits to measurements and stability of an energy, before any body is
+//! made of it.
 //!
-//! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free sides solved;
+//! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free
+//!   sides solved;
 //! * [`data`]: measured curves, and how well an energy agrees with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
 //! * [`chart`]: both in one picture;
 //! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!
-//! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an energy of one's
-//! own is as welcome as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously and slowly, so
-//! that neither buckling nor viscosity, softening or friction at the plates is seen.
+//! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an
+//! energy of one's own is as welcome as one of the catalogue. There are no bodies here: each specimen is
+//! deformed homogeneously and slowly, so that neither buckling nor viscosity, softening or friction at the
+//! plates is seen.
 
 pub mod chart;
 pub mod curve;

@@ -1,4 +1,4 @@
-//! What a bench needs to know of a material, with the type of the material out of sight.
+//! A material as a bench sees it, with its type erased.
 
 use piola::Material;
 use piola::lanes::Mask;
@@ -55,7 +55,7 @@ impl Ordered {
         Self { numbers: axes.map(|axis| along_axes[axis]), axes }
     }
 
-    /// What belongs to the ordered numbers, along the axes of the test.
+    /// Values that belong to the ordered numbers, along the axes of the test.
     pub(crate) fn back<T: Copy + Default>(&self, ordered: [T; 3]) -> [T; 3] {
         let mut along_axes = [T::default(); 3];
         for (axis, number) in self.axes.into_iter().zip(ordered) {

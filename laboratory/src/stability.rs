@@ -1,15 +1,17 @@
-//! Where a material is stable, before a body made of it finds out.
+//! Stability of a material: where it keeps the inequalities of a stable solid.
 //!
-//! An energy that fits its measurements may still be one that no solid has: a specimen of it would narrow under a growing
-//! pull, or fold into bands as fine as the mesh allows. Three inequalities say where that cannot be, [`Criterion`]; [`survey`]
-//! looks at them over a box of stretches and along the tests that laboratories make:
+//! An energy that fits its measurements may still be one that no solid has: a specimen of it would narrow
+//! under a growing pull, or fold into bands as fine as the mesh allows. Three inequalities say where that
+//! cannot be, [`Criterion`](criteria::Criterion); [`survey`] looks at them over a box of stretches and along
+//! the tests that laboratories make:
 //!
 //! ```
-//! use piola_laboratory::stability::{Criterion, Path, Settings, survey};
+//! use piola_laboratory::stability::criteria::Criterion;
+//! use piola_laboratory::stability::{Path, SurveySettings, survey};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let solid = piola_materials::StVenantKirchhoff::new(1.0, 0.0)?;
-//! let report = survey(&solid, &Settings::default())?;
+//! let report = survey(&solid, &SurveySettings::default())?;
 //! let crushed = report.walk(Path::Confined, 0.3).and_then(|walk| walk.lost(Criterion::StrongEllipticity));
 //! // An oblique wave stands still a little before the tangent ψ11 = μ (3 λ1² − 1) vanishes.
 //! assert!(crushed.is_some_and(|stretch| (stretch - (2.0 - 2f64.sqrt())).abs() < 1e-8));
@@ -17,11 +19,12 @@
 //! # }
 //! ```
 //!
-//! The stretches are positive: inverted states are not looked at. By isotropy, ordered ones are enough. Between the points of
-//! the box nothing is known, and a stable solid may still buckle: that depends on the body.
+//! The stretches are positive: inverted states are not looked at. By isotropy, ordered ones are enough.
+//! Between the points of the box nothing is known, and a stable solid may still buckle: that depends on the
+//! body.
 //!
-//! [`criteria`] has the inequalities and how they imply each other; [`wave`] tells how strong ellipticity is decided without
-//! a search.
+//! [`criteria`] has the inequalities and how they imply each other; [`wave`] tells how strong ellipticity is
+//! decided without a search.
 
 pub mod criteria;
 mod display;
@@ -29,20 +32,18 @@ mod map;
 mod path;
 pub mod wave;
 
-use std::fmt;
-
 use piola::material::Moduli;
 
 use crate::Specimen;
+use criteria::{Criterion, Judgement};
 
-pub use criteria::{Criterion, Judgement};
-pub use map::{NoMap, Plane, map};
+pub use map::{MapError, Plane, map};
 pub use path::{Path, Walk};
-pub use wave::{Wave, slowest};
 
-/// Which stretches are looked at.
+/// The stretches that a survey looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+#[non_exhaustive]
+pub struct SurveySettings {
     /// The least stretch, above 0 and below 1.
     pub from: f64,
     /// The greatest stretch, above 1.
@@ -51,18 +52,32 @@ pub struct Settings {
     pub resolution: usize,
 }
 
-impl Default for Settings {
+impl Default for SurveySettings {
     /// 0.3 … 3 in steps of 6 %.
     fn default() -> Self {
         Self { from: 0.3, to: 3.0, resolution: 41 }
     }
 }
 
-/// What a survey finds.
+impl SurveySettings {
+    /// Settings with another range of stretches.
+    #[must_use]
+    pub fn with_range(self, from: f64, to: f64) -> Self {
+        Self { from, to, ..self }
+    }
+
+    /// Settings with another [`resolution`](Self::resolution).
+    #[must_use]
+    pub fn with_resolution(self, resolution: usize) -> Self {
+        Self { resolution, ..self }
+    }
+}
+
+/// The result of a survey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Which stretches were looked at.
-    pub settings: Settings,
+    /// The stretches that were looked at.
+    pub settings: SurveySettings,
     /// Moduli at rest, in whose μ others are shown.
     pub moduli: Moduli,
     /// Points of the box, λ1 ≥ λ2 ≥ λ3.
@@ -75,7 +90,7 @@ pub struct Report {
     pub walks: Vec<Walk>,
 }
 
-/// What became of a criterion in the box.
+/// A criterion in the box of stretches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The criterion.
@@ -86,11 +101,14 @@ pub struct Finding {
     pub worst: Option<Judgement>,
 }
 
-/// Why nothing can be said.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why a material cannot be surveyed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NoSurvey {
+pub enum SurveyError {
     /// The range of stretches does not contain the rest state.
+    #[error(
+        "the stretches are from {from} to {to}; they must satisfy 0 < from < 1 < to, with the rest state inside"
+    )]
     Range {
         /// The least stretch as given.
         from: f64,
@@ -98,49 +116,27 @@ pub enum NoSurvey {
         to: f64,
     },
     /// Too few or too many stretches along an axis.
+    #[error("the resolution is {resolution}; it must be from {} to {}", LIMITS.0, LIMITS.1)]
     Resolution {
-        /// As given.
+        /// The resolution as given.
         resolution: usize,
     },
     /// The rest state is not admitted, or its shear modulus, in which all others are shown, is not positive.
+    #[error("the shear modulus at rest is {mu} Pa and must be positive: no solid has this energy")]
     Rest {
         /// The shear modulus, Pa; NaN where the rest state is not admitted.
         mu: f64,
     },
 }
 
-impl fmt::Display for NoSurvey {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Range { from, to } => {
-                write!(
-                    f,
-                    "the stretches are from {from} to {to}; they must satisfy 0 < from < 1 < to, with the rest state inside"
-                )
-            }
-            Self::Resolution { resolution } => {
-                write!(f, "the resolution is {resolution}; it must be from {} to {}", LIMITS.0, LIMITS.1)
-            }
-            Self::Rest { mu } => {
-                write!(
-                    f,
-                    "the shear modulus at rest is {mu} Pa and must be positive: no solid has this energy"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoSurvey {}
-
-/// Of [`Settings::resolution`]: 400 are 10.7 million points.
+/// Limits of [`SurveySettings::resolution`]: 400 are 10.7 million points.
 const LIMITS: (usize, usize) = (2, 400);
 
 /// Looks at a material over a box of stretches and along paths.
 ///
 /// # Errors
-/// Where the settings make no sense, or the material none at rest.
-pub fn survey(specimen: &dyn Specimen, settings: &Settings) -> Result<Report, NoSurvey> {
+/// [`SurveyError`] if the settings are out of range, or the material has no positive shear modulus at rest.
+pub fn survey(specimen: &dyn Specimen, settings: &SurveySettings) -> Result<Report, SurveyError> {
     settings.check()?;
     let moduli = at_rest(specimen)?;
     let (mut points, mut admitted) = (0, 0);
@@ -168,14 +164,14 @@ impl Report {
     }
 }
 
-impl Settings {
-    fn check(&self) -> Result<(), NoSurvey> {
+impl SurveySettings {
+    fn check(&self) -> Result<(), SurveyError> {
         let Self { from, to, resolution } = *self;
         if !(0.0 < from && from < 1.0 && 1.0 < to && to.is_finite()) {
-            return Err(NoSurvey::Range { from, to });
+            return Err(SurveyError::Range { from, to });
         }
         if !(LIMITS.0..=LIMITS.1).contains(&resolution) {
-            return Err(NoSurvey::Resolution { resolution });
+            return Err(SurveyError::Resolution { resolution });
         }
         Ok(())
     }
@@ -188,7 +184,7 @@ impl Settings {
         indices.map(move |indices| indices.map(|index| stretches[index]))
     }
 
-    /// So many stretches from one end of the range to the other, in equal steps of their logarithm.
+    /// `count` stretches from one end of the range to the other, in equal steps of their logarithm.
     fn stretches(&self, count: usize) -> Vec<f64> {
         let share = |k: usize| k as f64 / (count - 1) as f64;
         let mut stretches: Vec<f64> =
@@ -200,8 +196,8 @@ impl Settings {
 }
 
 /// μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
-fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, NoSurvey> {
+fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, SurveyError> {
     let [h11, _, _, h12, ..] = specimen.blocks([1.0; 3]).hessian;
     let mu: f64 = if specimen.admits([1.0; 3]) { 0.5 * (h11 - h12) } else { f64::NAN };
-    if mu > 0.0 && mu.is_finite() { Ok(Moduli { mu, lambda: h12 }) } else { Err(NoSurvey::Rest { mu }) }
+    if mu > 0.0 && mu.is_finite() { Ok(Moduli { mu, lambda: h12 }) } else { Err(SurveyError::Rest { mu }) }
 }

@@ -2,7 +2,7 @@
 
 use piola::material::{Declared, Moduli};
 use piola::{Inversion, Material};
-use piola_laboratory::curve::{Mode, NoResponse, Volume, respond};
+use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
 use piola_laboratory::data::{DataError, Measurements, TRELOAR_1944};
 use piola_materials::{BlatzKo, CATALOGUE, Gent, NeoHookean, Ogden, RotatedLinear, Visitor};
 
@@ -34,7 +34,8 @@ fn blatz_and_kos_foam_has_closed_forms() -> Outcome {
 
 #[test]
 fn linear_elasticity_has_poissons_contraction_at_any_strain() -> Outcome {
-    // Without rotations linear elasticity is exact: P = E s and t = 1 − ν s; through plane strain E/(1 − ν²), ν/(1 − ν).
+    // Without rotations linear elasticity is exact: P = E s and t = 1 − ν s; through plane strain E/(1 − ν²),
+    // ν/(1 − ν).
     let Moduli { mu, lambda } = Moduli::from_young_poisson(1e6, 0.3)?;
     let linear = RotatedLinear::new(mu, lambda)?;
     for strain in [-0.3, 1e-20, 1e-9, 0.2] {
@@ -57,7 +58,8 @@ fn linear_elasticity_has_poissons_contraction_at_any_strain() -> Outcome {
 
 #[test]
 fn incompressible_solids_follow_the_textbook() -> Outcome {
-    // Neo-Hookean, P = μ (λ − λ⁻²), μ (λ − λ⁻⁵), μ (λ − λ⁻³) [Ogd84, section 7.2]; as a limit where the volume is free.
+    // Neo-Hookean, P = μ (λ − λ⁻²), μ (λ − λ⁻⁵), μ (λ − λ⁻³) [Ogd84, section 7.2]; as a limit where the
+    // volume is free.
     for stretch in [0.3, 0.9, 1.5, 7.0_f64] {
         for (mode, power) in TENSIONS.into_iter().zip([-2, -5, -3]) {
             let expected = stretch - stretch.powi(power);
@@ -68,8 +70,8 @@ fn incompressible_solids_follow_the_textbook() -> Outcome {
                 (kept.stress - expected).abs() <= 60.0 * f64::EPSILON * scale,
                 "{mode}: {kept:?}, {expected}"
             );
-            // ψ3 = 0 is ln J = μ (1 − t²)/λ, and leaves ψ1 = μ (λ − t²/λ). The pressure rounds to u of the bulk modulus.
-            // A stretch is 1 plus a strain, which rounds to u.
+            // ψ3 = 0 is ln J = μ (1 − t²)/λ, and leaves ψ1 = μ (λ − t²/λ). The pressure rounds to u of the
+            // bulk modulus. A stretch is 1 plus a strain, which rounds to u.
             let free = respond(&NeoHookean::new(1.0, 1e6)?, mode, Volume::Free, stretch)?;
             let side_squared = free.stretches[2].powi(2);
             let logarithm = (1.0 - side_squared) * 1e-6;
@@ -119,8 +121,8 @@ impl Visitor for Conjugate {
                         continue;
                     };
                     let works_on = if mode == Mode::Equibiaxial { 2.0 } else { 1.0 };
-                    // What is left of h² is a third of the change that halving the step makes; the energy rounds to u of
-                    // the moduli and of itself.
+                    // What is left of h² is a third of the change that halving the step makes; the energy
+                    // rounds to u of the moduli and of itself.
                     let moduli = material.moduli();
                     let scale = energy + moduli.mu + moduli.lambda.abs();
                     let tolerance = 0.5 * (slope - rough).abs() + 40.0 * f64::EPSILON * scale / STEP;
@@ -140,8 +142,9 @@ impl Visitor for Conjugate {
 #[test]
 fn stresses_are_slopes_of_the_energy() -> Outcome {
     for entry in CATALOGUE {
-        let compared = entry.visit(entry.typical, Inversion::Refuse, Conjugate(entry.name))?;
-        // Not where a solid has no equilibrium or locks: 2 volumes × 5 modes × 4 points, less the volumetric test at constant volume.
+        let compared = entry.visit(entry.typical(), Inversion::Refuse, Conjugate(entry.name))?;
+        // Not where a solid has no equilibrium or locks: 2 volumes × 5 modes × 4 points, less the volumetric
+        // test at constant volume.
         assert!(compared >= 30, "{}: only {compared} points of 36", entry.name);
     }
     Ok(())
@@ -175,12 +178,12 @@ fn points_that_do_not_exist_are_said_to() -> Outcome {
     let rubber = NeoHookean::new(1.0, 5.0)?;
     for (mode, control) in [(Mode::Uniaxial, 0.0), (Mode::Volumetric, -1.0), (Mode::SimpleShear, f64::NAN)] {
         let error = respond(&rubber, mode, Volume::Free, control).expect_err("no place for a specimen");
-        assert!(matches!(error, NoResponse::Control { .. }), "{error}");
+        assert!(matches!(error, ResponseError::Control { .. }), "{error}");
     }
-    assert_eq!(respond(&rubber, Mode::Volumetric, Volume::Kept, 1.1), Err(NoResponse::VolumeKept));
+    assert_eq!(respond(&rubber, Mode::Volumetric, Volume::Kept, 1.1), Err(ResponseError::VolumeKept));
     let locking = Gent::new(1.0, 5.0, 100.0)?;
-    assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Kept, 3.0), Err(NoResponse::OutsideDomain));
-    assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Free, 3.0), Err(NoResponse::NoEquilibrium));
+    assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Kept, 3.0), Err(ResponseError::OutsideDomain));
+    assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Free, 3.0), Err(ResponseError::NoEquilibrium));
     Ok(())
 }
 

@@ -2,9 +2,9 @@
 
 use nalgebra_34::{DMatrix, DVector};
 use piola::material::Inadmissible;
-use piola_laboratory::curve::{Mode, NoResponse, Volume, respond};
-use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944, Unanswered};
-use piola_laboratory::fit::{Difference, Ended, Fit, Refusal, Settings, Warning, fit};
+use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
+use piola_laboratory::data::{Measured, Measurements, PointError, TRELOAR_1944};
+use piola_laboratory::fit::{Difference, Ended, Fit, FitSettings, TrialError, Warning, fit_parameters};
 use piola_materials::{MooneyRivlin, NeoHookean};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -59,12 +59,12 @@ fn tension(points: &[(f64, f64)]) -> Measurements {
     Measurements { points: points.iter().map(point).collect() }
 }
 
-fn by(difference: Difference) -> Settings {
-    Settings { difference, ..Settings::default() }
+fn by(difference: Difference) -> FitSettings {
+    FitSettings::default().with_difference(difference)
 }
 
 /// Why each edge refuses.
-fn edges(fit: &Fit) -> Vec<&Refusal> {
+fn edges(fit: &Fit) -> Vec<&TrialError> {
     let mut edges = Vec::new();
     for warning in &fit.warnings {
         if let Warning::Edge { reason } = warning {
@@ -76,14 +76,15 @@ fn edges(fit: &Fit) -> Vec<&Refusal> {
 
 /// The conditions at whose edge a fit ends.
 fn conditions(fit: &Fit) -> Vec<&str> {
-    let condition = |reason: &&Refusal| match reason {
-        Refusal::Inadmissible(Inadmissible::Violated { condition, .. }) => *condition,
+    let condition = |reason: &&TrialError| match reason {
+        TrialError::Inadmissible(Inadmissible::Violated { condition, .. }) => *condition,
         other => panic!("{other:?}"),
     };
     edges(fit).iter().map(condition).collect()
 }
 
-/// What each term of a stress that is linear in its parameters makes of the difference at each point, and Σ r² of parameters.
+/// What each term of a stress that is linear in its parameters makes of the difference at each point, and Σ
+/// r² of parameters.
 struct Linear {
     matrix: DMatrix<f64>,
     wanted: DVector<f64>,
@@ -170,14 +171,14 @@ fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Out
     edge[(0, 0)] = -2.0 / 3.0;
     (0..4).for_each(|k| edge[(k + 1, k)] = 1.0);
     for difference in [Difference::Relative, Difference::Absolute] {
-        let found = fit(&start, &data, &by(difference))?;
+        let found = fit_parameters(&start, &data, &by(difference))?;
         let linear = Linear::new(&data, difference, murnaghan);
         linear.check(&found, linear.least(&DVector::zeros(5), &edge));
         assert_eq!(found.ended, Ended::Edge);
         assert!(found.agreement.total > 0.8, "{found:?}");
         assert!(found.numbers.iter().all(|number| number.error.is_none()), "{found:?}");
-        let unstable = |reason: &&Refusal| match reason {
-            Refusal::Inadmissible(Inadmissible::UnstableRest { moduli }) => moduli.bulk() < 0.0,
+        let unstable = |reason: &&TrialError| match reason {
+            TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }) => moduli.bulk() < 0.0,
             _ => false,
         };
         assert!(edges(&found).len() == 1 && edges(&found).iter().all(unstable), "{found:?}");
@@ -191,7 +192,7 @@ fn bounds_that_end_a_fit_are_named() -> Outcome {
     for difference in [Difference::Relative, Difference::Absolute] {
         // The second runs into the corner of two bounds, one of which it can leave.
         for start in [Bounded::new(5e4, 2e4)?, Bounded::new(2e4, 9e4)?] {
-            let found = fit(&start, &data, &by(difference))?;
+            let found = fit_parameters(&start, &data, &by(difference))?;
             let linear = Linear::new(&data, difference, mooney);
             let edge = DMatrix::from_column_slice(2, 1, &[0.0, 1.0]);
             linear.check(&found, linear.least(&DVector::from_vec(vec![1e5, 0.0]), &edge));
@@ -211,13 +212,14 @@ fn bounds_that_end_a_fit_are_named() -> Outcome {
 
 #[test]
 fn in_a_corner_both_bounds_are_named() -> Outcome {
-    // Of a rubber with more of c1. In tension c1 gives more stress than c2 does, so that both bounds are in its way.
+    // Of a rubber with more of c1. In tension c1 gives more stress than c2 does, so that both bounds are in
+    // its way.
     let (wanted, mut data) = (MooneyRivlin::new(1.5e5, 1e3, 1e8)?, treloar());
     data.points.retain(|point| point.mode == Mode::Uniaxial);
     for point in &mut data.points {
         point.stress = respond(&wanted, point.mode, Volume::Kept, point.control)?.stress;
     }
-    let found = fit(&Bounded::new(5e4, 2e4)?, &data, &Settings::default())?;
+    let found = fit_parameters(&Bounded::new(5e4, 2e4)?, &data, &FitSettings::default())?;
     let mut bounds = conditions(&found);
     bounds.sort_unstable();
     assert_eq!(bounds, ["c1 + c2 <= 1.2e5", "c1 <= 1e5"]);
@@ -231,7 +233,7 @@ fn in_a_corner_both_bounds_are_named() -> Outcome {
 fn curved_edges_are_followed() -> Outcome {
     let data = treloar();
     for start in [Round::new(5e4, 2e4)?, Round::new(2e4, 8e4)?] {
-        let found = fit(&start, &data, &Settings::default())?;
+        let found = fit_parameters(&start, &data, &FitSettings::default())?;
         let linear = Linear::new(&data, Difference::Relative, mooney);
         let on_circle = |angle: f64| {
             let (sine, cosine) = angle.sin_cos();
@@ -239,8 +241,8 @@ fn curved_edges_are_followed() -> Outcome {
         };
         let least = (0..100_000).map(|k| on_circle(1e-5 * f64::from(k))).fold(f64::INFINITY, f64::min);
         let squares = found.difference.powi(2) * linear.wanted.len() as f64;
-        // The angle is at most half of 1e-5 off, and Σ r² by the square of that times its curvature, which is some ten times
-        // itself; what a step along the edge could gain is as little.
+        // The angle is at most half of 1e-5 off, and Σ r² by the square of that times its curvature, which is
+        // some ten times itself; what a step along the edge could gain is as little.
         assert!((squares / least - 1.0).abs() <= 10.0 * GAIN, "{squares} for {least}: {found:?}");
         assert_eq!(conditions(&found), ["c1.powi(2) + c2.powi(2) <= 1e10"]);
     }
@@ -251,12 +253,12 @@ fn curved_edges_are_followed() -> Outcome {
 fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
     // The last point would have I1 > a.
     let data = tension(&[(1.1, 2e4), (1.5, 1e5), (2.0, 1.2e5), (2.5, 1e5), (3.0, -5e4)]);
-    let found = fit(&Softening::new(1e4, 20.0)?, &data, &by(Difference::Absolute))?;
+    let found = fit_parameters(&Softening::new(1e4, 20.0)?, &data, &by(Difference::Absolute))?;
     assert_eq!(found.ended, Ended::Edge);
-    let Some(Refusal::Unanswered(Unanswered { point, reason })) = edges(&found).first() else {
+    let Some(TrialError::Point(PointError { point, reason })) = edges(&found).first() else {
         panic!("{found:?}");
     };
-    assert_eq!((point.control, *reason), (3.0, NoResponse::OutsideDomain));
+    assert_eq!((point.control, *reason), (3.0, ResponseError::OutsideDomain));
     // I1 = λ² + 2/λ there.
     assert!((found.values[1][0] - (9.0 + 2.0 / 3.0)).abs() <= 1e-9, "{found:?}");
     Ok(())
@@ -266,7 +268,7 @@ fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
 fn a_fit_worse_than_the_mean_says_so() -> Outcome {
     // No shear modulus pushes when it is pulled.
     let data = tension(&[(1.5, -1e5), (2.0, -2e5), (2.5, -2.2e5)]);
-    let found = fit(&NeoHookean::new(1e5, 1e7)?, &data, &Settings::default())?;
+    let found = fit_parameters(&NeoHookean::new(1e5, 1e7)?, &data, &FitSettings::default())?;
     let poor = |warning: &&Warning| matches!(warning, Warning::Poor { .. });
     let poor = found.warnings.iter().find(poor).expect("a warning");
     assert!(found.agreement.total < 0.0 && poor.to_string().contains("below 0"), "{found:?}");
@@ -284,7 +286,7 @@ fn a_minimum_inside_is_no_edge() -> Outcome {
         // Errors of a percent.
         point.stress = stress * if k % 2 == 0 { 1.01 } else { 0.99 };
     }
-    let found = fit(&Bounded::new(2e4, 9e4)?, &data, &Settings::default())?;
+    let found = fit_parameters(&Bounded::new(2e4, 9e4)?, &data, &FitSettings::default())?;
     assert!(edges(&found).is_empty() && found.ended != Ended::Edge, "{found:?}");
     assert!(found.numbers.iter().all(|number| number.error.is_some()), "{found:?}");
     Ok(())
@@ -292,7 +294,7 @@ fn a_minimum_inside_is_no_edge() -> Outcome {
 
 #[test]
 fn entries_of_lists_at_an_edge_go_by_their_names_among_the_numbers() -> Outcome {
-    let found = fit(&Powers::new([3e5], [2.0])?, &treloar(), &Settings::default())?;
+    let found = fit_parameters(&Powers::new([3e5], [2.0])?, &treloar(), &FitSettings::default())?;
     assert_eq!(conditions(&found), ["alpha[p] >= 1.5"]);
     let text = found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(

@@ -1,7 +1,10 @@
-//! Fits of exponentials: one term may drown the others where a search begins, and edges are where it has to turn.
+//! Fits of exponentials: one term may drown the others where a search begins, and edges are where it has to
+//! turn.
 
 use piola_laboratory::data::{Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Ended, Fit, FitError, Settings, Standing, Warning, fit};
+use piola_laboratory::fit::{
+    Candidate, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
+};
 use piola_materials::Ogden;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -24,13 +27,13 @@ fn Exponentials(
 }
 
 /// To Treloar's data.
-fn fitted(start: &dyn Candidate, settings: &Settings) -> Result<Fit, FitError> {
-    fit(start, &Measurements::read(TRELOAR_1944).expect("a table"), settings)
+fn fitted(start: &dyn Candidate, settings: &FitSettings) -> Result<Fit, FitError> {
+    fit_parameters(start, &Measurements::read(TRELOAR_1944).expect("a table"), settings)
 }
 
 /// From the start given alone.
-fn alone() -> Settings {
-    Settings { restarts: 0, ..Settings::default() }
+fn alone() -> FitSettings {
+    FitSettings::default().with_restarts(0)
 }
 
 /// The names of what the data are said to say nothing about.
@@ -38,21 +41,22 @@ fn alone() -> Settings {
 fn indifferent(fit: &Fit) -> Vec<&str> {
     let mut names = Vec::new();
     for warning in &fit.warnings {
-        if let Warning::Indifferent { parameter } = warning {
+        if let Warning::Unidentifiable { parameter } = warning {
             names.push(parameter.as_str());
         }
     }
-    let kept = fit.numbers.iter().filter(|number| number.standing == Standing::Indifferent);
+    let kept = fit.numbers.iter().filter(|number| number.standing == Standing::Unidentifiable);
     assert!(kept.map(|number| &number.name).eq(&names), "{fit:?}");
     names
 }
 
 #[test]
 fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
-    // Along two axes the exponent of the second term is 40; at small stretches the first is most of the stress.
+    // Along two axes the exponent of the second term is 40; at small stretches the first is most of the
+    // stress.
     let start = Exponentials::new(1e7, 0.018, 2.0, 1e5, 0.1, 2.0, 2e7)?;
     // With A, m, and alpha as given R² would be 0.77 from there.
-    for (settings, determination) in [(alone(), 0.9), (Settings::default(), 0.995)] {
+    for (settings, determination) in [(alone(), 0.9), (FitSettings::default(), 0.995)] {
         let found = fitted(&start, &settings)?;
         assert_eq!(indifferent(&found), ["kappa"]);
         assert!(found.agreement.total > determination, "{found:?}");
@@ -65,8 +69,8 @@ fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
 #[test]
 fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
     let start = Ogden::new([6e5, 0.0], [1.3, 5.0], 2e7)?;
-    assert_eq!(indifferent(&fitted(&start, &Settings::default())?), ["kappa"]);
-    let held = Settings { held: vec!["mu_2".into()], ..Settings::default() };
+    assert_eq!(indifferent(&fitted(&start, &FitSettings::default())?), ["kappa"]);
+    let held = FitSettings::default().with_held(["mu_2"]);
     assert_eq!(indifferent(&fitted(&start, &held)?), ["alpha_2", "kappa"]);
     Ok(())
 }

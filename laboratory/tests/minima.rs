@@ -1,8 +1,8 @@
 //! Other minima, and what only looks like one.
 
-use piola_laboratory::curve::{Mode, respond};
+use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Fit, Settings, Volume, Warning, fit};
+use piola_laboratory::fit::{Candidate, Fit, FitSettings, Warning, fit_parameters};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -21,7 +21,8 @@ fn Swanson<const N: usize>(
     1.5 * (first + second) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
-/// Rubber after Hoss and Marczak 2010, the part for large stretches of which becomes an exponential as n grows.
+/// Rubber after Hoss and Marczak 2010, the part for large stretches of which becomes an exponential as n
+/// grows.
 #[piola::material(domain(J > 0.0), admissible(beta > 0.0, b > 0.0, n > 0.0), fit)]
 fn HossMarczak([l1, l2, l3]: [f64; 3], alpha: f64, beta: f64, mu: f64, b: f64, n: f64, kappa: f64) -> f64 {
     let small = alpha / beta * (1.0 - (-beta * (I1b - 3.0)).exp());
@@ -43,8 +44,9 @@ fn synthetic(material: &dyn Candidate) -> Result<Measurements, Box<dyn std::erro
 
 /// What is said of other minima.
 fn others(fit: &Fit) -> Vec<&Warning> {
-    let is_other =
-        |warning: &&Warning| matches!(warning, Warning::OtherMinimum { .. } | Warning::SameSolid { .. });
+    let is_other = |warning: &&Warning| {
+        matches!(warning, Warning::OtherMinimum { .. } | Warning::EquivalentParameters { .. })
+    };
     fit.warnings.iter().filter(is_other).collect()
 }
 
@@ -52,7 +54,7 @@ fn others(fit: &Fit) -> Vec<&Warning> {
 fn terms_of_each_sum_change_places_unsaid() -> Outcome {
     let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 1e2], [-0.3, 1.4], 2e7)?;
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit(&start, &synthetic(&truth)?, &Settings::default())?;
+    let found = fit_parameters(&start, &synthetic(&truth)?, &FitSettings::default())?;
     assert!(found.difference <= 1e-9 && found.descents > 10, "{found:?}");
     assert!(others(&found).is_empty(), "{:?}", others(&found));
     Ok(())
@@ -62,14 +64,14 @@ fn terms_of_each_sum_change_places_unsaid() -> Outcome {
 fn of_a_term_that_has_vanished_the_exponent_makes_no_other_minimum() -> Outcome {
     let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 0.0], [-0.3, 1.4], 2e7)?;
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit(&start, &synthetic(&truth)?, &Settings::default())?;
-    let [Warning::SameSolid { numbers, is_endless: false }] = others(&found)[..] else {
+    let found = fit_parameters(&start, &synthetic(&truth)?, &FitSettings::default())?;
+    let [Warning::EquivalentParameters { numbers, is_runaway: false }] = others(&found)[..] else {
         panic!("{:?}", others(&found));
     };
     let names: Vec<_> = numbers.iter().map(|(name, ..)| name.as_str()).collect();
     assert_eq!(names, ["beta_1", "beta_2"], "the coefficients are the same, 0 among them");
     let text = others(&found)[0].to_string();
-    assert!(text.contains("(`--hold beta_2`, `Settings::held`), or leave the term out"), "{text}");
+    assert!(text.contains("(`--hold beta_2`, `FitSettings::with_held`), or leave the term out"), "{text}");
     Ok(())
 }
 
@@ -79,14 +81,14 @@ fn what_grows_without_end_is_said_once() -> Outcome {
     let limit = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 1e9, 2e7)?;
     // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and the stresses show it.
     for data in [synthetic(&limit)?, Measurements::read(TRELOAR_1944)?] {
-        let found = fit(&start, &data, &Settings::default())?;
+        let found = fit_parameters(&start, &data, &FitSettings::default())?;
         let said = others(&found);
         let endless: Vec<_> = said
             .iter()
-            .filter(|other| matches!(other, Warning::SameSolid { is_endless: true, .. }))
+            .filter(|other| matches!(other, Warning::EquivalentParameters { is_runaway: true, .. }))
             .collect();
         let [endless] = endless[..] else { panic!("{said:?}") };
-        assert!(endless.to_string().starts_with("n grows without end: n = "), "{endless}");
+        assert!(endless.to_string().starts_with("n grows without bound: n = "), "{endless}");
         for other in said {
             let Warning::OtherMinimum { values, .. } = other else { continue };
             assert!(values[4][0] < 1e3, "{other:?}");

@@ -1,8 +1,11 @@
-//! Where energies of the catalogue keep the inequalities of a stable solid, beside searches and what is published of them.
+//! Where energies of the catalogue keep the inequalities of a stable solid, beside searches and what is
+//! published of them.
 
 use piola::Material;
 use piola::material::{Blocks, Moduli};
 use piola::random::Random;
+use piola_laboratory::stability::criteria::{Criterion, Judgement};
+use piola_laboratory::stability::wave::slowest;
 use piola_laboratory::stability::*;
 use piola_materials::{BlatzKo, CiarletGeymonat, Gent, Hencky, NeoHookean, StVenantKirchhoff};
 
@@ -36,8 +39,8 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / norm)
 }
 
-/// The wave of the least modulus by search: all N of a grid over half the sphere, then ever smaller steps around the best.
-/// It shares nothing with the closed form.
+/// The wave of the least modulus by search: all N of a grid over half the sphere, then ever smaller steps
+/// around the best. It shares nothing with the closed form.
 fn searched(blocks: &Blocks<f64>) -> f64 {
     const STEPS: i32 = 10;
     let mut best = (f64::INFINITY, [0.0; 3]);
@@ -94,7 +97,8 @@ fn the_slowest_wave_is_the_one_that_a_search_finds() {
     for _ in 0..400 {
         let blocks = random_blocks(&mut random);
         let wave = slowest(&blocks);
-        // The search ends within 1e-9 of a stationary direction, but on ridges; the value is within its square, and rounding.
+        // The search ends within 1e-9 of a stationary direction, but on ridges; the value is within its
+        // square, and rounding.
         let expected = searched(&blocks);
         assert!((wave.modulus - expected).abs() < 1e-8, "{blocks:?}: {wave:?}, {expected}");
         for v in [wave.polarisation, wave.normal] {
@@ -148,8 +152,8 @@ fn at_rest_all_moduli_are_those_of_hooke() -> Tested {
     Ok(())
 }
 
-/// For ψ = μ/2 (I1 − 3) + h(J), E = μ + h″(J) (m · cof F N)²: the shear modulus, or less by the largest entry of cof F where
-/// h is concave. Here h = −μ ln J + λ/2 (ln J)².
+/// For ψ = μ/2 (I1 − 3) + h(J), E = μ + h″(J) (m · cof F N)²: the shear modulus, or less by the largest entry
+/// of cof F where h is concave. Here h = −μ ln J + λ/2 (ln J)².
 #[test]
 fn waves_of_a_neo_hookean_solid_have_a_formula() -> Tested {
     let (mu, lambda) = (1.0, 5.0);
@@ -175,8 +179,8 @@ fn waves_of_a_neo_hookean_solid_have_a_formula() -> Tested {
     Ok(())
 }
 
-/// \[KS75\] Knowles, Sternberg, *On the ellipticity of the equations of nonlinear elastostatics for a special material*,
-/// J. Elasticity 5, 1975: elliptic if and only if 2 − √3 < λi/λj < 2 + √3 for all pairs.
+/// \[KS75\] Knowles, Sternberg, *On the ellipticity of the equations of nonlinear elastostatics for a special
+/// material*, J. Elasticity 5, 1975: elliptic if and only if 2 − √3 < λi/λj < 2 + √3 for all pairs.
 #[test]
 fn the_foam_of_blatz_and_ko_loses_ellipticity_where_knowles_and_sternberg_say() -> Tested {
     let foam = BlatzKo::new(1.0, 0.0, 0.5)?;
@@ -206,18 +210,21 @@ fn the_foam_of_blatz_and_ko_loses_ellipticity_where_knowles_and_sternberg_say() 
     Ok(())
 }
 
-/// \[BXM01\] Bruhns, Xiao, Meyers, *Constitutive inequalities for an isotropic elastic strain-energy function based on Hencky's
-/// logarithmic strain tensor*, Proc. R. Soc. A 457, 2001: elliptic for stretches of 0.21162 … ∛e, whatever λ ≥ 0.
+/// \[BXM01\] Bruhns, Xiao, Meyers, *Constitutive inequalities for an isotropic elastic strain-energy function
+/// based on Hencky's logarithmic strain tensor*, Proc. R. Soc. A 457, 2001: elliptic for stretches of 0.21162
+/// … ∛e, whatever λ ≥ 0.
 #[test]
 fn henckys_solid_is_elliptic_at_moderate_stretches_only() -> Tested {
-    let moderate = Settings { from: 0.211_63, to: (1.0f64 / 3.0).exp() - 1e-5, resolution: 21 };
+    let moderate =
+        SurveySettings::default().with_range(0.211_63, (1.0f64 / 3.0).exp() - 1e-5).with_resolution(21);
     for lambda in [0.0, 0.1, 1.0, 10.0, 1e3] {
         let report = survey(&Hencky::new(1.0, lambda)?, &moderate)?;
         assert_eq!(report.findings[2].kept, report.points, "{report}");
         // Linear in the logarithmic strain.
         assert!(report.findings[1].worst.is_some_and(|worst| (worst.moduli[1] - 1.0).abs() < 1e-10));
     }
-    // Both limits are sharp: the upper one where resistance to volume changes is all there is, the lower one without any.
+    // Both limits are sharp: the upper one where resistance to volume changes is all there is, the lower one
+    // without any.
     let keeps = |lambda, stretches| -> Result<bool, Box<dyn std::error::Error>> {
         Ok(Judgement::of(&Hencky::new(1.0, lambda)?, stretches).ok_or("admitted")?.kept[2])
     };
@@ -236,20 +243,20 @@ fn henckys_solid_is_elliptic_at_moderate_stretches_only() -> Tested {
 #[test]
 fn a_polyconvex_energy_keeps_ellipticity_everywhere() -> Tested {
     let solid = CiarletGeymonat::new(1.8e5, 3.4e3, 5e6)?;
-    let report = survey(&solid, &Settings { from: 0.05, to: 20.0, resolution: 25 })?;
+    let report = survey(&solid, &SurveySettings::default().with_range(0.05, 20.0).with_resolution(25))?;
     let [shear, _, wave] = report.findings;
     assert_eq!((shear.kept, wave.kept), (report.points, report.points), "{report}");
     assert!(report.walks.iter().all(|walk| walk.lost(Criterion::StrongEllipticity).is_none()), "{report}");
     Ok(())
 }
 
-/// At the stretches (x, 1, 1), with M = 2μ + λ: ψ11 = M (3x² − 1)/2, a12 = (M x² − λ)/2, b12 = μ x, ψ12 = λ x and
-/// ψ22 = M + λ (x² − 1)/2.
+/// At the stretches (x, 1, 1), with M = 2μ + λ: ψ11 = M (3x² − 1)/2, a12 = (M x² − λ)/2, b12 = μ x, ψ12 = λ x
+/// and ψ22 = M + λ (x² − 1)/2.
 #[test]
 fn saint_venant_and_kirchhoffs_solid_is_lost_under_confined_compression() -> Tested {
     for poisson in [0.0, 0.2, 0.3, 0.45] {
         let Moduli { mu, lambda } = Moduli::from_young_poisson(1.0, poisson)?;
-        let report = survey(&StVenantKirchhoff::new(mu, lambda)?, &Settings::default())?;
+        let report = survey(&StVenantKirchhoff::new(mu, lambda)?, &SurveySettings::default())?;
         let lost = |path, to, criterion| report.walk(path, to).and_then(|walk| walk.lost(criterion));
         // a12 = 0
         let sheared = lost(Path::Confined, 0.3, Criterion::BakerEricksen);
@@ -295,14 +302,14 @@ fn stretches_come_in_any_order() -> Tested {
 #[test]
 fn settings_are_checked() -> Tested {
     let solid = Hencky::new(1.0, 1.0)?;
-    let good = Settings { resolution: 5, ..Settings::default() };
+    let good = SurveySettings::default().with_resolution(5);
     assert_eq!(survey(&solid, &good)?.points, 35);
     for (from, to) in [(1.0, 3.0), (0.3, 1.0), (0.0, 2.0), (f64::NAN, 2.0), (0.5, f64::INFINITY)] {
-        assert!(matches!(survey(&solid, &Settings { from, to, ..good }), Err(NoSurvey::Range { .. })));
+        assert!(matches!(survey(&solid, &good.with_range(from, to)), Err(SurveyError::Range { .. })));
     }
     for resolution in [0, 1, 401] {
-        let error = survey(&solid, &Settings { resolution, ..good });
-        assert_eq!(error, Err(NoSurvey::Resolution { resolution }));
+        let error = survey(&solid, &good.with_resolution(resolution));
+        assert_eq!(error, Err(SurveyError::Resolution { resolution }));
     }
     Ok(())
 }
@@ -310,7 +317,7 @@ fn settings_are_checked() -> Tested {
 #[test]
 fn reports_and_maps_are_complete() -> Tested {
     let rubber = Gent::new(1e6, 3.0, 1e8)?;
-    let settings = Settings { resolution: 11, ..Settings::default() };
+    let settings = SurveySettings::default().with_resolution(11);
     let report = survey(&rubber, &settings)?;
     assert!(report.admitted < report.points);
     let text = report.to_string();

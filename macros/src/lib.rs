@@ -23,6 +23,10 @@ use proc_macro::TokenStream;
 /// A logarithm, a denominator or a real power of an expression that vanishes inside the domain is refused if
 /// a usual deformation shows it, and so is a real power of one that vanishes at rest: `(I1b - 3.0).powf(n)`.
 ///
+/// The documentation of a parameter may end with its unit, as in `/// Shear modulus, Pa.` or `/// Exponent,
+/// dimensionless.`: the energy must then be in Pa. Units are `Pa`, `1/Pa` and `dimensionless`, of a function
+/// that of its values. Without units nothing is checked.
+///
 /// Arguments of the attribute, all optional:
 ///
 /// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent. `J != 0.0` excludes flat
@@ -33,10 +37,14 @@ use proc_macro::TokenStream;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these
 ///   conditions;
 /// * `refuse("why")`: the energy cannot be continued;
+/// * `typical("natural rubber", mu = 4e5, alpha = [1.3, 5.0])`: parameters of some real material, for
+///   documentation and programs;
 /// * `prestressed`: stress at rest is intended;
-/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress by its parameters.
+/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all conditions
+///   on its parameters with respect to these.
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`), as its
 ///   parameters, which are checked when they are read; functions among them must implement both as well.
+/// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
 /// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no
 /// other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is

@@ -1,9 +1,9 @@
-//! A finite-element code of one's own, with piola for the material: slices of deformation gradients in, slices of stresses
-//! and tangents out.
+//! A finite-element code of one's own, with piola for the material: slices of deformation gradients in,
+//! slices of stresses and tangents out.
 //!
 //! The elements are trilinear hexahedra with 2×2×2 Gauss points, of which piola knows nothing. All it sees is
-//! [`piola::batch::Batch`]. The program checks its forces and stiffness by finite differences, then bends and stretches
-//! a bar of rubber by a force at its tip.
+//! [`piola::batch::Batch`]. The program checks its forces and stiffness by finite differences, then bends and
+//! stretches a bar of rubber by a force at its tip.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF, X and J as in the literature")]
 #![expect(clippy::print_stdout, reason = "a result to show")]
@@ -30,7 +30,8 @@ fn main() -> Result<()> {
     let (x, residuals) = solve(&mut bar, &load)?;
     let by = (&x - &bar.X).rows_range(3 * (NODES - 1)..).into_owned();
     for steps in residuals[residuals.len().saturating_sub(3)..].windows(2) {
-        // Newton's method squares a relative error, times what the second derivative of the forces makes of it: a few.
+        // Newton's method squares a relative error, times what the second derivative of the forces makes of
+        // it: a few.
         let [before, after] = [steps[0], steps[1]].map(|residual| residual / load.norm());
         assert!(after <= 10.0 * before * before, "from {before:e} to {after:e}");
     }
@@ -186,10 +187,11 @@ fn irregular(n: usize) -> f64 {
     (1.0 + 17.0 * n as f64).sin()
 }
 
-/// Newton's method: where the gradient of the energy equals the load. Returns the residual of each iteration too, N.
+/// Newton's method: where the gradient of the energy equals the load. Returns the residual of each iteration
+/// too, N.
 ///
-/// Far from there the filtered tangent makes every step one downhill, whose length a line search finds; near it the
-/// tangent itself makes steps that square the residual.
+/// Far from there the filtered tangent makes every step one downhill, whose length a line search finds; near
+/// it the tangent itself makes steps that square the residual.
 fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f64>)> {
     let (mut x, mut filter, mut residuals) = (bar.X.clone(), Filter::Clamp, Vec::new());
     for _ in 0..50 {
@@ -219,8 +221,8 @@ fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f6
     Err(format!("no equilibrium: the residuals are {residuals:.1?} N").into())
 }
 
-/// Forces must be the slope of the energy and the stiffness that of the forces: halving the step of a central difference
-/// must divide its error by four.
+/// Forces must be the slope of the energy and the stiffness that of the forces: halving the step of a central
+/// difference must divide its error by four.
 fn check_slopes(bar: &mut Bar<'_>) -> Result<()> {
     let unknowns = bar.X.len();
     // Strained by a tenth or so, every element in another way.

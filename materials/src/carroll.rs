@@ -6,14 +6,14 @@ use piola::material;
 ///
 /// ψ = a (I1b − 3) + b (I1b⁴ − 81) + c (√I2b − √3) + κ/2 ((J² − 1)/2 − ln J).
 ///
-/// Carroll, *A Strain Energy Function for Vulcanized Rubbers*, 2011. The source is incompressible; the last term, of
-/// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined for J > 0.
-///
-/// Typical: `a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+/// Carroll, *A Strain Energy Function for Vulcanized Rubbers*, 2011. The source is incompressible; the last
+/// term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined for
+/// J > 0.
 #[material(
     domain(J > 0.0),
     admissible(a >= 0.0, b >= 0.0, c >= 0.0, kappa > 0.0),
     refuse("√I2 has a kink where two stretches vanish"),
+    typical("natural rubber, fitted to Treloar 1944", a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7),
     fit
 )]
 pub fn Carroll(

@@ -6,12 +6,17 @@ use piola::material;
 ///
 /// ψ = μ Σ (λi − 1)² + λ/2 (J − 1)².
 ///
-/// Stomakhin, Howes, Schroeder, Teran, *Energetically consistent invertible elasticity*, 2012, eq. 7. Defined for every
-/// deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
-///
-/// Typical: `mu = 5.8e4, lambda = 3.9e4`, snow, E = 140 kPa and ν = 0.2 of Stomakhin, Schroeder, Chai, Teran,
-/// Selle, *A material point method for snow simulation*, 2013.
-#[material(admissible(mu > 0.0), fit)]
+/// Stomakhin, Howes, Schroeder, Teran, *Energetically consistent invertible elasticity*, 2012, eq. 7. Defined
+/// for every deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
+#[material(
+    admissible(mu > 0.0),
+    typical(
+        "snow, E = 140 kPa and ν = 0.2 of Stomakhin, Schroeder, Chai, Teran, Selle, *A material \
+         point method for snow simulation*, 2013",
+        mu = 5.8e4, lambda = 3.9e4
+    ),
+    fit
+)]
 pub fn FixedCorotated(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -7,14 +7,16 @@ use piola::material;
 /// ψ = c1 (I1b − 3) + c2 ln(I2b/3) + κ/2 ((J² − 1)/2 − ln J).
 ///
 /// Gent, Thomas, *Forms for the stored (strain) energy function for vulcanized rubber*, 1958. The source is
-/// incompressible; the last term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume.
-/// Defined for J > 0.
-///
-/// Typical: `c1 = 1.4e5, c2 = 1.7e5, kappa = 2e7`, natural rubber fitted to \[Treloar 1944\] up to three times the rest length.
+/// incompressible; the last term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises
+/// changes of volume. Defined for J > 0.
 #[material(
     domain(J > 0.0),
     admissible(c1 >= 0.0, c2 >= 0.0, kappa > 0.0),
     refuse("ln I2 is singular where two stretches vanish"),
+    typical(
+        "natural rubber fitted to Treloar 1944 up to three times the rest length",
+        c1 = 1.4e5, c2 = 1.7e5, kappa = 2e7
+    ),
     fit
 )]
 pub fn GentThomas(

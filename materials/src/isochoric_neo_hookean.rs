@@ -6,11 +6,16 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1b − 3) + κ/2 ((J² − 1)/2 − ln J).
 ///
-/// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2. Defined for J > 0; continued below a threshold stretch with
-/// [`Inversion::Extend`](piola::Inversion::Extend), since −ln J pushes even a collapsed point open.
-///
-/// Typical: `mu = 3.8e5, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(mu > 0.0, kappa > 0.0), extend, fit)]
+/// Simo, Hughes, *Computational Inelasticity*, 1998, §9.2. Defined for J > 0; continued below a threshold
+/// stretch with [`Inversion::Extend`](piola::Inversion::Extend), since −ln J pushes even a collapsed point
+/// open.
+#[material(
+    domain(J > 0.0),
+    admissible(mu > 0.0, kappa > 0.0),
+    extend,
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, kappa = 2e7),
+    fit
+)]
 pub fn IsochoricNeoHookean(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -1,19 +1,21 @@
 //! Parameters for given small-strain moduli.
 
 use piola::Inversion;
-use piola::material::{Inadmissible, Moduli, Parameter};
+use piola::material::{Inadmissible, Moduli};
 
 use crate::Entry;
 
-/// The shear modulus does not depend on a parameter that changes it by no more than this share: a few roundings.
+/// The shear modulus does not depend on a parameter that changes it by no more than this share: a few
+/// roundings.
 const ROUNDING: f64 = 1e-12;
 
 impl Entry {
-    /// The typical parameters, changed as little as makes the body as stiff as these moduli say.
+    /// The typical parameters, rescaled to these small-strain moduli.
     ///
-    /// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is one and it can be;
-    /// then all parameters that are stresses are multiplied by one factor for Young's modulus. An energy is
-    /// proportional to these together, so that its shape, exponents and limits included, stays that of the typical material.
+    /// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is
+    /// one and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for
+    /// Young's modulus. An energy is proportional to these together, so that its shape, exponents and limits
+    /// included, stays that of the typical material.
     ///
     /// ```
     /// use piola::Inversion;
@@ -30,14 +32,16 @@ impl Entry {
     /// ```
     ///
     /// # Errors
-    /// Where the material refuses its parameters, as for moduli that are not positive.
+    /// [`Inadmissible`] if the material refuses the parameters, as for moduli that are not positive.
     pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, Inadmissible> {
-        let typical: Vec<Vec<f64>> = self.typical.iter().map(|values| values.to_vec()).collect();
+        let typical: Vec<Vec<f64>> = self.typical().iter().map(|values| values.to_vec()).collect();
         let values = self.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);
         let factor = wanted.young() / self.moduli_of(&values)?.young();
-        let parameters = self.description.parameters.iter().zip(values);
-        let values: Vec<_> =
-            parameters.map(|(parameter, values)| scaled(parameter, values, factor)).collect();
+        let values = self.description.parameters.iter().zip(values).map(|(parameter, mut values)| {
+            parameter.rescale(&mut values, factor);
+            values
+        });
+        let values: Vec<_> = values.collect();
         self.moduli_of(&values)?;
         Ok(values)
     }
@@ -47,7 +51,7 @@ impl Entry {
         let before = self.moduli_of(values).ok()?;
         let with = |index: usize, factor: f64| {
             let mut values = values.to_vec();
-            values[index] = scaled(&self.description.parameters[index], values[index].clone(), factor);
+            self.description.parameters[index].rescale(&mut values[index], factor);
             values
         };
         (0..values.len()).find_map(|index| {
@@ -66,15 +70,4 @@ impl Entry {
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         self.moduli(&values, Inversion::Refuse)
     }
-}
-
-/// Values of a parameter with its stresses, which its documentation gives in Pa, multiplied by a factor. Of control points
-/// these are the ordinates.
-fn scaled(parameter: &Parameter, mut values: Vec<f64>, factor: f64) -> Vec<f64> {
-    let words = |doc: &'static str| doc.split(|c: char| !c.is_alphanumeric());
-    if words(parameter.doc).any(|word| word == "Pa") {
-        let (first, step) = if parameter.doc.contains("control points") { (1, 2) } else { (0, 1) };
-        values.iter_mut().skip(first).step_by(step).for_each(|value| *value *= factor);
-    }
-    values
 }

@@ -6,14 +6,14 @@ use piola::material;
 ///
 /// ψ = C10 (I1b − 3) + C01 (I2b − 3) + κ/2 (J − 1)².
 ///
-/// Rivlin, *Large elastic deformations of isotropic materials IV*, 1948; the split into isochoric and volumetric parts is that of
-/// Flory, *Thermodynamic relations for high elastic materials*, 1961. Defined for J > 0.
-///
-/// Typical: `c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+/// Rivlin, *Large elastic deformations of isotropic materials IV*, 1948; the split into isochoric and
+/// volumetric parts is that of Flory, *Thermodynamic relations for high elastic materials*, 1961. Defined for
+/// J > 0.
 #[material(
     domain(J > 0.0),
     admissible(c10 >= 0.0, c01 >= 0.0, kappa > 0.0),
     refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open"),
+    typical("natural rubber, fitted to Treloar 1944", c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7),
     fit
 )]
 pub fn MooneyRivlin(

@@ -6,12 +6,16 @@ use piola::material;
 ///
 /// ψ = C10 (I1 − 3) + C01 (I2 − 3) − 2 (C10 + 2 C01) ln J + κ/2 (J − 1)².
 ///
-/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982, for the form; the
-/// volumetric part here is κ/2 (J − 1)². Defined for J > 0; continued below a threshold stretch
+/// Ciarlet, Geymonat, *Sur les lois de comportement en élasticité non linéaire compressible*, 1982, for the
+/// form; the volumetric part here is κ/2 (J − 1)². Defined for J > 0; continued below a threshold stretch
 /// with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
-///
-/// Typical: `c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(c10 >= 0.0, c01 >= 0.0), extend(kappa >= 0.0), fit)]
+#[material(
+    domain(J > 0.0),
+    admissible(c10 >= 0.0, c01 >= 0.0),
+    extend(kappa >= 0.0),
+    typical("natural rubber, fitted to Treloar 1944", c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7),
+    fit
+)]
 pub fn MooneyRivlinCoupled(
     [l1, l2, l3]: [f64; 3],
     /// Modulus C10, Pa.

@@ -6,11 +6,16 @@ use piola::material;
 ///
 /// ψ = μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
 ///
-/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
-///
-/// Typical: `mu = 3.8e5, lambda = 2e7`, natural rubber, fitted to \[Treloar 1944\].
-#[material(domain(J > 0.0), admissible(mu > 0.0), extend(lambda >= 0.0), fit)]
+/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined
+/// for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥
+/// 0.
+#[material(
+    domain(J > 0.0),
+    admissible(mu > 0.0),
+    extend(lambda >= 0.0),
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, lambda = 2e7),
+    fit
+)]
 pub fn NeoHookean(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

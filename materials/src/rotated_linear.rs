@@ -6,12 +6,14 @@ use piola::material;
 ///
 /// ψ = μ Σ (λi − 1)² + λ/2 (λ1 + λ2 + λ3 − 3)².
 ///
-/// Müller, Gross, *Interactive Virtual Materials*, 2004; in principal stretches Irving, Teran, Fedkiw, *Invertible finite
-/// elements for robust simulation of large deformation*, 2004, §5. Defined for every deformation; the stress jumps where
-/// λ2 + λ3 = 0, and the twist quotient has a pole there.
-///
-/// Typical: `mu = 3.4e5, lambda = 3.1e6`, the order of soft rubber, E = 1 MPa and ν = 0.45.
-#[material(admissible(mu > 0.0), fit)]
+/// Müller, Gross, *Interactive Virtual Materials*, 2004; in principal stretches Irving, Teran, Fedkiw,
+/// *Invertible finite elements for robust simulation of large deformation*, 2004, §5. Defined for every
+/// deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
+#[material(
+    admissible(mu > 0.0),
+    typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6),
+    fit
+)]
 pub fn RotatedLinear(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

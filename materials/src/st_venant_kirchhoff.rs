@@ -6,11 +6,13 @@ use piola::material;
 ///
 /// ψ = μ Σ Ei² + λ/2 (Σ Ei)² with Ei = (λi² − 1)/2.
 ///
-/// Ciarlet, *Mathematical Elasticity I*, 1988, §3.9. Defined for every deformation and even in the stretches, so it resists
-/// inversion no more than compression: P vanishes at F = 0, and an inside-out body is at rest.
-///
-/// Typical: `mu = 8.1e10, lambda = 1.2e11`, steel, E = 210 GPa and ν = 0.3 of EN 1993-1-1, §3.2.6.
-#[material(admissible(mu > 0.0), fit)]
+/// Ciarlet, *Mathematical Elasticity I*, 1988, §3.9. Defined for every deformation and even in the stretches,
+/// so it resists inversion no more than compression: P vanishes at F = 0, and an inside-out body is at rest.
+#[material(
+    admissible(mu > 0.0),
+    typical("steel, E = 210 GPa and ν = 0.3 of EN 1993-1-1, §3.2.6", mu = 8.1e10, lambda = 1.2e11),
+    fit
+)]
 pub fn StVenantKirchhoff(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

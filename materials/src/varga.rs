@@ -6,12 +6,16 @@ use piola::material;
 ///
 /// ψ = 2μ (λ1 + λ2 + λ3 − 3) − 2μ ln J + κ/2 (J − 1)².
 ///
-/// Varga, *Stress-Strain Behavior of Elastic Materials*, 1966, for the first term; the source is incompressible, and the others
-/// free the rest state of stress and penalise changes of volume. Defined for J > 0; continued
-/// below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
-///
-/// Typical: `mu = 4.0e5, kappa = 2e7`, natural rubber fitted to \[Treloar 1944\] up to twice the rest length.
-#[material(domain(J > 0.0), admissible(mu > 0.0), extend(kappa >= 0.0), fit)]
+/// Varga, *Stress-Strain Behavior of Elastic Materials*, 1966, for the first term; the source is
+/// incompressible, and the others free the rest state of stress and penalise changes of volume. Defined for J
+/// > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0.
+#[material(
+    domain(J > 0.0),
+    admissible(mu > 0.0),
+    extend(kappa >= 0.0),
+    typical("natural rubber fitted to Treloar 1944 up to twice the rest length", mu = 4.0e5, kappa = 2e7),
+    fit
+)]
 pub fn Varga(
     [l1, l2, l3]: [f64; 3],
     /// Shear modulus μ, Pa.

@@ -6,13 +6,13 @@ use piola::material;
 ///
 /// ψ = Σₖ Cₖ (I1b − 3)ᵏ + κ/2 (J − 1)², k = 1, 2, 3.
 ///
-/// Yeoh, *Some Forms of the Strain Energy Function for Rubber*, 1993, eq. 5, in isochoric form. Defined for J > 0.
-///
-/// Typical: `c1 = 1.85e5, c2 = -1.46e3, c3 = 40.4, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+/// Yeoh, *Some Forms of the Strain Energy Function for Rubber*, 1993, eq. 5, in isochoric form. Defined for J
+/// > 0.
 #[material(
     domain(J > 0.0),
     admissible(c1 > 0.0, kappa > 0.0),
     refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open"),
+    typical("natural rubber, fitted to Treloar 1944", c1 = 1.85e5, c2 = -1.46e3, c3 = 40.4, kappa = 2e7),
     fit
 )]
 pub fn Yeoh(

@@ -1,4 +1,5 @@
-//! Batches of declared materials: parameters for each point, and energies of invariants with and without them.
+//! Batches of declared materials: parameters for each point, and energies of invariants with and without
+//! them.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
@@ -19,7 +20,8 @@ const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
 /// More than two tiles, and not a whole number of lines.
 const COUNT: usize = 150;
 
-/// Deformation gradients from gentle to inside out, one that is rank-deficient and one out of the invariants' range.
+/// Deformation gradients from gentle to inside out, one that is rank-deficient and one out of the invariants'
+/// range.
 fn deformations() -> Vec<[f64; 9]> {
     let mut all: Vec<[f64; 9]> = (0..COUNT)
         .map(|p| {

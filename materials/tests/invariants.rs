@@ -49,12 +49,12 @@ fn energies_by_invariants_are_those_by_stretches() {
     let mut with_invariants = Vec::new();
     for entry in CATALOGUE {
         for inversion in [Inversion::Refuse, EXTEND] {
-            if let Ok(true) = entry.visit(entry.typical, inversion, Judge) {
+            if let Ok(true) = entry.visit(entry.typical(), inversion, Judge) {
                 with_invariants.push(entry.name);
             }
         }
     }
-    assert!(["neo_hookean_lnj", "gent", "mooney_rivlin"].iter().all(|name| with_invariants.contains(name)));
+    assert!(["neo_hookean", "gent", "mooney_rivlin"].iter().all(|name| with_invariants.contains(name)));
     assert!(!["ogden", "arap", "stretch_spline"].iter().any(|name| with_invariants.contains(name)));
 }
 

@@ -55,14 +55,15 @@ fn a_volumetric_parameter_brings_poisson_about() -> Result<(), Box<dyn std::erro
         let matches = (found.poisson() - 0.45).abs() < TOLERANCE;
         assert_eq!(matches, !without.contains(&entry.name), "{}: {found:?}", entry.name);
     }
-    let stvk = find("stvk").expect("in the catalogue").matching(Moduli { mu: 3.0, lambda: 5.0 })?;
+    let stvk =
+        find("st_venant_kirchhoff").expect("in the catalogue").matching(Moduli { mu: 3.0, lambda: 5.0 })?;
     assert!((stvk[0][0] - 3.0).abs() < TOLERANCE && (stvk[1][0] - 5.0).abs() < TOLERANCE, "{stvk:?}");
     Ok(())
 }
 
 #[test]
 fn impossible_moduli_are_refused() {
-    let stvk = find("stvk").expect("in the catalogue");
+    let stvk = find("st_venant_kirchhoff").expect("in the catalogue");
     assert!(stvk.matching(Moduli { mu: -1.0, lambda: 1.0 }).is_err());
     assert!(stvk.matching(Moduli { mu: f64::NAN, lambda: 1.0 }).is_err());
 }

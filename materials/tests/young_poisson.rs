@@ -12,9 +12,9 @@ const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
 
 /// E = μ (3λ + 2μ)/(λ + μ) and 1 − 2ν = μ/(λ + μ) of the material, against what was asked.
 ///
-/// A parameter and the modulus that follows from it have six roundings each; λ may be a difference of parameters no more than
-/// 3 (λ + μ) in size, so that both moduli err by 20 u (λ + μ). E changes by at most three times as much as μ and λ (1 − 2ν)²,
-/// so both err by 100 u of E and of one.
+/// A parameter and the modulus that follows from it have six roundings each; λ may be a difference of
+/// parameters no more than 3 (λ + μ) in size, so that both moduli err by 20 u (λ + μ). E changes by at most
+/// three times as much as μ and λ (1 − 2ν)², so both err by 100 u of E and of one.
 #[track_caller]
 fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, Inadmissible>) -> Result<(), Inadmissible> {
     let name = M::DESCRIPTION.name;
@@ -66,14 +66,15 @@ fn materials_are_as_stiff_as_asked() -> Result<(), Inadmissible> {
 }
 
 /// Parameters that are differences of moduli, one of them with a constant, and names of what is emitted.
+/// Without units, since the constant has one.
 #[material(domain(J > 0.0))]
 pub fn Own(
     [l1, l2, l3]: [f64; 3],
-    /// A quarter of the shear modulus, less 3 Pa.
+    /// A quarter of the shear modulus, less 3.
     c: f64,
     /// Stiffening.
     young: f64,
-    /// First Lamé parameter less 4/3 of the shear modulus, Pa.
+    /// First Lamé parameter less 4/3 of the shear modulus.
     a: f64,
 ) -> f64 {
     let shear = c + 3.0;

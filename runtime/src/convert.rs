@@ -20,6 +20,7 @@
 //! `reshape` or `as_slice` is in the other order, 3j+i: use `dP_dF *
 //! SVector::from_row_slice(dF.as_flattened())` on piola's rows instead.
 
+#[cfg(any(feature = "glam", test))]
 use crate::point::Matrix3;
 
 /// The rows of a matrix of nalgebra.

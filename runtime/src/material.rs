@@ -18,6 +18,7 @@
 use crate::lanes::{Mask, Real};
 
 mod combine;
+mod description;
 mod fittable;
 mod inadmissible;
 mod normalised;
@@ -25,7 +26,8 @@ mod parameter;
 mod response;
 
 pub use combine::{Scaled, Sum};
-pub use fittable::Fittable;
+pub use description::{Description, Form, Parameter, Typical, Unit};
+pub use fittable::{Constraint, Fittable, Limit};
 pub use inadmissible::{Given, Inadmissible};
 pub use normalised::{Normalised, VolumetricPenalty};
 pub use parameter::{Graded, ParameterValue, PerLane, PerPoint, PerPointError};
@@ -223,40 +225,6 @@ impl Moduli {
     pub fn poisson(&self) -> f64 {
         self.lambda / (2.0 * (self.lambda + self.mu))
     }
-}
-
-/// What a declaration says of itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Description {
-    /// The type's name.
-    pub name: &'static str,
-    /// First paragraph of the documentation.
-    pub summary: &'static str,
-    /// ψ as a formula in one line.
-    pub formula: &'static str,
-    /// The parameters in the order of the constructor.
-    pub parameters: &'static [Parameter],
-    /// Where ψ is defined, such as `J > 0`.
-    pub domain: &'static str,
-    /// Whether the material can be built with [`Inversion::Extend`].
-    pub extends: bool,
-    /// Why not, if it cannot and the declaration says so.
-    pub refusal: Option<&'static str>,
-    /// What the parameters must satisfy beside being finite.
-    pub admissible: &'static [&'static str],
-    /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
-    pub moduli: [&'static str; 2],
-}
-
-/// A parameter of a declared energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    /// As in the declaration.
-    pub name: &'static str,
-    /// Its documentation, units included.
-    pub doc: &'static str,
-    /// A list: with one entry for each term of a sum, or what a function is built from.
-    pub is_list: bool,
 }
 
 /// A material declared by `#[piola::material]`, buildable from values found at run time.

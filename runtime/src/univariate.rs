@@ -10,7 +10,7 @@
 use std::fmt::Debug;
 
 use crate::lanes::{Mask, Real};
-use crate::material::Inadmissible;
+use crate::material::{Form, Inadmissible};
 
 mod spline;
 
@@ -57,6 +57,9 @@ pub use spline::Spline;
 /// # }
 /// ```
 pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
+    /// The form of the numbers that [`from_values`](Univariate::from_values) takes.
+    const FORM: Form = Form::Function;
+
     /// φ(x).
     fn value<R: Real>(&self, x: R) -> R;
 

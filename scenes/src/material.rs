@@ -103,7 +103,7 @@ impl MaterialSpec {
     /// [`Error::UnknownMaterial`].
     pub fn typical(material: &str) -> Result<Self, Error> {
         let entry = find(material)?;
-        let parameters = entry.description.parameters.iter().zip(entry.typical);
+        let parameters = entry.description.parameters.iter().zip(entry.typical());
         Ok(parameters.fold(Self::new(entry.name), |spec, (parameter, values)| {
             spec.with_parameter(parameter.name, *values)
         }))
@@ -278,7 +278,7 @@ fn same_name(one: &str, other: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use piola::material::Parameter;
+    use piola::material::{Form, Parameter, Unit};
 
     use super::*;
 
@@ -287,14 +287,15 @@ mod tests {
         summary: "Rubber that locks.",
         formula: "…",
         parameters: &[
-            Parameter { name: "mu", doc: "Shear modulus, Pa.", is_list: false },
-            Parameter { name: "jm", doc: "Where it locks.", is_list: false },
+            Parameter { name: "mu", doc: "Shear modulus, Pa.", unit: Some(Unit::Pascal), form: Form::Number },
+            Parameter { name: "jm", doc: "Where it locks.", unit: None, form: Form::Number },
         ],
         domain: "J > 0",
         extends: true,
         refusal: None,
         admissible: &[],
         moduli: ["mu", "kappa"],
+        typical: None,
     };
 
     #[test]
@@ -338,7 +339,9 @@ mod tests {
 
     #[test]
     fn moduli_stand_in_for_parameters() {
-        for name in ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"] {
+        for name in
+            ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "st_venant_kirchhoff"]
+        {
             let moduli = MaterialSpec::matching(name, soft_moduli()).build().map(|info| info.moduli);
             let error =
                 moduli.map(|moduli| (moduli.young() / 1e6 - 1.0).abs().max((moduli.poisson() - 0.45).abs()));
@@ -350,14 +353,16 @@ mod tests {
         assert!(explicit.as_ref().is_ok_and(|energy| energy.values_of("jm") == [108.0]), "{explicit:?}");
         let moduli = |energy: &MaterialSpec| energy.build().ok().map(|info| info.moduli);
         assert_eq!(explicit.ok().and_then(|energy| moduli(&energy)), moduli(&matched));
-        let incomplete =
-            MaterialSpec::matching("stvk", soft_moduli()).with_parameter("mu", [1.0]).build().err();
+        let incomplete = MaterialSpec::matching("st_venant_kirchhoff", soft_moduli())
+            .with_parameter("mu", [1.0])
+            .build()
+            .err();
         assert!(matches!(incomplete, Some(Error::MissingParameters { .. })), "{incomplete:?}");
     }
 
     #[test]
     fn a_material_answers_to_both_its_names() {
-        let energy = MaterialSpec::new("stvk");
+        let energy = MaterialSpec::new("st_venant_kirchhoff");
         assert!(energy.is("StVK") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
     }
 

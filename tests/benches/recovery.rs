@@ -25,7 +25,8 @@ use piola_scenes::recovery_trial::{TrialOutcome, continue_trial};
 use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
 use piola_scenes::settings::Settings;
 
-const MATERIALS: [&str; 5] = ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "stvk"];
+const MATERIALS: [&str; 5] =
+    ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "st_venant_kirchhoff"];
 
 /// Differences of energies err by some roundings; slopes judge what is below them.
 const RISE: f64 = 1e-12;

@@ -59,7 +59,7 @@ fn keep<'a>(materials: impl Iterator<Item = (&'a Entry, &'a [&'a [f64]])>, inver
 
 fn all() -> impl Iterator<Item = (&'static Entry, &'static [&'static [f64]])> {
     let further = FURTHER.map(|(name, values)| (find(name).expect("in the catalogue"), values));
-    CATALOGUE.iter().map(|entry| (entry, entry.typical)).chain(further)
+    CATALOGUE.iter().map(|entry| (entry, entry.typical())).chain(further)
 }
 
 fn restores(entry: &Entry, values: &[&[f64]]) -> bool {

@@ -63,7 +63,7 @@ fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for entry in CATALOGUE {
         let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|&(_, values)| values);
-        for (choice, values) in std::iter::once(entry.typical).chain(others).enumerate() {
+        for (choice, values) in std::iter::once(entry.typical()).chain(others).enumerate() {
             for (word, inversion) in [("refuse", Inversion::Refuse), ("extend", EXTEND)] {
                 if inversion == EXTEND && !can_be_extended(entry, values) {
                     continue;
@@ -80,7 +80,7 @@ fn trials() -> Vec<Trial> {
 /// Typical parameters can be extended wherever the entry can; of other ones, some may not.
 fn can_be_extended(entry: &Entry, values: &[&[f64]]) -> bool {
     let restores = || !matches!(entry.moduli(values, EXTEND), Err(Inadmissible::DoesNotRestore { .. }));
-    entry.description.extends && (values == entry.typical || restores())
+    entry.description.extends && (values == entry.typical() || restores())
 }
 
 /// Judges a material and adds the result to the table.

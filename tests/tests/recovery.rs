@@ -67,7 +67,7 @@ fn what_is_inside_out_turns_if_its_energy_knows() -> Result<(), Error> {
     for body in [Body::HORSE, Body::DINOSAUR] {
         let neo_hookean = play(&INSIDE_OUT, body, "stable neo-Hookean", INSIDE_OUT.start, Newton::Single)?;
         assert!(neo_hookean.recovered.is_some(), "{}: {neo_hookean:?}", body.name);
-        let kirchhoff = play(&INSIDE_OUT, body, "stvk", INSIDE_OUT.start, Newton::Single)?;
+        let kirchhoff = play(&INSIDE_OUT, body, "st_venant_kirchhoff", INSIDE_OUT.start, Newton::Single)?;
         assert!(kirchhoff.recovered.is_none(), "{}: {kirchhoff:?}", body.name);
         let final_state = kirchhoff.final_state.expect("it is not back");
         assert_eq!(

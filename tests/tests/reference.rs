@@ -216,8 +216,8 @@ fn in_single_precision(
         Ok(Some(Box::new(M::from_values(values, Inversion::Refuse)?)))
     }
     match name {
-        "stvk" => boxed::<StVenantKirchhoff>(values),
-        "neo_hookean_lnj" => boxed::<NeoHookean>(values),
+        "st_venant_kirchhoff" => boxed::<StVenantKirchhoff>(values),
+        "neo_hookean" => boxed::<NeoHookean>(values),
         "ogden" if values[0].len() == 3 => boxed::<Ogden<3>>(values),
         "rotated_linear" => boxed::<RotatedLinear>(values),
         _ => Ok(None),

@@ -158,17 +158,20 @@ fn constructors_refuse_what_is_inadmissible() {
     let check =
         |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");
     let plain = Inversion::Refuse;
-    check(message("stvk", &[&[f64::NAN], &[1.0]], plain), "`mu` is NaN; it must be a finite number");
+    check(
+        message("st_venant_kirchhoff", &[&[f64::NAN], &[1.0]], plain),
+        "`mu` is NaN; it must be a finite number",
+    );
     check(
         message("ogden", &[&[1.0, 1.0], &[2.0, f64::INFINITY], &[1.0]], plain),
         "`alpha[1]` is inf; it must",
     );
-    check(message("stvk", &[&[-1.0], &[1.0]], plain), "`mu > 0` must hold, but mu = -1");
-    check(message("stvk", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
-    check(message("stvk", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");
-    check(message("stvk", &[&[1.0], &[1.0, 2.0]], plain), "`lambda` must be one number");
+    check(message("st_venant_kirchhoff", &[&[-1.0], &[1.0]], plain), "`mu > 0` must hold, but mu = -1");
+    check(message("st_venant_kirchhoff", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
+    check(message("st_venant_kirchhoff", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");
+    check(message("st_venant_kirchhoff", &[&[1.0], &[1.0, 2.0]], plain), "`lambda` must be one number");
     check(
-        message("stvk", &[&[1.0], &[1.0]], EXTEND),
+        message("st_venant_kirchhoff", &[&[1.0], &[1.0]], EXTEND),
         "StVenantKirchhoff has no extension beyond its domain: it is defined for every deformation gradient already",
     );
     check(
@@ -189,11 +192,11 @@ fn constructors_refuse_what_is_inadmissible() {
         "`mu[p] * alpha[p] > 0` must hold, but mu[1] = 1, alpha[1] = -1",
     );
     for epsilon in [-0.1, 0.0, 1.0, 1.5, f64::INFINITY, f64::NAN] {
-        let found = message("neo_hookean_lnj", &[&[1.0], &[1.0]], Inversion::Extend { epsilon });
+        let found = message("neo_hookean", &[&[1.0], &[1.0]], Inversion::Extend { epsilon });
         check(found, &format!("threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1"));
     }
     for epsilon in [f64::MIN_POSITIVE, 1.0 - f64::EPSILON] {
-        assert_eq!(message("neo_hookean_lnj", &[&[1.0], &[1.0]], Inversion::Extend { epsilon }), "");
+        assert_eq!(message("neo_hookean", &[&[1.0], &[1.0]], Inversion::Extend { epsilon }), "");
     }
     // At rest the stress is f′(1) + 2 g′(1) + h′(1), of straight lines here: 4 − 6 + h′(1).
     let spline =

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use piola::Inversion;
-use piola_laboratory::stability::{Settings, map, survey};
+use piola_laboratory::stability::{SurveySettings, map, survey};
 use piola_scenes::output::write_whole;
 
 use super::Material;
@@ -44,7 +44,8 @@ impl Check {
     /// Examines the material and writes the map if one is wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         let material = self.material.spec()?.with_inversion(self.inversion);
-        let stretches = Settings { from: self.from, to: self.to, resolution: self.resolution };
+        let stretches =
+            SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
         let description = material.description()?;
         let parameters = description.parameters.iter().map(|parameter| {
             let values: Vec<_> = material.values_of(parameter.name).iter().map(short).collect();

@@ -6,7 +6,7 @@ use clap::Args;
 use piola::Inversion;
 use piola_laboratory::Specimen;
 use piola_laboratory::chart;
-use piola_laboratory::curve::{Mode, Volume, curve};
+use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
@@ -89,7 +89,7 @@ impl Curve {
                 let controls: Vec<_> = measured.iter().map(|point| point.control).collect();
                 text += &table(specimen, volume, mode, &controls, &measured);
             }
-            let points = curve(specimen, mode, volume, &spaced(from, to, FINE));
+            let points = sweep(specimen, mode, volume, &spaced(from, to, FINE));
             curves.push(chart::Curve { mode, points });
         }
         let agreement = data.as_ref().map(|data| data.agreement(specimen, volume));
@@ -138,7 +138,7 @@ fn table(
         "\n{mode}\n{control:>10} {stress:>14} {along:>10} {across:>10} {thickness:>10} {:>10}{more}\n",
         "J"
     );
-    for (row, (control, response)) in controls.iter().zip(curve(specimen, mode, volume, controls)).enumerate()
+    for (row, (control, response)) in controls.iter().zip(sweep(specimen, mode, volume, controls)).enumerate()
     {
         text += &format!("{control:>10.4} ");
         match response {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 use piola_laboratory::chart;
-use piola_laboratory::curve::{Mode, Volume, curve};
-use piola_laboratory::fit::{self, Candidate, Difference, Standing, Warning};
+use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};
 use piola_scenes::error::Error as SceneError;
 
 use super::{FINE, Material, as_options, draw, measured_range, measurements, rounded, spaced, titled};
@@ -72,9 +72,13 @@ impl Fit {
             true => (Difference::Absolute, "differences by the greatest stress"),
             false => (Difference::Relative, "relative differences"),
         };
-        let settings =
-            fit::Settings { volume, difference, held: self.held, restarts: self.starts, seed: self.seed };
-        let fit = fit::fit(&*candidate, &data, &settings)
+        let settings = FitSettings::default()
+            .with_volume(volume)
+            .with_difference(difference)
+            .with_held(self.held)
+            .with_restarts(self.starts)
+            .with_seed(self.seed);
+        let fit = fit::fit_parameters(&*candidate, &data, &settings)
             .map_err(|source| Error::Fit { material: material.into(), source })?;
         let names: Vec<_> =
             candidate.description().parameters.iter().map(|parameter| parameter.name).collect();
@@ -92,7 +96,7 @@ impl Fit {
                 }
                 (Standing::Free, None) => text.push('\n'),
                 (Standing::Held, _) => text += " held\n",
-                (Standing::Indifferent, _) => text += " held: the data say nothing about it\n",
+                (Standing::Unidentifiable, _) => text += " held: the data say nothing about it\n",
             }
         }
         text += &format!("  R²           {}\n", fit.agreement);
@@ -115,7 +119,7 @@ impl Fit {
                     );
                 }
                 // The table has it.
-                Warning::Indifferent { .. } => {}
+                Warning::Unidentifiable { .. } => {}
                 warning => text += &format!("warning: {warning}\n"),
             }
         }
@@ -125,7 +129,7 @@ impl Fit {
                 .map_err(|source| SceneError::Inadmissible { material, source })?;
             let curve = |mode| {
                 let [from, to] = measured_range(&data, mode);
-                let points = curve(&*fitted, mode, volume, &spaced(from, to, FINE));
+                let points = sweep(&*fitted, mode, volume, &spaced(from, to, FINE));
                 chart::Curve { mode, points }
             };
             let curves: Vec<_> = data.modes().map(curve).collect();

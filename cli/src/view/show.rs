@@ -84,7 +84,7 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
         json!({
             "name": parameter.name,
             "doc": parameter.doc,
-            "is_list": parameter.is_list,
+            "is_list": parameter.is_list(),
             "values": settings.material.values_of(parameter.name),
         })
     };

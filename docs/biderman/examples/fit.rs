@@ -2,13 +2,13 @@
 
 use biderman::Biderman;
 use piola_laboratory::data::{Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Settings, fit};
+use piola_laboratory::fit::{FitSettings, fit_parameters};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Where the search begins: a shear modulus of 0.4 MPa, and a little of each.
     let start = Biderman::new(1.9e5, 1e4, 1e2, 1e2, 2e7)?;
     let data = Measurements::read(TRELOAR_1944)?;
-    let fitted = fit(&start, &data, &Settings::default()).map_err(|error| error.to_string())?;
+    let fitted = fit_parameters(&start, &data, &FitSettings::default())?;
 
     for number in &fitted.numbers {
         println!("{:8} {:>10.3e}", number.name, number.value);

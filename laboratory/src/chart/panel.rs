@@ -15,7 +15,7 @@ const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Pixels of a line of the legend.
 const LINE: i32 = 20;
 
-/// Of Okabe and Ito, which stay apart for all kinds of colour vision.
+/// Colours of Okabe and Ito, which all kinds of colour vision tell apart.
 fn colour(mode: Mode) -> RGBColor {
     match mode {
         Mode::Uniaxial => RGBColor(0, 114, 178),
@@ -29,36 +29,25 @@ fn colour(mode: Mode) -> RGBColor {
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Why there is no chart.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
     /// There is no point to draw.
+    #[error("there is no point to draw: the material has no stress at any of them")]
     Empty,
-    /// What the library of charts says.
+    /// The library of charts fails.
+    #[error("the chart cannot be drawn: {reason}")]
     Drawing {
-        /// Its reason.
+        /// Its message.
         reason: String,
     },
 }
-
-impl fmt::Display for ChartError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => {
-                f.write_str("there is no point to draw: the material has no stress at any of them")
-            }
-            Self::Drawing { reason } => write!(f, "the chart cannot be drawn: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for ChartError {}
 
 pub(super) fn failed(error: impl fmt::Display) -> ChartError {
     ChartError::Drawing { reason: error.to_string() }
 }
 
-/// What is left of an area below a title and a note, which are this many pixels high.
+/// The rest of an area below a title and a note of this many pixels.
 pub(super) fn head<'a>(
     root: &Area<'a>,
     title: &str,
@@ -210,7 +199,7 @@ fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
     least - margin..greatest + margin
 }
 
-/// In which stresses up to this one, Pa, have few digits before the point, and its size in Pa.
+/// A unit in which stresses up to this one, Pa, have few digits before the point, and its size in Pa.
 fn unit(greatest: f64) -> (&'static str, f64) {
     match greatest {
         1e9.. => ("GPa", 1e9),

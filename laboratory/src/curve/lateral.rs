@@ -1,15 +1,15 @@
 //! The strain at which the free sides of a specimen carry no stress.
 //!
-//! Newton's method with the slope that the energy has, inside an interval with a side too narrow at one end and too wide
-//! at the other, halved where the step would leave it or falls behind halving \[PTVF07\].
+//! Newton's method with the slope that the energy has, inside an interval with a side too narrow at one end
+//! and too wide at the other, halved where the step would leave it or falls behind halving \[PTVF07\].
 //!
 //! This module knows no materials.
 //!
 //! \[PTVF07\] Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, 2007, section 9.4.
 
-/// By how much an interval without a solution is widened, to either side.
+/// Factor by which an interval without a solution is widened, to either side.
 const WIDENING: f64 = 1.1;
-/// How often: 1.1⁷³ is a little more than a thousand.
+/// Number of widenings: 1.1⁷³ is a little more than a thousand.
 const WIDENINGS: usize = 73;
 
 /// The stress of free sides and its derivative by their stretch, Pa.
@@ -19,10 +19,12 @@ pub(crate) struct Side {
     pub(crate) slope: f64,
 }
 
-/// The strain at which `side` has no stress, to the last digits; `side` is `None` outside the domain of the energy.
+/// The strain at which `side` has no stress, to the last digits; `side` is `None` outside the domain of the
+/// energy.
 ///
-/// Sides that are pressed outwards, that is, with a negative stress, are too narrow. Of several equilibria it is one that is
-/// stable under this test, between `isochoric`, the strain at constant volume, and 0 if there is one, else not far outside.
+/// Sides that are pressed outwards, that is, with a negative stress, are too narrow. Of several equilibria it
+/// is one that is stable under this test, between `isochoric`, the strain at constant volume, and 0 if there
+/// is one, else not far outside.
 pub(crate) fn release(side: impl Fn(f64) -> Option<Side>, isochoric: f64) -> Option<f64> {
     let interval = enclose(|strain| side(strain).map(|side| side.stress), isochoric)?;
     solve(side, interval)
@@ -114,7 +116,8 @@ mod tests {
 
     #[test]
     fn the_strain_of_a_spring_at_the_edge_of_its_domain() {
-        // −1 + 1e-9/(1 − x): the root is 1 − 1e-9, next to the edge at 1, with rounding 1e9 u of its distance.
+        // −1 + 1e-9/(1 − x): the root is 1 − 1e-9, next to the edge at 1, with rounding 1e9 u of its
+        // distance.
         let spring = |x: f64| {
             let gap = 1.0 - x;
             (gap > 0.0).then(|| Side { stress: 1e-9 / gap - 1.0, slope: 1e-9 / gap.powi(2) })

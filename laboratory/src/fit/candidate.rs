@@ -1,26 +1,33 @@
-//! An energy whose parameters are sought, with its type out of sight, and its parameters as one row of numbers.
+//! An energy whose parameters are sought, with its type out of sight, and its parameters as one row of
+//! numbers.
 
 use piola::Inversion;
-use piola::material::{Description, Fittable, Inadmissible};
+use piola::material::{Constraint, Description, Fittable, Inadmissible};
 
 use crate::specimen::Specimen;
 
 /// A [`Specimen`] that can be made anew with other parameters: any [`Fittable`] material.
 pub trait Candidate: Specimen {
-    /// What the declaration says of itself.
+    /// Names, formula and domain of the declaration.
     fn description(&self) -> Description;
 
     /// The parameters, one list for each of the description.
     fn values(&self) -> Vec<Vec<f64>>;
 
-    /// The same energy with these parameters, refused outside its domain.
+    /// The energy with these parameters and without extension.
     ///
     /// # Errors
-    /// Where the constructor would refuse.
+    /// [`Inadmissible`] if the constructor refuses.
     fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Inadmissible>;
 
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, at stretches λ1 ≥ λ2 ≥ λ3 > 0.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
+
+    /// The conditions on the parameters: [`Fittable::constraints`].
+    fn constraints(&self) -> Vec<Constraint>;
+
+    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0: [`Fittable::domain_constraints`].
+    fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint>;
 }
 
 impl<M: Fittable + 'static> Candidate for M {
@@ -40,6 +47,14 @@ impl<M: Fittable + 'static> Candidate for M {
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]> {
         Fittable::gradient_by_parameters(self, stretches)
     }
+
+    fn constraints(&self) -> Vec<Constraint> {
+        Fittable::constraints(self)
+    }
+
+    fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
+        Fittable::domain_constraints(self, stretches)
+    }
 }
 
 /// The parameters of an energy, lists entry by entry.
@@ -57,7 +72,7 @@ impl Numbers {
         let lists = candidate.values();
         let parameters = candidate.description().parameters;
         let names = parameters.iter().zip(&lists).flat_map(|(parameter, list)| {
-            (1..=list.len()).map(|entry| match parameter.is_list {
+            (1..=list.len()).map(|entry| match parameter.is_list() {
                 true => format!("{}_{entry}", parameter.name),
                 false => parameter.name.to_owned(),
             })
@@ -75,7 +90,7 @@ impl Numbers {
         self.names[number] == name || owners.into_iter().nth(number) == Some(name)
     }
 
-    /// As lists again, one for each parameter.
+    /// The values as lists, one for each parameter.
     pub(super) fn lists(&self, values: &[f64]) -> Vec<Vec<f64>> {
         let mut rest = values;
         let mut next = |length: usize| {
@@ -86,8 +101,8 @@ impl Numbers {
         self.parameters.iter().map(|&(_, length)| next(length)).collect()
     }
 
-    /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of a sum that change
-    /// places are the same energy, those of each sum by themselves.
+    /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of
+    /// a sum that change places are the same energy, those of each sum by themselves.
     pub(super) fn differing(
         &self,
         one: &[f64],

@@ -1,43 +1,46 @@
 //! Edges of what the energy accepts, where they keep a search from its minimum.
 //!
-//! An energy tells only whether it accepts parameters, not how far from the edge they are. Where the Gauss–Newton step d
-//! that minimises |r + J d| is worth taking and is refused however short, the search stands at an edge, whose
-//! [`normal`] is found by trying. Then d is sought in what the edges leave free, each kept only for as long as its Lagrange
-//! multiplier says that the step would cross it: the active-set method of quadratic programming \[NW06, section 16.5\].
+//! Where the Gauss–Newton step d that minimises |r + J d| is worth taking and is refused however short, the
+//! search stands at an edge. Its normal is the gradient of the constraint that refuses, which the declaration
+//! of the energy knows ([`Fittable::constraints`](piola::material::Fittable::constraints)). Then d is sought
+//! in what the edges leave free, each kept only as long as its Lagrange multiplier shows that the step would
+//! cross it: the active-set method of quadratic programming \[NW06, section 16.5\].
 //!
-//! All of it in coordinates in which each parameter changes the residuals by the length one.
+//! Coordinates are parameters scaled so that each changes the residuals by the length one.
 //!
 //! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006.
-
-mod normal;
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_34::{DMatrix, DVector};
 
 use super::problem::Problem;
-use super::refusal::Refusal;
+use super::trial::TrialError;
 
-/// What would lessen Σ r² by a smaller share than this is not worth a step. The method stops at 1e-14 by itself.
+/// A step that lessens Σ r² by a smaller share is not worth taking. The Levenberg–Marquardt method itself
+/// stops at 1e-14.
 const GAIN: f64 = 1e-10;
-/// Beside this square of each residual all are rounding.
+/// Residuals whose squares are below this are rounding errors.
 const EXACT: f64 = 1e-24;
+/// Halvings of a probe until its end is at the edge: to 1e-12 of it, about as near as rounding of the place allows.
+const HALVINGS: usize = 40;
 /// A step is refused at once if this share of it is.
 const PROBE: f64 = 1e-3;
-/// What is kept from the edge, by the length of the step: far above the error of the normal, far below what shows; and what
-/// leaves room to go along a curved edge.
+/// Distances to keep from the edge, relative to the length of the step: one far below any visible change, and
+/// one that leaves room to go along a curved edge.
 const MARGINS: [f64; 2] = [1e-7, 1e-3];
 /// Normals that have less than this outside the span of others belong to one curved edge.
 const TURN: f64 = 1e-3;
 /// Singular values below this by the greatest belong to directions that the residuals do not feel.
 const SILENCE: f64 = 1e-10;
 
-/// What stopped a search.
+/// The edges that stopped a search, and the ways along them.
 pub(super) struct Stop {
-    /// Why each edge refuses.
-    pub(super) refusals: Vec<Refusal>,
-    /// Where it goes on downwards along the edges: next to them, and at a distance that leaves room where they are curved.
+    /// The reason of each edge for refusing.
+    pub(super) reasons: Vec<TrialError>,
+    /// Ways on downwards along the edges: next to them, and at a distance that leaves room if they are
+    /// curved.
     pub(super) ways: Vec<Way>,
-    /// Whether it goes on nowhere, so that this is the best that the edges allow.
+    /// Whether there is no way on, so that this is the best that the edges allow.
     pub(super) is_least: bool,
 }
 
@@ -50,15 +53,15 @@ pub(super) struct Way {
 struct Edge {
     /// Outwards, of the length one.
     normal: DVector<f64>,
-    refusal: Refusal,
+    reason: TrialError,
 }
 
-/// Whether Σ r² becomes less by nothing worth a step.
+/// Whether the gain in Σ r² is too small to be worth a step.
 pub(super) fn is_no_gain(gain: f64, squares: f64) -> bool {
     gain <= GAIN * squares
 }
 
-/// What keeps the problem from a better fit where it stands; `None` where no edge does.
+/// The edges that keep the problem from a better fit at its current place; `None` if no edge does.
 pub(super) fn stop(problem: &Problem<'_>) -> Option<Stop> {
     let surroundings = Surroundings::of(problem)?;
     let [mut near, far] = MARGINS.map(|margin| surroundings.stop(margin));
@@ -68,8 +71,8 @@ pub(super) fn stop(problem: &Problem<'_>) -> Option<Stop> {
     near
 }
 
-fn refusals(edges: Vec<Edge>) -> Vec<Refusal> {
-    edges.into_iter().map(|edge| edge.refusal).collect()
+fn reasons(edges: Vec<Edge>) -> Vec<TrialError> {
+    edges.into_iter().map(|edge| edge.reason).collect()
 }
 
 /// One in each column.
@@ -91,12 +94,12 @@ fn along(edges: &[Edge], unknowns: usize) -> DMatrix<f64> {
     decomposed.eigenvectors.select_columns(&kept)
 }
 
-/// A problem to first order about where it stands.
+/// A problem to first order about its current place.
 struct Surroundings<'a, 'b> {
     problem: &'a Problem<'b>,
     /// The length of each column of ∂r/∂p: the coordinate of a parameter is p times this.
     scales: DVector<f64>,
-    /// Where it stands.
+    /// The current place.
     place: DVector<f64>,
     residuals: DVector<f64>,
     slopes: DMatrix<f64>,
@@ -126,7 +129,7 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         Some(surroundings)
     }
 
-    /// As [`stop`], that far from the edges.
+    /// The edges of [`stop`], at this distance from them.
     fn stop(&self, margin: f64) -> Option<Stop> {
         let unknowns = self.place.len();
         let mut edges: Vec<Edge> = Vec::new();
@@ -143,24 +146,23 @@ impl<'a, 'b> Surroundings<'a, 'b> {
                 }
                 let way = is_worth.then(|| Way { from: self.free(&from), basis: self.columns(&basis) });
                 let ways = way.into_iter().collect();
-                return Some(Stop { refusals: refusals(edges), ways, is_least: !is_worth });
+                return Some(Stop { reasons: reasons(edges), ways, is_least: !is_worth });
             };
-            let accepts = |place: &DVector<f64>| self.accepts(place);
-            let normal = normal::normal(&accepts, &from, &(&step * PROBE), &refusal);
             let is_new = |normal: &DVector<f64>| basis.tr_mul(normal).norm() > TURN;
+            let normal = self.normal(&from, &(&step * PROBE), &refusal);
             let Some(normal) = normal.filter(is_new) else {
-                let mut refusals = refusals(edges);
-                if refusals.is_empty() {
-                    refusals.push(refusal);
+                let mut reasons = reasons(edges);
+                if reasons.is_empty() {
+                    reasons.push(refusal);
                 }
-                return Some(Stop { refusals, ways: Vec::new(), is_least: false });
+                return Some(Stop { reasons, ways: Vec::new(), is_least: false });
             };
-            edges.push(Edge { normal, refusal });
+            edges.push(Edge { normal, reason: refusal });
             let multipliers = self.multipliers(&edges)?;
             let mut multipliers = multipliers.iter();
             edges.retain(|_| multipliers.next().is_none_or(|&multiplier| multiplier >= 0.0));
         }
-        Some(Stop { refusals: refusals(edges), ways: Vec::new(), is_least: false })
+        Some(Stop { reasons: reasons(edges), ways: Vec::new(), is_least: false })
     }
 
     fn squares(&self) -> f64 {
@@ -177,8 +179,32 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         DMatrix::from_fn(basis.nrows(), basis.ncols(), |row, column| basis[(row, column)] / self.scales[row])
     }
 
-    fn accepts(&self, place: &DVector<f64>) -> Result<(), Refusal> {
+    fn accepts(&self, place: &DVector<f64>) -> Result<(), TrialError> {
         self.problem.accepts(&self.free(place))
+    }
+
+    /// Outwards, of the length one, where a probe meets the edge that refuses it; `None` if no constraint of the
+    /// declaration does.
+    fn normal(
+        &self,
+        from: &DVector<f64>,
+        probe: &DVector<f64>,
+        refusal: &TrialError,
+    ) -> Option<DVector<f64>> {
+        let (mut inside, mut outside) = (from - probe, from + probe);
+        self.accepts(&inside).ok()?;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (&inside + &outside);
+            let is_inside = self.accepts(&middle).is_ok();
+            *(if is_inside { &mut inside } else { &mut outside }) = middle;
+        }
+        let bounds = self.problem.within(self.free(&inside), DMatrix::zeros(from.len(), 0)).bounds();
+        let distances = bounds.iter().filter(|bound| bound.refuses(refusal)).map(|bound| {
+            let normal = bound.gradient.component_div(&self.scales);
+            let length = normal.norm();
+            (bound.value / length, -normal / length)
+        });
+        distances.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, normal)| normal)
     }
 
     /// The step d in the span of the basis that makes |r + J d| least.
@@ -198,7 +224,8 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         edges.iter().fold(self.place.clone(), |place, edge| place - &edge.normal * away)
     }
 
-    /// What each edge pushes with against the step that keeps to all of them: Jᵀ (r + J d) + Σ multiplier · normal = 0.
+    /// Lagrange multipliers of the edges for the step that keeps to all of them: Jᵀ (r + J d) + Σ multiplier
+    /// · normal = 0.
     fn multipliers(&self, edges: &[Edge]) -> Option<DVector<f64>> {
         let step = self.step(&along(edges, self.place.len()))?;
         let rest = self.slopes.tr_mul(&(&self.residuals + &self.slopes * step));

@@ -3,16 +3,16 @@
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 
 use super::edge::{self, Stop};
+use super::outcome::Ended;
 use super::problem::Problem;
-use super::refusal::Refusal;
-use super::report::Ended;
+use super::trial::TrialError;
 
 /// Evaluations before a search is given up, by the number of unknowns.
 const PATIENCE: usize = 400;
 /// How often a descent that an edge stops is taken up again along it: two or three times do where it is flat.
 const WAYS: usize = 12;
-/// A number that changes the residuals by less than this share of what the most telling one does is drowned: rounding is then
-/// more than a ten-millionth of what it does.
+/// A number that changes the residuals by less than this share of what the most telling one does is drowned:
+/// rounding is then more than a ten-millionth of what it does.
 const DROWNED: f64 = 1e-9;
 
 pub(super) struct Minimum<'a> {
@@ -21,11 +21,11 @@ pub(super) struct Minimum<'a> {
     pub(super) squares: f64,
     pub(super) evaluations: usize,
     pub(super) ended: Ended,
-    /// Why the energy refuses to go on, at the edges where that is what ended it.
-    pub(super) edges: Vec<Refusal>,
-    /// Whether it is one: no step is worth taking, or none that the energy accepts.
+    /// The reasons of the edges that ended the search, if edges did.
+    pub(super) edges: Vec<TrialError>,
+    /// Whether this is a minimum: no step is worth taking, or none that the energy accepts.
     pub(super) is_least: bool,
-    /// Of which start: 0 is the one given.
+    /// Index of the start: 0 is the one given.
     pub(super) start: usize,
 }
 
@@ -62,16 +62,18 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
     if let Some(stop) = stop {
         minimum.is_least = is_over && (stop.is_least || !stop.ways.is_empty());
         (minimum.ended, minimum.edges) = match is_over {
-            true => (Ended::Edge, stop.refusals),
+            true => (Ended::Edge, stop.reasons),
             false => (Ended::Unfinished, Vec::new()),
         };
     }
     Some(minimum)
 }
 
-/// To where the numbers that others drown tell something, these keeping their values; `None` where there are none.
+/// Fits only the parameters with a noticeable slope and keeps the rest fixed, until the rest has one too.
+/// `None` if all or none are noticeable.
 ///
-/// What they change is less than the rounding of what the others do, and steps that change them too are no better than random.
+/// The effect of the rest is less than the rounding of the others' effect, and steps that change it too are
+/// no better than random.
 fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
     let slopes = problem.jacobian()?;
     let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();

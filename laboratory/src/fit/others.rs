@@ -1,11 +1,13 @@
-//! Minima beside the best one: other solids that agree with the data about as well, and other parameters of the same solid.
+//! Minima beside the best one: other solids that agree with the data about as well, and other parameters of
+//! the same solid.
 //!
-//! Parameters tell solids badly apart. Terms of a sum exchange their places; the exponent of a term whose coefficient has
-//! vanished may be any; of two terms with the same exponent only the sum matters; and a parameter that grows without end
-//! changes less and less. So it is stresses that are compared.
+//! Parameters tell solids badly apart. Terms of a sum exchange their places; the exponent of a term whose
+//! coefficient has vanished may be any; of two terms with the same exponent only the sum matters; and a
+//! parameter that grows without end changes less and less. So it is stresses that are compared.
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
+use super::outcome::change;
 
 /// Another minimum is about as good if its differences are at most this much greater than those of the best.
 const ABOUT_AS_GOOD: f64 = 1.1;
@@ -13,29 +15,30 @@ const ABOUT_AS_GOOD: f64 = 1.1;
 const SAME: f64 = 0.01;
 /// A parameter that is less than this share of the one given is zero, which it comes to be at an edge.
 const ZERO: f64 = 1e-9;
-/// Solids are the same if no stress differs by more than this share of the greatest there, which no machine measures.
+/// Solids are the same if no stress differs by more than this share of the greatest there, which no machine
+/// measures.
 const SAME_STRESS: f64 = 1e-3;
-/// A number that became this many times the one given, of which random starts are ten times at most, has no end in sight where
-/// it may be another while all others stay.
-const ENDLESS: f64 = 1e3;
+/// A parameter that grew by this factor and no longer affects the fit is reported as unbounded (random starts
+/// vary by ten at most).
+const RUNAWAY_FACTOR: f64 = 1e3;
 /// Other minima that are reported: in a flat valley there would be one for each descent.
 const OTHERS: usize = 5;
 
 /// Minima about as good as the best.
 pub(super) struct Others<'a, 'b> {
-    /// Of other solids, the best among them first, each once, and no more than so many.
+    /// The best minimum of each other solid, best first, at most [`OTHERS`].
     pub(super) solids: Vec<&'a Minimum<'b>>,
-    /// That of the same solid whose parameters are the furthest.
-    pub(super) same_solid: Option<SameSolid<'a, 'b>>,
+    /// The minimum of the same solid whose parameters differ most.
+    pub(super) equivalent: Option<Equivalent<'a, 'b>>,
 }
 
 /// Other parameters of the best solid.
-pub(super) struct SameSolid<'a, 'b> {
+pub(super) struct Equivalent<'a, 'b> {
     pub(super) minimum: &'a Minimum<'b>,
     /// The numbers that are not the same.
     pub(super) differing: Vec<usize>,
-    /// Whether that is one that grows without end.
-    pub(super) is_endless: bool,
+    /// Whether a single parameter runs off to infinity.
+    pub(super) is_runaway: bool,
     /// The greatest [`change`] of these.
     distance: f64,
 }
@@ -56,20 +59,20 @@ impl<'a, 'b> Others<'a, 'b> {
             numbers.differing(&one.problem.values, &other.problem.values, is_same)
         };
         // Far out, sums such as 1 + x/n leave nothing but rounding, which stresses then show.
-        let is_endless = |differing: &[usize], one: &Minimum<'_>, other: &Minimum<'_>| match *differing {
+        let is_runaway = |differing: &[usize], one: &Minimum<'_>, other: &Minimum<'_>| match *differing {
             [number] => {
                 let [one, other] = [one, other].map(|minimum| minimum.problem.values[number]);
-                let far = ENDLESS * numbers.values[number].abs();
+                let far = RUNAWAY_FACTOR * numbers.values[number].abs();
                 far > 0.0 && one * other > 0.0 && one.abs().min(other.abs()) >= far
             }
             _ => false,
         };
-        let (mut solids, mut same_solid) = (vec![best], None::<SameSolid<'_, '_>>);
+        let (mut solids, mut equivalent) = (vec![best], None::<Equivalent<'_, '_>>);
         for minimum in good {
             let is_of = |solid: &&Minimum<'_>| {
                 let differing = differing(solid, minimum);
                 differing.is_empty()
-                    || is_endless(&differing, solid, minimum)
+                    || is_runaway(&differing, solid, minimum)
                     || solid.problem.has_stresses_of(&minimum.problem, SAME_STRESS)
             };
             match solids.iter().position(is_of) {
@@ -77,22 +80,17 @@ impl<'a, 'b> Others<'a, 'b> {
                 Some(0) => {
                     let differing = differing(best, minimum);
                     let distance = distance(best, minimum, &differing);
-                    let is_endless = is_endless(&differing, best, minimum);
-                    if distance > same_solid.as_ref().map_or(0.0, |furthest| furthest.distance) {
-                        same_solid = Some(SameSolid { minimum, differing, is_endless, distance });
+                    let is_runaway = is_runaway(&differing, best, minimum);
+                    if distance > equivalent.as_ref().map_or(0.0, |furthest| furthest.distance) {
+                        equivalent = Some(Equivalent { minimum, differing, is_runaway, distance });
                     }
                 }
                 Some(_) => {}
             }
         }
         let solids = solids.into_iter().skip(1).take(OTHERS).collect();
-        Self { solids, same_solid }
+        Self { solids, equivalent }
     }
-}
-
-/// How far apart two values are, relative to the lesser of them.
-pub(super) fn change(one: f64, other: f64) -> f64 {
-    if one == other { 0.0 } else { (one - other).abs() / one.abs().min(other.abs()) }
 }
 
 /// The greatest change of these numbers.

@@ -2,16 +2,16 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_34::{DMatrix, DVector, Dyn, Owned};
-use piola::material::Moduli;
+use piola::material::{Constraint, Inadmissible, Limit, Moduli};
 
 use super::candidate::{Candidate, Numbers};
-use super::refusal::Refusal;
+use super::trial::TrialError;
 use crate::curve::{Mode, Response, Volume, respond};
-use crate::data::{Measured, Unanswered};
+use crate::data::{Measured, PointError};
 use crate::specimen::{self, Ordered};
 
-/// Each residual of a trial that the energy refuses. Far above those of any trial that it does not, it makes the method
-/// take a shorter step; its square is a number still.
+/// Each residual of a trial that the energy refuses. Far above those of any trial that it does not, it makes
+/// the method take a shorter step; its square is a number still.
 const REFUSED: f64 = 1e100;
 
 pub(super) struct Problem<'a> {
@@ -24,9 +24,39 @@ pub(super) struct Problem<'a> {
     pub(super) free: Vec<usize>,
     /// All numbers, those held included.
     pub(super) values: Vec<f64>,
-    /// What the method sees of the free numbers.
+    /// The free numbers as the Levenberg–Marquardt method sees them.
     coordinates: Coordinates,
     trial: Trial,
+}
+
+/// A constraint on the free numbers.
+pub(super) struct Bound {
+    limit: Limit,
+    /// The measured point, if the domain of the energy has to reach it.
+    point: Option<Measured>,
+    /// Positive where the constraint holds.
+    pub(super) value: f64,
+    /// The derivative of the value with respect to each free number.
+    pub(super) gradient: DVector<f64>,
+}
+
+impl Bound {
+    /// Whether this may be the constraint that does not hold. Of the entries of a list, only a place tells.
+    pub(super) fn refuses(&self, error: &TrialError) -> bool {
+        match (error, self.limit) {
+            (TrialError::Inadmissible(Inadmissible::Violated { condition, .. }), Limit::Admissible(own)) => {
+                *condition == own
+            }
+            (TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }), Limit::ShearModulus) => {
+                moduli.mu <= 0.0
+            }
+            (TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }), Limit::BulkModulus) => {
+                moduli.mu > 0.0
+            }
+            (TrialError::Point(error), Limit::Domain(_)) => self.point == Some(error.point),
+            _ => false,
+        }
+    }
 }
 
 /// The free numbers are `origin` + `basis` · `place`, and `place` is what the method changes.
@@ -39,7 +69,7 @@ struct Coordinates {
 /// The energy with its parameters and what it answers at each point, or why it does not.
 enum Trial {
     Answers(Box<dyn Candidate>, Vec<Response>),
-    Refused(Refusal),
+    Refused(TrialError),
 }
 
 impl<'a> Problem<'a> {
@@ -63,13 +93,13 @@ impl<'a> Problem<'a> {
         Self { start, numbers, points, volume, free, values, coordinates, trial }
     }
 
-    /// The same from where it stands, all free numbers in units of what they are now.
+    /// A new problem at the current place, all free numbers in units of their current values.
     pub(super) fn anew(&self) -> Self {
         let (free, values) = (self.free.clone(), self.values.clone());
         Self::new(self.start, self.numbers, self.points, self.volume, free, values)
     }
 
-    /// The same with the free numbers `origin` plus whatever the columns of `basis` span.
+    /// A problem whose free numbers are `origin` plus any combination of the columns of `basis`.
     pub(super) fn within(&self, origin: DVector<f64>, basis: DMatrix<f64>) -> Self {
         let values = self.with_free(&origin);
         let trial = self.attempt(&values);
@@ -78,12 +108,13 @@ impl<'a> Problem<'a> {
         Self { free: self.free.clone(), values, coordinates, trial, ..*self }
     }
 
-    /// The same with these of its coordinates alone changing.
+    /// A problem in which only these coordinates change.
     pub(super) fn with_alone(&self, changing: &[usize]) -> Self {
         let Coordinates { basis, place, .. } = &self.coordinates;
         let (basis, place) = (basis.select_columns(changing), place.select_rows(changing));
         let mut alone = self.within(self.place(), basis);
-        // Not from zero: the method makes its first steps as long as what it begins from is, in units of what is changed.
+        // Not from zero: the method makes its first steps as long as what it begins from is, in units of what
+        // is changed.
         alone.coordinates.origin -= &alone.coordinates.basis * &place;
         alone.coordinates.place = place;
         alone
@@ -102,13 +133,13 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// The free numbers where it stands.
+    /// The current free numbers.
     pub(super) fn place(&self) -> DVector<f64> {
         DVector::from_iterator(self.free.len(), self.free.iter().map(|&number| self.values[number]))
     }
 
     /// Whether there would be a residual at each point with these free numbers.
-    pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), Refusal> {
+    pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), TrialError> {
         match self.attempt(&self.with_free(free)) {
             Trial::Answers(..) => Ok(()),
             Trial::Refused(refusal) => Err(refusal),
@@ -116,11 +147,28 @@ impl<'a> Problem<'a> {
     }
 
     /// Whether there is a residual at each point.
-    pub(super) fn answers(&self) -> Result<(), Refusal> {
+    pub(super) fn answers(&self) -> Result<(), TrialError> {
         match &self.trial {
             Trial::Answers(..) => Ok(()),
             Trial::Refused(refusal) => Err(refusal.clone()),
         }
+    }
+
+    /// The constraints on the free numbers at the current place: those of the parameters, and for each point
+    /// those of the domain at its stretches. That free sides give way when a parameter changes is left out of
+    /// these.
+    pub(super) fn bounds(&self) -> Vec<Bound> {
+        let Trial::Answers(candidate, responses) = &self.trial else { return Vec::new() };
+        let bound = |Constraint { limit, value, gradient }: Constraint, point| {
+            let gradient = DVector::from_iterator(self.free.len(), self.free.iter().map(|&k| gradient[k]));
+            Bound { limit, point, value, gradient }
+        };
+        let of_parameters = candidate.constraints().into_iter().map(|constraint| bound(constraint, None));
+        let of_domain = responses.iter().zip(self.points).flat_map(|(response, &(point, _))| {
+            let constraints = candidate.domain_constraints(Ordered::new(response.stretches).numbers);
+            constraints.into_iter().map(move |constraint| bound(constraint, Some(point)))
+        });
+        of_parameters.chain(of_domain).collect()
     }
 
     /// The energy as tried last, or where it was refused, as given.
@@ -131,7 +179,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The small-strain moduli of the energy as tried last, if specimens were made to keep a volume that it might change.
+    /// The small-strain moduli of the energy as tried last, if specimens were made to keep a volume that it
+    /// might change.
     ///
     /// Simple shear keeps the volume of any.
     pub(super) fn moduli_if_volume_is_imposed(&self) -> Option<Moduli> {
@@ -141,11 +190,12 @@ impl<'a> Problem<'a> {
         (self.volume == Volume::Kept && is_imposed).then_some(moduli)
     }
 
-    /// Whether the stresses of another's energy differ from those of this one by no more than that share of the greatest of
-    /// each point.
+    /// Whether the stresses of another's energy differ from those of this one by no more than that share of
+    /// the greatest of each point.
     ///
-    /// They are compared at the stretches of the data and at their inverses, which make tension along two axes of tension along
-    /// one: ψ1, ψ2, ψ3 themselves, so that of what keeps its volume the pressure counts too.
+    /// They are compared at the stretches of the data and at their inverses, which make tension along two
+    /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that of what keeps its volume the pressure counts
+    /// too.
     pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
         let (Trial::Answers(one, responses), Trial::Answers(other, _)) = (&self.trial, &other.trial) else {
             return false;
@@ -224,13 +274,13 @@ fn attempt(
 ) -> Trial {
     let candidate = match start.with_values(&numbers.lists(values)) {
         Ok(candidate) => candidate,
-        Err(reason) => return Trial::Refused(Refusal::Inadmissible(reason)),
+        Err(reason) => return Trial::Refused(TrialError::Inadmissible(reason)),
     };
     let mut responses = Vec::with_capacity(points.len());
     for &(point, _) in points {
         match respond(candidate.as_ref(), point.mode, volume, point.control) {
             Ok(response) => responses.push(response),
-            Err(reason) => return Trial::Refused(Refusal::Unanswered(Unanswered { point, reason })),
+            Err(reason) => return Trial::Refused(TrialError::Point(PointError { point, reason })),
         }
     }
     Trial::Answers(candidate, responses)

@@ -1,28 +1,30 @@
-//! What the data say about the parameters near a minimum, and what they do not.
+//! Identifiability: which parameters, and combinations of them, the data determine near a minimum.
 //!
-//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after \[BKW80\]: where one is
-//! small, the combination of parameters that belongs to it changes no residual.
+//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after \[BKW80\]:
+//! where one is small, the combination of parameters that belongs to it changes no residual.
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
 
 use nalgebra_34::DMatrix;
 
 use super::candidate::Numbers;
+use super::outcome::Warning;
 use super::problem::Problem;
-use super::report::Warning;
 
-/// A parameter that changes a residual by less than this share of what the most telling one does tells nothing of it: rounding,
-/// such as that of a bulk modulus at constant volume.
+/// A parameter that changes a residual by less than this share of what the most telling one does tells
+/// nothing of it: rounding, such as that of a bulk modulus at constant volume.
 const SILENCE: f64 = 1e-9;
 /// The greatest singular value by another, from which on \[BKW80\] call the dependence moderate to strong.
 const CONDITION: f64 = 30.0;
-/// A parameter that changes less than this, relative to the one that changes most, is not part of a combination.
+/// A parameter that changes less than this, relative to the one that changes most, is not part of a
+/// combination.
 const SHARE: f64 = 0.01;
 
 /// The numbers that the data say nothing about: at all these places none of them changes any residual.
 ///
-/// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that is zero there.
-pub(super) fn indifferent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
+/// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that
+/// is zero there.
+pub(super) fn unidentifiable<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
     let mut is_silent = vec![true; numbers.values.len()];
     let mut has_slopes = false;
     for place in places {
@@ -44,9 +46,10 @@ pub(super) fn indifferent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers
     (0..is_silent.len()).filter(|&number| has_slopes && is_silent[number]).collect()
 }
 
-/// What a minimum says of itself.
+/// Standard errors, condition and warnings of a minimum.
 pub(super) struct Analysis {
-    /// √(diagonal of (Jᵀ J)⁻¹) of the free numbers: their standard errors for residuals with the standard deviation 1.
+    /// √(diagonal of (Jᵀ J)⁻¹) of the free numbers: their standard errors for residuals with the standard
+    /// deviation 1.
     pub(super) errors: Vec<f64>,
     /// The greatest singular value by the least.
     pub(super) condition: f64,
@@ -99,7 +102,8 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     Analysis { errors, condition: greatest / singular.min(), warnings: warnings(combinations) }
 }
 
-/// Changes of parameters by name, and what they change of the differences, as [`Warning::Dependent`] has them.
+/// Changes of parameters by name, and what they change of the differences, as [`Warning::Collinear`] has
+/// them.
 struct Combination {
     changes: Vec<(String, f64)>,
     effect: f64,
@@ -115,7 +119,7 @@ fn warnings(mut combinations: Vec<Combination>) -> Vec<Warning> {
         seen.push(names);
         is_new
     });
-    let warning = |Combination { changes, effect }| Warning::Dependent { changes, effect };
+    let warning = |Combination { changes, effect }| Warning::Collinear { changes, effect };
     combinations.into_iter().map(warning).collect()
 }
 

@@ -1,8 +1,9 @@
 //! Three inequalities that a stable solid keeps, as moduli at a triple of stretches.
 //!
-//! Each is the least of some moduli and is kept where that is positive. The moduli are scaled so that at rest they are the
-//! shear modulus μ of Hooke's law (Hill's and the last, as long as K ≥ 2μ/3 and λ ≥ −μ), which makes them comparable. With
-//! the Kirchhoff stresses τi = λi ψi and a = (D⁻ + D⁺)/2, which for positive stretches is (τi − τj)/(λi² − λj²):
+//! Each is the least of some moduli and is kept where that is positive. The moduli are scaled so that at rest
+//! they are the shear modulus μ of Hooke's law (Hill's and the last, as long as K ≥ 2μ/3 and λ ≥ −μ), which
+//! makes them comparable. With the Kirchhoff stresses τi = λi ψi and a = (D⁻ + D⁺)/2, which for positive
+//! stretches is (τi − τj)/(λi² − λj²):
 //!
 //! ```text
 //! Baker–Ericksen     (σi − σj)(λi − λj) > 0, the larger stress along the larger stretch    aij
@@ -12,21 +13,23 @@
 //! strong ellipticity every plane wave has a real speed                                     ρ0 c² of the slowest
 //! ```
 //!
-//! Equal stretches are nothing special: where Baker and Ericksen's condition says nothing, a is its limit, which
-//! [`piola::Material::blocks`] has without a gap; and the second kind of Hill's moduli is a (λi + λj) times the logarithmic
-//! mean (λi − λj)/(ln λi − ln λj). So Hill's condition implies Baker and Ericksen's; strong ellipticity does, too, as a is
-//! the modulus of a shear wave along a principal axis. Between Hill's condition and strong ellipticity there is no such
-//! order: Hencky's energy keeps the first everywhere and loses the second; the polyconvex energy μ/2 I1 + κ/2 (J − c)² with
-//! a large κ does the opposite where J < c/2.
+//! Equal stretches are nothing special: where Baker and Ericksen's condition says nothing, a is its limit,
+//! which [`piola::Material::blocks`] has without a gap; and the second kind of Hill's moduli is a (λi + λj)
+//! times the logarithmic mean (λi − λj)/(ln λi − ln λj). So Hill's condition implies Baker and Ericksen's;
+//! strong ellipticity does, too, as a is the modulus of a shear wave along a principal axis. Between Hill's
+//! condition and strong ellipticity there is no such order: Hencky's energy keeps the first everywhere and
+//! loses the second; the polyconvex energy μ/2 I1 + κ/2 (J − c)² with a large κ does the opposite where J <
+//! c/2.
 //!
 //! Hill's condition is what finite-element codes check under the name of Drucker's stability.
 //!
-//! What floating point does here: a modulus is a sum of terms as large as the stiffest, so that a least one within 64 u of
-//! these is not positive beyond doubt, and the condition counts as lost.
+//! What floating point does here: a modulus is a sum of terms as large as the stiffest, so that a least one
+//! within 64 u of these is not positive beyond doubt, and the condition counts as lost.
 //!
-//! \[BE54\] Baker, Ericksen, *Inequalities restricting the form of the stress-deformation relations for isotropic elastic solids
-//! and Reiner–Rivlin fluids*, J. Washington Acad. Sci. 44, 1954.
-//! \[Hill70\] Hill, *Constitutive inequalities for isotropic elastic solids under finite strain*, Proc. R. Soc. A 314, 1970.
+//! \[BE54\] Baker, Ericksen, *Inequalities restricting the form of the stress-deformation relations for
+//! isotropic elastic solids and Reiner–Rivlin fluids*, J. Washington Acad. Sci. 44, 1954.
+//! \[Hill70\] Hill, *Constitutive inequalities for isotropic elastic solids under finite strain*, Proc. R.
+//! Soc. A 314, 1970.
 
 use std::fmt;
 
@@ -48,7 +51,7 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// All, in the order of every list of them.
+    /// Every criterion, in the order of every list of them.
     pub const ALL: [Self; 3] = [Self::BakerEricksen, Self::Hill, Self::StrongEllipticity];
 }
 
@@ -62,7 +65,7 @@ impl fmt::Display for Criterion {
     }
 }
 
-/// What the criteria say of a solid at three stretches.
+/// The criteria of a solid at three stretches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// λ1 ≥ λ2 ≥ λ3 > 0.

@@ -2,11 +2,13 @@
 
 use std::fmt;
 
-use super::{Criterion, Finding, Report, Settings, Walk};
+use super::criteria::Criterion;
+use super::{Finding, Report, SurveySettings, Walk};
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { settings: Settings { from, to, .. }, moduli, points, admitted, findings, walks } = self;
+        let Self { settings: SurveySettings { from, to, .. }, moduli, points, admitted, findings, walks } =
+            self;
         let (mu, bulk) = (pascals(moduli.mu), pascals(moduli.bulk()));
         writeln!(f, "at rest  μ = {mu}, K = {bulk}, ν = {}", digits(moduli.poisson()))?;
         write!(f, "box      {from} ≤ λ3 ≤ λ2 ≤ λ1 ≤ {to}: {points} points, ")?;
@@ -61,7 +63,7 @@ fn triple(numbers: [f64; 3]) -> String {
     numbers.map(digits).join(", ")
 }
 
-/// Four significant digits at most.
+/// A number with four significant digits at most.
 fn digits(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
     match rounded.abs() {

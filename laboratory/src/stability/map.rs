@@ -1,6 +1,6 @@
-//! Where the criteria hold in two planes through the space of stretches, as a picture.
+//! Maps of the criteria in two planes through the space of stretches, as a picture.
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 use std::ops::Range;
 
 use plotters::coord::Shift;
@@ -10,7 +10,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::criteria::{Criterion, Judgement};
 use super::path::Path;
-use super::{NoSurvey, Settings};
+use super::{SurveyError, SurveySettings};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
 
@@ -83,7 +83,7 @@ impl Course {
     }
 }
 
-/// What a cell of the picture says.
+/// The criteria that a cell of the picture keeps or loses.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cell {
     Kept,
@@ -109,7 +109,8 @@ impl Cell {
         }
     }
 
-    /// Of Okabe and Ito, which stay apart for all kinds of colour vision; what is well is pale.
+    /// Colours of Okabe and Ito, which all kinds of colour vision tell apart; pale where all criteria are
+    /// kept.
     fn colour(self) -> RGBColor {
         match self {
             Self::Kept => RGBColor(222, 240, 233),
@@ -133,32 +134,27 @@ impl Cell {
     }
 }
 
-/// Why there is no picture.
-#[derive(Clone, Debug, PartialEq)]
+/// Why there is no map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NoMap {
-    /// Nothing can be said of the material.
-    Survey(NoSurvey),
-    /// The library of charts refuses.
+pub enum MapError {
+    /// The material cannot be surveyed.
+    #[error(transparent)]
+    Survey(
+        /// The reason.
+        #[from]
+        SurveyError,
+    ),
+    /// The library of charts fails.
+    #[error("a chart cannot be drawn: {reason}")]
     Chart {
-        /// What it says.
+        /// Its message.
         reason: String,
     },
 }
 
-impl Display for NoMap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Survey(reason) => reason.fmt(f),
-            Self::Chart { reason } => write!(f, "a chart cannot be drawn: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for NoMap {}
-
-fn failed(error: impl Display) -> NoMap {
-    NoMap::Chart { reason: error.to_string() }
+fn failed(error: impl Display) -> MapError {
+    MapError::Chart { reason: error.to_string() }
 }
 
 /// Cells along each side of a plane.
@@ -175,9 +171,9 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// The box's resolution is not that of the picture, which has 120 × 120 cells in a plane.
 ///
 /// # Errors
-/// As [`survey`](super::survey), and where the library of charts fails.
-pub fn map(specimen: &dyn Specimen, settings: &Settings, title: &str) -> Result<String, NoMap> {
-    settings.check().map_err(NoMap::Survey)?;
+/// [`MapError`] if the settings are out of range, or the library of charts fails.
+pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, MapError> {
+    settings.check()?;
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
@@ -193,7 +189,12 @@ pub fn map(specimen: &dyn Specimen, settings: &Settings, title: &str) -> Result<
     Ok(svg)
 }
 
-fn panel(specimen: &dyn Specimen, settings: &Settings, plane: Plane, area: &Area<'_>) -> Result<(), NoMap> {
+fn panel(
+    specimen: &dyn Specimen,
+    settings: &SurveySettings,
+    plane: Plane,
+    area: &Area<'_>,
+) -> Result<(), MapError> {
     let axis = || Axis { ends: settings.from..settings.to };
     let mut chart = ChartBuilder::on(area)
         .margin(10)
@@ -256,7 +257,7 @@ fn panel(specimen: &dyn Specimen, settings: &Settings, plane: Plane, area: &Area
 }
 
 /// Column by column, from the least stretches to the greatest.
-fn cells(specimen: &dyn Specimen, settings: &Settings, plane: Plane) -> Vec<Cell> {
+fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Vec<Cell> {
     // The middles of the cells are every other one of these.
     let stretches = settings.stretches(2 * CELLS + 1);
     let mut cells = vec![Cell::Outside; CELLS * CELLS];
@@ -272,7 +273,7 @@ fn cells(specimen: &dyn Specimen, settings: &Settings, plane: Plane) -> Vec<Cell
 }
 
 /// Colours and what they mean, three in a row.
-fn explain(area: &Area<'_>) -> Result<(), NoMap> {
+fn explain(area: &Area<'_>) -> Result<(), MapError> {
     for (k, cell) in Cell::ALL.into_iter().enumerate() {
         let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
         let corners = [(x, y), (x + 24, y + 16)];

@@ -1,13 +1,13 @@
 //! Straight ways out of the rest state, and where a criterion is lost first along each.
 //!
-//! A path is walked from rest outwards, in 256 equal steps of the logarithm of its stretch; between the last step that keeps
-//! a criterion and the first that loses it, the edge is found by halving. A loss regained within a step is not
-//! seen, that is, within half a per cent of the stretch for the range 0.3 … 3; nor what happens after the last step where
-//! the path ends.
+//! A path is walked from rest outwards, in 256 equal steps of the logarithm of its stretch; between the last
+//! step that keeps a criterion and the first that loses it, the edge is found by halving. A loss regained
+//! within a step is not seen, that is, within half a per cent of the stretch for the range 0.3 … 3; nor what
+//! happens after the last step where the path ends.
 
 use std::fmt;
 
-use super::Settings;
+use super::SurveySettings;
 use super::criteria::{Criterion, Judgement};
 use crate::Specimen;
 use crate::curve::{Mode, Volume, respond};
@@ -28,7 +28,7 @@ pub enum Path {
 }
 
 impl Path {
-    /// All, in the order of the report.
+    /// Every path, in the order of the report.
     pub const ALL: [Self; 5] =
         [Self::Uniaxial, Self::Equibiaxial, Self::PureShear, Self::Confined, Self::Hydrostatic];
 
@@ -59,16 +59,18 @@ impl fmt::Display for Path {
     }
 }
 
-/// What was met on a path in one direction.
+/// The losses along a path in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walk {
     /// The path.
     pub path: Path,
     /// The stretch that it was to be walked to from 1.
     pub to: f64,
-    /// The stretch that was reached: short of `to` where nothing beyond frees the sides of stress, or the domain ends.
+    /// The stretch that was reached: short of `to` where nothing beyond frees the sides of stress, or the
+    /// domain ends.
     pub reached: f64,
-    /// The first stretch at which each of [`Criterion::ALL`] is lost, to eight digits; 1 where it does not hold at rest.
+    /// The first stretch at which each of [`Criterion::ALL`] is lost, to eight digits; 1 where it does not
+    /// hold at rest.
     pub lost: [Option<f64>; 3],
 }
 
@@ -98,13 +100,13 @@ impl Walk {
     }
 
     /// From rest to both ends of the settings' range along every path.
-    pub(super) fn all(specimen: &dyn Specimen, settings: &Settings) -> Vec<Self> {
+    pub(super) fn all(specimen: &dyn Specimen, settings: &SurveySettings) -> Vec<Self> {
         let ends = [settings.from, settings.to];
         let both = |path| ends.map(|to| Self::along(path, specimen, to));
         Path::ALL.into_iter().flat_map(both).collect()
     }
 
-    /// Where a criterion is lost first.
+    /// The first stretch at which a criterion is lost.
     #[must_use]
     pub fn lost(&self, criterion: Criterion) -> Option<f64> {
         self.lost[criterion as usize]

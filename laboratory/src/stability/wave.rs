@@ -1,29 +1,31 @@
 //! The slowest plane wave through a homogeneously deformed solid, in closed form: nothing is searched.
 //!
-//! A small wave with the front's unit normal N in the rest shape and the unit polarisation m has dF = m ⊗ N, and travels
-//! with the speed c that the *acoustic modulus* gives, ρ0 c² = (m ⊗ N) : dP/dF (m ⊗ N), ρ0 the density at rest. Strong
-//! ellipticity, which is convexity along rank-one directions, asks that it be positive for all m and N. Where it is
-//! not, a front stands still or grows: the deformation localises in bands.
+//! A small wave with the front's unit normal N in the rest shape and the unit polarisation m has dF = m ⊗ N,
+//! and travels with the speed c that the *acoustic modulus* gives, ρ0 c² = (m ⊗ N) : dP/dF (m ⊗ N), ρ0 the
+//! density at rest. Strong ellipticity, which is convexity along rank-one directions, asks that it be
+//! positive for all m and N. Where it is not, a front stands still or grows: the deformation localises in
+//! bands.
 //!
 //! # From two unit vectors to a triangle
 //!
-//! Between the principal frames dP/dF is the map of [`piola::point::tangent`]: the Hessian ψij on the diagonal entries of
-//! dF, and for each pair a on dFij and dFji and b between them. With pi = mi Ni, xij = mi Nj,
+//! Between the principal frames dP/dF is the map of [`piola::point::tangent`]: the Hessian ψij on the
+//! diagonal entries of dF, and for each pair a on dFij and dFji and b between them. With pi = mi Ni, xij = mi
+//! Nj,
 //!
 //! ```text
 //! E(m, N) = Σi ψii pi² + Σ_i<j [ 2 ψij pi pj + aij (xij² + xji²) + 2 bij xij xji ],     xij xji = pi pj.
 //! ```
 //!
-//! Which N is best for given p? The sum xij² + xji² = pi² Nj²/Ni² + pj² Ni²/Nj² is at least 2 |pi pj|, and it is that for
-//! all pairs at once if Ni² = |pi|/Σ|p|. So for aij ≥ 0
+//! Which N is best for given p? The sum xij² + xji² = pi² Nj²/Ni² + pj² Ni²/Nj² is at least 2 |pi pj|, and it
+//! is that for all pairs at once if Ni² = |pi|/Σ|p|. So for aij ≥ 0
 //!
 //! ```text
 //! E(m, N) ≥ Σ_ij Mij |pi| |pj|,    Mii = ψii,   Mij = aij + εi εj (ψij + bij),   εi the sign of pi,       (1)
 //! ```
 //!
-//! and strong ellipticity is that aij > 0 for the three pairs, and that the four matrices M, one for each choice of signs up
-//! to a common one, are positive for all non-negative |p| ≠ 0: *strictly copositive*. This is the theorem of \[SS83\]; for
-//! two stretches it is that of \[KS77\]; \[Dac01\] has it in any dimension.
+//! and strong ellipticity is that aij > 0 for the three pairs, and that the four matrices M, one for each
+//! choice of signs up to a common one, are positive for all non-negative |p| ≠ 0: *strictly copositive*. This
+//! is the theorem of \[SS83\]; for two stretches it is that of \[KS77\]; \[Dac01\] has it in any dimension.
 //!
 //! We want to know how much there is to spare, and to which wave. As m and N are unit vectors,
 //!
@@ -31,29 +33,31 @@
 //! 1 = |m|² |N|² = Σi pi² + Σ_i<j (xij² + xji²),
 //! ```
 //!
-//! so that E − θ is the same form with ψii − θ in place of ψii and aij − θ in place of aij: by the theorem E ≥ θ for all
-//! waves if and only if aij ≥ θ for all pairs and M − θ (1 1 1)ᵀ(1 1 1) is copositive for all signs, that is
+//! so that E − θ is the same form with ψii − θ in place of ψii and aij − θ in place of aij: by the theorem E
+//! ≥ θ for all waves if and only if aij ≥ θ for all pairs and M − θ (1 1 1)ᵀ(1 1 1) is copositive for all
+//! signs, that is
 //!
 //! ```text
 //! min E = min { a12, a13, a23,  min over the signs and over s1 + s2 + s3 = 1, s ≥ 0, of Σ Mij si sj }.     (2)
 //! ```
 //!
-//! The first three belong to m = ei, N = ej, the shear waves along principal axes: Baker and Ericksen's condition. The
-//! others belong to mi = εi √si, Ni = √si. So a slowest wave moves the material either along its own normal, reflected in
-//! principal planes, or along one principal axis while it travels along another.
+//! The first three belong to m = ei, N = ej, the shear waves along principal axes: Baker and Ericksen's
+//! condition. The others belong to mi = εi √si, Ni = √si. So a slowest wave moves the material either along
+//! its own normal, reflected in principal planes, or along one principal axis while it travels along another.
 //!
 //! # The triangle
 //!
-//! A quadratic form over a triangle is least in a corner, inside an edge, or inside: one point for each of its 3 + 3 + 1
-//! faces, by a division or a system of two equations. Each is kept if it lies inside its face, and the form evaluated
-//! there. What comes out therefore belongs to a true wave; rounding moves it along the form, where that is flat.
+//! A quadratic form over a triangle is least in a corner, inside an edge, or inside: one point for each of
+//! its 3 + 3 + 1 faces, by a division or a system of two equations. Each is kept if it lies inside its face,
+//! and the form evaluated there. What comes out therefore belongs to a true wave; rounding moves it along the
+//! form, where that is flat.
 //!
-//! \[SS83\] Simpson, Spector, *On copositive matrices and strong ellipticity for isotropic elastic materials*, Arch.
-//! Rational Mech. Anal. 84, 1983.
-//! \[KS77\] Knowles, Sternberg, *On the failure of ellipticity of the equations for finite elastostatic plane strain*, Arch.
-//! Rational Mech. Anal. 63, 1977.
-//! \[Dac01\] Dacorogna, *Necessary and sufficient conditions for strong ellipticity of isotropic functions in any
-//! dimension*, Discrete Contin. Dyn. Syst. B 1, 2001.
+//! \[SS83\] Simpson, Spector, *On copositive matrices and strong ellipticity for isotropic elastic
+//! materials*, Arch. Rational Mech. Anal. 84, 1983.
+//! \[KS77\] Knowles, Sternberg, *On the failure of ellipticity of the equations for finite elastostatic plane
+//! strain*, Arch. Rational Mech. Anal. 63, 1977.
+//! \[Dac01\] Dacorogna, *Necessary and sufficient conditions for strong ellipticity of isotropic functions in
+//! any dimension*, Discrete Contin. Dyn. Syst. B 1, 2001.
 //!
 //! This module knows the derivatives at a point, and neither a material nor where the point is.
 
@@ -117,8 +121,8 @@ fn reflected(blocks: &Blocks<f64>, signs: [f64; 3]) -> [[f64; 3]; 3] {
     M
 }
 
-/// Where Σ Mij si sj can be least over s1 + s2 + s3 = 1, s ≥ 0: in the corners, and where it is stationary inside an edge
-/// or inside the triangle.
+/// The shares at which Σ Mij si sj can be least over s1 + s2 + s3 = 1, s ≥ 0: in the corners, and where it is
+/// stationary inside an edge or inside the triangle.
 fn faces(M: &[[f64; 3]; 3]) -> impl Iterator<Item = [f64; 3]> {
     let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let edges = PAIRS.map(|(i, j)| {
@@ -134,7 +138,7 @@ fn faces(M: &[[f64; 3]; 3]) -> impl Iterator<Item = [f64; 3]> {
     let normal = cross(difference(r1, r3), difference(r2, r3));
     let sum: f64 = normal.iter().sum();
     let inside = normal.map(|share| share / sum);
-    // Shares of no point, divided by zero, are no numbers and fail the comparison.
+    // If `sum` is 0 the shares are NaN or −∞, and the comparison drops them.
     corners.into_iter().chain(edges).chain([inside]).filter(|shares| shares.iter().all(|share| *share >= 0.0))
 }
 

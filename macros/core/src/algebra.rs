@@ -4,6 +4,7 @@
 
 pub mod by_parameters;
 pub mod diff;
+pub mod dimension;
 pub mod divided;
 pub mod expand;
 pub mod expr;

@@ -14,6 +14,7 @@ use finding::{Findings, Violation};
 use samples::is_zero;
 pub(crate) use samples::samples;
 pub(crate) use source::Source;
+pub(crate) use units::units;
 
 mod argument;
 mod blame;
@@ -22,6 +23,7 @@ mod finding;
 mod rest;
 mod samples;
 mod source;
+mod units;
 mod vanishing;
 mod volume;
 

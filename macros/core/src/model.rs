@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand;
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
 use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
@@ -51,6 +51,8 @@ pub struct Model {
     pub moduli: [Id; 2],
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, where asked for.
     pub by_parameters: Option<Vec<[Id; 3]>>,
+    /// What keeps parameters admissible, where that is asked for.
+    pub constraints: Vec<Constraint>,
     /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
     pub from_young_poisson: Option<YoungPoisson>,
     /// Points of the domain with admissible parameters.
@@ -88,6 +90,32 @@ impl Model {
         let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&self.program(&roots)));
         results.into_iter().map(count).collect()
     }
+}
+
+/// A condition on parameters: an expression that is positive, or at least not negative, where it holds.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// What demands it.
+    pub limit: Limit,
+    /// The length of the lists whose entries it holds for, one by one.
+    pub length: Option<Length>,
+    /// The expression.
+    pub value: Id,
+    /// Its derivative by each parameter, or by the entry of each list.
+    pub by_parameters: Vec<Id>,
+}
+
+/// What demands a condition on parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// A comparison of `admissible(…)`, by its place there.
+    Admissible(usize),
+    /// The shear modulus at rest is positive.
+    ShearModulus,
+    /// The bulk modulus at rest is not negative.
+    BulkModulus,
+    /// A comparison of `domain(…)` at given stretches, by its place among those that are not about J alone.
+    Domain(usize),
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -134,8 +162,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let energy = resolver.energy();
     let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
-    let conditions = options.admissible.iter().chain(options.extend.iter().flatten());
-    let admissible: Vec<_> = conditions.filter_map(|condition| resolver.condition(condition)).collect();
+    let constrained: Vec<_> =
+        options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
+    let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
+    let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
     let nodes = resolver.into_nodes();
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
@@ -148,14 +178,15 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let samples =
         samples.map_err(|finding| judge::report(&mut graph, &source, [finding], diagnostics)).ok()?;
     let asymmetry = judge::isotropy(&graph, &source, &samples);
-    judge::report(&mut graph, &source, asymmetry, diagnostics);
+    let units = judge::units(&graph, &source);
+    judge::report(&mut graph, &source, asymmetry.into_iter().chain(units), diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
 
     let positive = volume == Volume::Positive;
     let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
-    let bounds = bounds.iter().copied().map(&mut in_range).collect();
+    let bounds: Vec<_> = bounds.iter().copied().map(&mut in_range).collect();
     let energy_in_range = in_range(energy);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
     let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
@@ -184,18 +215,31 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
     let invariants = resolve::by_invariants(declaration, &mut graph)
         .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
-    let by_parameters = options.fit.then(|| {
-        let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
-        by_parameters(&mut graph, &variables, plain.gradient)
-    });
+    let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
+    let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
     if findings.is_empty() {
         findings.extend(judge::fractions(&graph, &source));
     }
-    judge::report(&mut graph, &source, findings, diagnostics);
     let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
     // Moduli of a stressed rest state determine no response; those with functions are known to the
     // constructor alone.
     let are_known = !options.prestressed && !declaration.has_functions();
+    let constraints = if options.fit {
+        let admissible = constrained.into_iter().enumerate();
+        let admissible = admissible.filter_map(|(k, value)| Some((Limit::Admissible(k), value?)));
+        let bulk = bulk(&mut graph, moduli);
+        let moduli = [(Limit::ShearModulus, moduli[0]), (Limit::BulkModulus, bulk)];
+        let moduli = moduli.into_iter().filter(|_| are_known);
+        let domain = bounds.iter().enumerate().map(|(k, &bound)| (Limit::Domain(k), bound));
+        let all: Vec<_> = admissible.chain(moduli).chain(domain).collect();
+        all.into_iter().map(|(limit, value)| constraint(&mut graph, &variables, limit, value)).collect()
+    } else {
+        Vec::new()
+    };
+    if options.fit && findings.is_empty() {
+        findings.extend(judge::fractions(&graph, &source));
+    }
+    judge::report(&mut graph, &source, findings, diagnostics);
     let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     Some(Model {
         graph,
@@ -208,6 +252,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         volume,
         moduli,
         by_parameters,
+        constraints,
         from_young_poisson,
         samples,
         programs: FxHashMap::default(),
@@ -218,6 +263,24 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
 /// A parameter, or the entry of a list, as a variable of derivatives.
 fn variable((k, parameter): (usize, &Parameter)) -> Node {
     if parameter.length().is_some() { Node::Entry(k) } else { Node::Parameter(k) }
+}
+
+fn constraint(graph: &mut Graph, variables: &[Node], limit: Limit, value: Id) -> Constraint {
+    // What holds for entries is a sum over them; see `Resolver::condition`.
+    let (length, value) = match (limit, graph.node(value)) {
+        (Limit::Admissible(_), &Node::Sum(length, body)) => (Some(length), body),
+        _ => (None, value),
+    };
+    let by_parameters = by_parameters(graph, variables, [value]).into_iter().map(|[slope]| slope).collect();
+    Constraint { limit, length, value, by_parameters }
+}
+
+/// λ + 2μ/3.
+fn bulk(graph: &mut Graph, [shear, lame]: [Id; 2]) -> Id {
+    let two_thirds = Rational::new(2, 3).unwrap_or(Rational::ONE);
+    let shear = graph.scale(shear, two_thirds);
+    let bulk = graph.add(lame, shear);
+    expand(graph, bulk)
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {

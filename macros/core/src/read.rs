@@ -7,3 +7,4 @@ pub(crate) mod literals;
 pub mod parse;
 pub mod resolve;
 pub(crate) mod spelling;
+pub mod unit;

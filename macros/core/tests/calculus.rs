@@ -14,7 +14,7 @@ use quote::quote;
 fn energies() -> Vec<(&'static str, bool, TokenStream, TokenStream)> {
     vec![
         (
-            "stvk",
+            "st_venant_kirchhoff",
             false,
             quote!(),
             quote! {
@@ -206,7 +206,7 @@ fn twists_have_poles_exactly_where_the_stress_jumps() {
         assert_eq!(model.plain.has_pole, has_pole, "{name}");
         // Extended in its stretches, no energy is even any more.
         assert!(model.extended.as_ref().is_none_or(|extended| extended.has_pole), "{name}, extended");
-        if matches!(name, "stvk" | "Fung") {
+        if matches!(name, "st_venant_kirchhoff" | "Fung") {
             let judge = Judge { name, graph: &model.graph, variant: &model.plain };
             model.samples.iter().for_each(|point| judge.opposite(point));
         }

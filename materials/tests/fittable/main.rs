@@ -3,7 +3,7 @@
 mod own;
 
 use piola::Inversion;
-use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter};
+use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter, Unit};
 use piola_materials::{CATALOGUE, Entry, FittableVisitor, find};
 
 /// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
@@ -13,19 +13,19 @@ const STRETCHES: [[f64; 3]; 6] =
 /// Coefficients of the central difference of order eight, for the steps h, 2h, 3h, 4h to either side.
 const STENCIL: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 
-/// Relative to the parameter. With a truncation error of h⁸/630 times the ninth derivative and a rounding error of u/h this is
-/// about the best step.
+/// Relative to the parameter. With a truncation error of h⁸/630 times the ninth derivative and a rounding
+/// error of u/h this is about the best step.
 const STEP: f64 = 1.0 / 128.0;
 
-/// A gradient has a few hundred roundings at most, each up to u times its largest term; of what is added the eight values of
-/// the difference have two units in all, divided by the step. What is left is truncation, which the parameters' exponents of
-/// up to six raise to (6 ln 2)⁹ h⁸/630: the same order.
+/// A gradient has a few hundred roundings at most, each up to u times its largest term; of what is added the
+/// eight values of the difference have two units in all, divided by the step. What is left is truncation,
+/// which the parameters' exponents of up to six raise to (6 ln 2)⁹ h⁸/630: the same order.
 const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
 
 /// Typical parameters, but none zero, where steps relative to it would be none and conditions often end.
 fn values(entry: &Entry) -> Vec<Vec<f64>> {
     let nonzero = |&value: &f64| if value == 0.0 { 0.5 } else { value };
-    entry.typical.iter().map(|list| list.iter().map(nonzero).collect()).collect()
+    entry.typical().iter().map(|list| list.iter().map(nonzero).collect()).collect()
 }
 
 fn visit<V: FittableVisitor>(
@@ -69,7 +69,8 @@ fn difference<M: Declared>(
     Ok(slope)
 }
 
-/// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the gradient is a sum of.
+/// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the
+/// gradient is a sum of.
 fn scale(material: &impl Fittable, derivatives: &[[f64; 3]]) -> f64 {
     let (values, Moduli { mu, lambda }) = (material.values(), material.moduli());
     let shares = places(&values).into_iter().zip(derivatives);
@@ -120,7 +121,7 @@ fn derivatives_are_slopes() -> Result<(), Inadmissible> {
 
 /// Whether it is a stress: energies are proportional to all of these together.
 fn is_stress(parameter: &Parameter) -> bool {
-    parameter.doc.split(|c: char| !c.is_alphanumeric()).any(|word| word == "Pa")
+    parameter.unit == Some(Unit::Pascal)
 }
 
 struct Homogeneity<'a>(&'a str);
@@ -128,8 +129,8 @@ struct Homogeneity<'a>(&'a str);
 impl FittableVisitor for Homogeneity<'_> {
     type Output = ();
 
-    /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a few hundred
-    /// roundings of terms of one size at most.
+    /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a
+    /// few hundred roundings of terms of one size at most.
     fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
         let values = material.values();
         for stretches in STRETCHES {
@@ -150,6 +151,51 @@ impl FittableVisitor for Homogeneity<'_> {
 fn stresses_are_proportional_to_moduli() -> Result<(), Inadmissible> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         visit(entry, &values(entry), Homogeneity(entry.name))?;
+    }
+    Ok(())
+}
+
+struct Constraints<'a>(&'a str);
+
+impl FittableVisitor for Constraints<'_> {
+    type Output = ();
+
+    /// All hold, and central differences of each value have its gradient. Their truncation is h² by the third
+    /// derivative, which powers of six raise to a hundred times the value.
+    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
+        const STEP: f64 = 1e-5;
+        let Self(name) = self;
+        let all = |values: &[Vec<f64>]| {
+            let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
+            let moved = M::from_values(&values, Inversion::Refuse).expect("near admissible parameters");
+            let domain = moved.domain_constraints([1.3, 1.1, 0.75]);
+            moved.constraints().into_iter().chain(domain).collect::<Vec<_>>()
+        };
+        let values = material.values();
+        let here = all(&values);
+        assert!(here.iter().all(|constraint| constraint.value >= 0.0), "{name}: {here:?}");
+        for (number, (list, place)) in places(&values).into_iter().enumerate() {
+            let value = values[list][place];
+            let [below, above] = [-STEP, STEP].map(|step| {
+                let mut values = values.clone();
+                values[list][place] += step * value;
+                all(&values)
+            });
+            for ((constraint, below), above) in here.iter().zip(&below).zip(&above) {
+                let (slope, change) = (constraint.gradient[number] * value, above.value - below.value);
+                let size = slope.abs().max(constraint.value.abs());
+                let error = (change / (2.0 * STEP) - slope).abs();
+                let tolerance = 100.0 * (STEP * STEP + f64::EPSILON / STEP);
+                assert!(error <= tolerance * size.max(1.0), "{name}: {constraint:?} by {number}: {change:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn constraints_have_their_gradients() -> Result<(), Inadmissible> {
+    for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
+        visit(entry, &values(entry), Constraints(entry.name))?;
     }
     Ok(())
 }

@@ -6,7 +6,8 @@ use piola_materials::FittableVisitor;
 
 use crate::Slopes;
 
-/// Sums in products, in logarithms, in each other's terms and in exponents; lists of two lengths; names of what is emitted.
+/// Sums in products, in logarithms, in each other's terms and in exponents; lists of two lengths; names of
+/// what is emitted.
 #[material(domain(J > 0.0), prestressed, fit)]
 pub fn Nested<const N: usize, const M: usize>(
     [l1, l2, l3]: [f64; 3],

@@ -1,10 +1,11 @@
-//! Derivatives of the stress by the parameters, as those need who fit parameters to measurements.
+//! Derivatives with respect to the parameters, for fits to measurements.
 
 use super::Declared;
 
 /// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
 ///
-/// The derivatives come from the expressions that all others come from; without the word nothing is generated.
+/// The derivatives come from the expressions that all others come from; without the word nothing is
+/// generated.
 ///
 /// ```
 /// use piola::material;
@@ -45,9 +46,91 @@ pub trait Fittable: Declared {
     /// [`Declared::from_values`] takes them.
     fn values(&self) -> Vec<Vec<f64>>;
 
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of [`values`](Fittable::values), lists
-    /// entry by entry. Pa for each unit of p.
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
+    /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p.
     ///
-    /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are meaningless and may be NaN.
+    /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
+    /// meaningless and may be NaN.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
+
+    /// The conditions that the constructor checks, apart from finite values and `!=`: the comparisons of
+    /// `admissible(…)`, one for each entry where they are on entries, and positive moduli at rest unless the
+    /// material is `prestressed`.
+    ///
+    /// ```
+    /// use piola::material;
+    /// use piola::material::{Fittable, Limit};
+    ///
+    /// /// Compressible neo-Hookean solid.
+    /// #[material(domain(J > 0.0), admissible(lambda <= 1e7), fit)]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), piola::material::Inadmissible> {
+    /// let [upper, shear, bulk] = <[_; 3]>::try_from(Rubber::new(6e5, 1e6)?.constraints()).expect("three");
+    /// assert_eq!((upper.limit, upper.value), (Limit::Admissible("lambda <= 1e7"), 9e6));
+    /// assert_eq!((shear.limit, shear.value), (Limit::ShearModulus, 6e5));
+    /// // K = λ + 2/3 μ
+    /// assert_eq!((bulk.limit, bulk.gradient), (Limit::BulkModulus, vec![2.0 / 3.0, 1.0]));
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn constraints(&self) -> Vec<Constraint>;
+
+    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, those on J alone left out: at stretches
+    /// that are kept, these are conditions on the parameters too.
+    fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
+        let _ = stretches;
+        Vec::new()
+    }
+}
+
+/// A condition on parameters, as a function of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// The condition.
+    pub limit: Limit,
+    /// A measure of the distance to the limit, positive inside: for `a > b` the difference a − b.
+    pub value: f64,
+    /// The derivative of the value with respect to each number among the parameters, in the order of
+    /// [`Fittable::values`], lists entry by entry.
+    pub gradient: Vec<f64>,
+}
+
+/// A limit on the parameters of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// A comparison of `admissible(…)`, as declared.
+    Admissible(&'static str),
+    /// The shear modulus at rest is positive.
+    ShearModulus,
+    /// The bulk modulus at rest is not negative.
+    BulkModulus,
+    /// A comparison of `domain(…)`, as declared.
+    Domain(&'static str),
+}
+
+impl Constraint {
+    /// Constraints that expansions have computed together, with an array of derivatives for each number.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn all<const N: usize>(limits: [Limit; N], values: [f64; N], slopes: Vec<[f64; N]>) -> Vec<Self> {
+        let gradient = |k: usize| slopes.iter().map(|slopes| slopes[k]).collect();
+        let all = limits.into_iter().zip(values).enumerate();
+        all.map(|(k, (limit, value))| Self { limit, value, gradient: gradient(k) }).collect()
+    }
+
+    /// A constraint that depends on a few numbers alone, each given by parameter, place in its list, and
+    /// derivative; `values` are those of the material.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of_entry(limit: Limit, value: f64, values: Vec<Vec<f64>>, slopes: &[(usize, usize, f64)]) -> Self {
+        let mut gradient: Vec<_> = values.iter().map(|list| vec![0.0; list.len()]).collect();
+        for &(parameter, place, slope) in slopes {
+            gradient[parameter][place] = slope;
+        }
+        Self { limit, value, gradient: gradient.concat() }
+    }
 }

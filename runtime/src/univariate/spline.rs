@@ -2,7 +2,7 @@
 
 use super::{Piecewise, Univariate, by_pieces};
 use crate::lanes::Real;
-use crate::material::Inadmissible;
+use crate::material::{Form, Inadmissible};
 
 /// A function φ given by its derivative: φ′ is the natural cubic spline through control points, φ(1) = 0.
 ///
@@ -184,6 +184,8 @@ fn moments(points: &[[f64; 2]]) -> Vec<f64> {
 }
 
 impl Univariate for Spline {
+    const FORM: Form = Form::Points;
+
     #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         let ([c0, c1, c2, c3, c4], d) = self.piece(x);

@@ -1,4 +1,5 @@
-//! Derivatives of the stress with respect to the parameters, for least-squares fits.
+//! Derivatives with respect to the parameters, for least-squares fits: of the stress, and of the conditions on
+//! parameters.
 //!
 //! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever
 //! these stand, and sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one
@@ -16,15 +17,19 @@ use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::simplify::simplify;
 
-/// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each variable p, a parameter or the entry of a list, from ψ1, ψ2, ψ3.
-pub fn by_parameters(graph: &mut Graph, variables: &[Node], gradient: [Id; 3]) -> Vec<[Id; 3]> {
+/// The derivatives of each expression by each variable, a parameter or the entry of a list outside any sum.
+pub fn by_parameters<const N: usize>(
+    graph: &mut Graph,
+    variables: &[Node],
+    expressions: [Id; N],
+) -> Vec<[Id; N]> {
     let mut d = Differentiator::default();
     let mut by_variable = |variable: &Node| {
-        gradient.map(|stress| {
+        expressions.map(|expression| {
             let variable_id = graph.leaf(variable.clone());
             let derivative = match variable {
-                Node::Entry(_) => by_entry(&mut d, graph, stress, variable_id),
-                _ => d.derivative(graph, stress, variable_id),
+                Node::Entry(_) => by_entry(&mut d, graph, expression, variable_id),
+                _ => d.derivative(graph, expression, variable_id),
             };
             simplify(graph, derivative)
         })
@@ -34,7 +39,8 @@ pub fn by_parameters(graph: &mut Graph, variables: &[Node], gradient: [Id; 3]) -
 
 /// ∂e/∂m_q of a list m.
 fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, entry: Id) -> Id {
-    let mut terms = Vec::new();
+    // Entry q outside any sum.
+    let mut terms = vec![d.derivative(graph, e, entry)];
     for sum in graph.reachable(&[e]) {
         let Node::Sum(_, body) = *graph.node(sum) else { continue };
         let inner = d.derivative(graph, body, entry);

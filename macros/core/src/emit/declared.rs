@@ -1,10 +1,11 @@
 //! The implementation of `Declared`: the description of a material, its construction from plain values and its moduli.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::{Texts, condition_text, generics, naming};
-use crate::read::parse::{Declaration, Kind};
+use crate::read::parse::{Declaration, Kind, Typical};
+use crate::read::unit::Unit;
 
 /// `impl Declared`.
 pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream {
@@ -15,17 +16,27 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let type_name = name.to_string();
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
-        let is_list = !matches!(parameter.kind, Kind::Number);
-        quote!(::piola::material::Parameter { name: #name, doc: #doc, is_list: #is_list })
+        let unit = option(parameter.unit().map(|unit| match unit {
+            Unit::Pascal => quote!(::piola::material::Unit::Pascal),
+            Unit::PerPascal => quote!(::piola::material::Unit::PerPascal),
+            Unit::Dimensionless => quote!(::piola::material::Unit::Dimensionless),
+        }));
+        let form = match &parameter.kind {
+            Kind::Number => quote!(::piola::material::Form::Number),
+            Kind::List(_) => quote!(::piola::material::Form::List),
+            Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::FORM),
+        };
+        quote!(::piola::material::Parameter { name: #name, doc: #doc, unit: #unit, form: #form })
     });
+    let typical = option(declaration.options.typical.as_ref().map(typical));
     let extends = declaration.options.extend.is_some();
-    let refusal = match &declaration.options.refuse {
-        Some(reason) => quote!(::core::option::Option::Some(#reason)),
+    let refusal = option(match &declaration.options.refuse {
+        Some(reason) => Some(quote!(#reason)),
         None if declaration.options.domain.is_empty() => {
-            quote!(::core::option::Option::Some("it is defined for every deformation gradient already"))
+            Some(quote!("it is defined for every deformation gradient already"))
         }
-        None => quote!(::core::option::Option::None),
-    };
+        None => None,
+    });
     let admissible = declaration.options.admissible.iter().map(condition_text);
 
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
@@ -86,6 +97,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
                 refusal: #refusal,
                 admissible: &[#(#admissible),*],
                 moduli: [#(#moduli),*],
+                typical: #typical,
             };
 
             fn from_values(
@@ -99,5 +111,25 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
                 #finish
             }
         }
+    }
+}
+
+/// Parameters of some real material.
+fn typical(typical: &Typical) -> TokenStream {
+    let lists = typical.values.iter().map(|(_, values)| {
+        let numbers = values.numbers.iter().map(|&number| {
+            let magnitude = Literal::f64_unsuffixed(number.abs());
+            if number.is_sign_negative() { quote!(-#magnitude) } else { quote!(#magnitude) }
+        });
+        quote!(&[#(#numbers),*])
+    });
+    let source = &typical.source;
+    quote!(::piola::material::Typical { values: &[#(#lists),*], source: #source })
+}
+
+fn option(value: Option<TokenStream>) -> TokenStream {
+    match value {
+        Some(value) => quote!(::core::option::Option::Some(#value)),
+        None => quote!(::core::option::Option::None),
     }
 }

@@ -14,6 +14,7 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
     let sections = [
         format!("```text\nψ = {formula}\n```"),
         parameters(declaration),
+        typical(declaration),
         format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
         format!("**Small strain**: μ = {shear}, λ = {lame}."),
         derivatives(declaration, model),
@@ -37,6 +38,14 @@ fn parameters(declaration: &Declaration) -> String {
         format!("\n\nThey satisfy `{}`.", conditions.join(", "))
     };
     format!("**Parameters**:\n{list}{admissible}")
+}
+
+fn typical(declaration: &Declaration) -> String {
+    declaration.options.typical.as_ref().map_or_else(String::new, |typical| {
+        let values = typical.values.iter().map(|(name, values)| format!("{name} = {}", values.text));
+        let values: Vec<_> = values.collect();
+        format!("**Typical**: `{}`, {}.", values.join(", "), typical.source.value())
+    })
 }
 
 fn domain(declaration: &Declaration, texts: &Texts) -> String {

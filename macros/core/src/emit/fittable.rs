@@ -1,12 +1,13 @@
-//! The implementation of `Fittable`: the values of the parameters, and the derivatives of the gradient by them.
+//! The implementation of `Fittable`: the values of the parameters, the derivatives of the gradient with respect to them, and
+//! what keeps them admissible.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::writer::{Writer, free_name};
-use super::{generics, naming};
-use crate::algebra::expr::Length;
-use crate::model::Model;
+use super::{condition_text, generics, naming};
+use crate::algebra::expr::{Id, Length};
+use crate::model::{Constraint, Limit, Model};
 use crate::read::parse::{Declaration, Kind};
 
 /// `impl Fittable`, where it is asked for.
@@ -23,30 +24,25 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
         }
     });
 
-    let writer = Writer::new(declaration);
-    let derivatives = free_name(declaration, &["derivatives", "by_parameters"]);
-    // Numbers together, and lists of one length together: each has a program of its own.
-    let mut program = |length: Option<Length>| {
-        let members: Vec<usize> =
-            (0..by_parameters.len()).filter(|&k| declaration.parameters[k].length() == length).collect();
-        let roots: Vec<_> = members.iter().flat_map(|&k| by_parameters[k]).collect();
-        let (statements, outputs) = writer.program(&model.program(&roots));
-        let triples = members.iter().zip(outputs.chunks(3)).map(|(&k, triple)| {
-            let k = Literal::usize_unsuffixed(k);
-            quote!(#derivatives[#k].push([#(#triple),*]);)
-        });
-        quote!(#statements #(#triples)*)
-    };
-    let numbers = program(None);
-    // A program reads entry q of a list outside its sums, and sums have an index of their own.
-    let lists = (0..declaration.lengths.len()).map(|length| {
-        let entries = program(Some(length));
-        let (index, length) = (&writer.index, &declaration.lengths[length]);
-        quote!(for #index in 0..#length { #entries })
-    });
-    let lists: Vec<_> = lists.collect();
+    let by_parameters: Vec<_> = by_parameters.iter().map(|triple| triple.to_vec()).collect();
+    let derivatives = derivatives(declaration, model, &by_parameters);
+    let is_of_domain = |constraint: &Constraint| matches!(constraint.limit, Limit::Domain(_));
+    let (of_domain, of_parameters): (Vec<_>, Vec<_>) =
+        model.constraints.clone().into_iter().partition(is_of_domain);
+    let of_parameters = constraints(declaration, model, &of_parameters);
     let [l1, l2, l3] = &declaration.stretches;
-    let count = Literal::usize_unsuffixed(by_parameters.len());
+    let of_domain = (!of_domain.is_empty()).then(|| {
+        let constraints = constraints(declaration, model, &of_domain);
+        quote! {
+            #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+            fn domain_constraints(
+                &self,
+                [#l1, #l2, #l3]: [f64; 3],
+            ) -> ::std::vec::Vec<::piola::material::Constraint> {
+                #constraints
+            }
+        }
+    });
     quote! {
         #naming
         impl #bounds ::piola::material::Fittable for #name #arguments {
@@ -58,11 +54,127 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
             fn gradient_by_parameters(&self, [#l1, #l2, #l3]: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
                 use ::piola::Real;
                 type R = f64;
-                let mut #derivatives: [::std::vec::Vec<[f64; 3]>; #count] = [const { ::std::vec::Vec::new() }; #count];
-                #numbers
-                #(#lists)*
-                #derivatives.concat()
+                #derivatives
             }
+
+            #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+            fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
+                #of_parameters
+            }
+
+            #of_domain
+        }
+    }
+}
+
+/// For each number among the parameters, the array of the expressions that belong to its parameter.
+fn derivatives(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> TokenStream {
+    let width = Literal::usize_unsuffixed(by_parameters.first().map_or(0, Vec::len));
+    let writer = Writer::new(declaration);
+    let derivatives = free_name(declaration, &["derivatives", "by_parameters"]);
+    // Numbers together, and lists of one length together: each has a program of its own.
+    let mut program = |length: Option<Length>| {
+        let members: Vec<usize> =
+            (0..by_parameters.len()).filter(|&k| declaration.parameters[k].length() == length).collect();
+        let roots: Vec<_> = members.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
+        let (statements, outputs) = writer.program(&model.program(&roots));
+        let arrays = outputs.chunks((outputs.len() / members.len().max(1)).max(1));
+        let arrays = members.iter().zip(arrays).map(|(&k, array)| {
+            let k = Literal::usize_unsuffixed(k);
+            quote!(#derivatives[#k].push([#(#array),*]);)
+        });
+        quote!(#statements #(#arrays)*)
+    };
+    let numbers = program(None);
+    // A program reads entry q of a list outside its sums, and sums have an index of their own.
+    let lists = (0..declaration.lengths.len()).map(|length| {
+        let entries = program(Some(length));
+        let (index, length) = (&writer.index, &declaration.lengths[length]);
+        quote!(for #index in 0..#length { #entries })
+    });
+    let lists: Vec<_> = lists.collect();
+    let count = Literal::usize_unsuffixed(by_parameters.len());
+    quote! {
+        let mut #derivatives: [::std::vec::Vec<[f64; #width]>; #count] = [const { ::std::vec::Vec::new() }; #count];
+        #numbers
+        #(#lists)*
+        #derivatives.concat()
+    }
+}
+
+/// The constraints, one for each entry where they are on entries.
+fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Constraint]) -> TokenStream {
+    let (of_entries, of_numbers): (Vec<_>, Vec<_>) =
+        constraints.iter().partition(|constraint| constraint.length.is_some());
+    let writer = Writer::new(declaration);
+    let of_numbers = if of_numbers.is_empty() {
+        quote!(::std::vec::Vec::new())
+    } else {
+        let limits = of_numbers.iter().map(|constraint| limit(declaration, constraint.limit));
+        let roots: Vec<_> = of_numbers.iter().map(|constraint| constraint.value).collect();
+        let by_parameters = (0..declaration.parameters.len())
+            .map(|k| of_numbers.iter().map(|constraint| constraint.by_parameters[k]).collect());
+        let by_parameters: Vec<_> = by_parameters.collect();
+        let derivatives = derivatives(declaration, model, &by_parameters);
+        let (statements, outputs) = writer.program(&model.program(&roots));
+        quote! {
+            ::piola::material::Constraint::all([#(#limits),*], { #statements [#(#outputs),*] }, { #derivatives })
+        }
+    };
+    let of_entries = of_entries.iter().map(|constraint| {
+        let parameters: Vec<_> = (0..declaration.parameters.len())
+            .filter(|&k| !model.graph.is_zero(constraint.by_parameters[k]))
+            .collect();
+        let slopes = parameters.iter().map(|&k| constraint.by_parameters[k]);
+        let roots: Vec<_> = std::iter::once(constraint.value).chain(slopes).collect();
+        let (statements, outputs) = writer.program(&model.program(&roots));
+        let index = &writer.index;
+        let slopes = parameters.iter().zip(&outputs[1..]).map(|(&k, slope)| {
+            let is_list = declaration.parameters[k].length().is_some();
+            let (k, entry) = (Literal::usize_unsuffixed(k), if is_list { quote!(#index) } else { quote!(0) });
+            quote!((#k, #entry, #slope))
+        });
+        let (limit, value) = (limit(declaration, constraint.limit), &outputs[0]);
+        let length = constraint.length.map(|length| &declaration.lengths[length]);
+        quote! {
+            for #index in 0..#length {
+                #statements
+                constraints.push(::piola::material::Constraint::of_entry(
+                    #limit,
+                    #value,
+                    ::piola::material::Fittable::values(self),
+                    &[#(#slopes),*],
+                ));
+            }
+        }
+    });
+    let of_entries: Vec<_> = of_entries.collect();
+    let uses_reals = (!constraints.is_empty()).then(|| {
+        quote!(
+            use ::piola::Real;
+            type R = f64;
+        )
+    });
+    quote! {
+        #uses_reals
+        let mut constraints = #of_numbers;
+        #(#of_entries)*
+        constraints
+    }
+}
+
+fn limit(declaration: &Declaration, limit: Limit) -> TokenStream {
+    let text = |condition: Option<&syn::Expr>| condition.map(condition_text).unwrap_or_default();
+    match limit {
+        Limit::Admissible(k) => {
+            let text = text(declaration.options.admissible.get(k));
+            quote!(::piola::material::Limit::Admissible(#text))
+        }
+        Limit::ShearModulus => quote!(::piola::material::Limit::ShearModulus),
+        Limit::BulkModulus => quote!(::piola::material::Limit::BulkModulus),
+        Limit::Domain(k) => {
+            let text = text(declaration.bounds().nth(k));
+            quote!(::piola::material::Limit::Domain(#text))
         }
     }
 }

@@ -168,6 +168,7 @@ fn inert_type(function: &Function) -> TokenStream {
                 refusal: ::core::option::Option::None,
                 admissible: &[],
                 moduli: ["", ""],
+                typical: ::core::option::Option::None,
             };
             fn from_values(
                 values: &[&[f64]],
@@ -183,6 +184,9 @@ fn inert_type(function: &Function) -> TokenStream {
                 #unreachable
             }
             fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
+                #unreachable
+            }
+            fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
                 #unreachable
             }
         }

@@ -4,7 +4,9 @@ use quote::ToTokens;
 
 use super::finding::{Finding, Remedy, Stressed, Vanishing, Violation};
 use super::source::Source;
+use crate::algebra::dimension::Clash;
 use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::rational::Rational;
 use crate::printer::{rust, rust_factor};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
@@ -54,6 +56,10 @@ impl Explainer<'_, '_> {
                     term.as_deref().unwrap_or("this"),
                 )
             }
+            Violation::NotInPascals(dimension) => {
+                format!("this energy is {}, but an energy density is in Pa: {UNITS}", in_unit(*dimension))
+            }
+            Violation::UnitsClash(clash) => self.units_clash(**clash),
             Violation::PowerAtRest { power } => format!(
                 "the base of `{}` vanishes at rest and is negative nearby, if only by rounding, where only whole powers have \
                  a value: write a whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
@@ -121,6 +127,32 @@ impl Explainer<'_, '_> {
                 remove `fit`, or declare numbers in place of the function"
                     .into()
             }
+        }
+    }
+
+    fn units_clash(&mut self, clash: Clash) -> String {
+        match clash {
+            Clash::Terms(terms) => {
+                let [one, other] = terms.map(|(term, dimension)| self.with_unit(term, dimension));
+                format!("{one} is added to {other}, but terms of a sum have one unit: {UNITS}")
+            }
+            Clash::Argument(argument, dimension) => format!(
+                "{} stands where only a number without unit can, in a logarithm, an exponential, an exponent, a \
+                 power with a parameter as exponent, or a function: divide it by a parameter of the same unit; \
+                 or {UNITS}",
+                self.with_unit(argument, dimension)
+            ),
+        }
+    }
+
+    /// A quoted term with its unit: `c1 * l1`, in Pa.
+    fn with_unit(&mut self, term: Id, dimension: Rational) -> String {
+        let is_number = matches!(self.graph.node(term), Node::Linear { .. }) && dimension.is_zero();
+        let text = self.print(term);
+        match is_number || text.len() > QUOTABLE {
+            true if dimension.is_zero() => "a number without unit".to_owned(),
+            true => format!("a term {}", in_unit(dimension)),
+            false => format!("`{text}`, {},", in_unit(dimension)),
         }
     }
 
@@ -244,6 +276,21 @@ impl Explainer<'_, '_> {
 }
 
 /// The isochoric invariants in place of the plain ones: `I1b` for `I1`, or both.
+/// How to state units, and how not to.
+const UNITS: &str = "correct the energy, or the units that end the documentation of its parameters, as in \
+    `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number written into the energy has a unit, \
+    make it a parameter, or leave the units out";
+
+/// A unit with its preposition.
+fn in_unit(dimension: Rational) -> String {
+    match dimension {
+        Rational::ONE => "in Pa".to_owned(),
+        _ if dimension.is_zero() => "without unit".to_owned(),
+        _ if dimension.denominator() == 1 => format!("in Pa^{}", dimension.numerator()),
+        _ => format!("in Pa^({}/{})", dimension.numerator(), dimension.denominator()),
+    }
+}
+
 fn in_place(names: &[&str]) -> String {
     let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
     format!("{} for {}", list(&isochoric), list(names))

@@ -5,7 +5,9 @@ use quote::ToTokens;
 use syn::Expr;
 
 use super::source::Source;
+use crate::algebra::dimension::Clash;
 use crate::algebra::expr::Id;
+use crate::algebra::rational::Rational;
 
 /// A broken rule, at the tokens that break it.
 pub(crate) struct Finding {
@@ -21,6 +23,10 @@ pub(crate) enum Violation {
     NoSamples,
     /// Two stretches cannot be exchanged. The term is `None` if it is the whole energy.
     Anisotropic { exchanged: [usize; 2], term: Option<Id> },
+    /// Parts whose units do not go together.
+    UnitsClash(Box<Clash>),
+    /// The energy is in another power of Pa than the first.
+    NotInPascals(Rational),
     /// The base of a power that is not whole vanishes at rest.
     PowerAtRest { power: Id },
     /// The stress at rest is not finite.

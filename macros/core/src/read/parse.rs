@@ -19,10 +19,12 @@ pub(crate) use function::Function;
 pub use options::Options;
 use signature::{Lists, generics, parameters, plain, result, stretches};
 pub(crate) use signature::{is_f64, is_reserved, may_be_function};
+pub use typical::{Typical, Values};
 
 mod function;
 mod options;
 mod signature;
+mod typical;
 
 /// An energy as declared.
 pub struct Declaration {
@@ -124,7 +126,7 @@ pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declarati
 /// Reads the attribute's arguments and its item, and adds mistakes to the diagnostics: the rest of the
 /// declaration may have further ones in its meaning.
 pub fn read(arguments: TokenStream, item: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
-    let options = Options::read(arguments, diagnostics);
+    let mut options = Options::read(arguments, diagnostics);
     let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
     plain(&signature, diagnostics);
     let generics = generics(&signature, diagnostics);
@@ -132,6 +134,9 @@ pub fn read(arguments: TokenStream, item: TokenStream, diagnostics: &mut Diagnos
     let Lists { parameters, lengths, mistaken } =
         parameters(&signature, &generics, stretches.as_ref(), diagnostics);
     result(&signature, &generics, diagnostics);
+    if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
+        typical.check(&parameters, diagnostics);
+    }
     let body = diagnostics.take(syn::parse2(body));
     Some(Declaration {
         attributes,

@@ -398,3 +398,51 @@ fn one_term_is_one_mistake() {
         "vanishes at rest and is negative nearby",
     );
 }
+
+/// An energy of a modulus μ in Pa, an exponent n without unit, and x without any stated.
+#[track_caller]
+fn check_units(body: &str, expected: &[(&str, &str)]) {
+    let item = format!(
+        "fn E([l1, l2, l3]: [f64; 3], /** Modulus, Pa. */ mu: f64, /** Exponent, dimensionless. */ n: f64, x: f64) -> f64 {{ \
+         {body} }}"
+    );
+    check("domain(J > 0.0), prestressed", &item, expected);
+}
+
+#[test]
+fn units_make_an_energy_density() {
+    check_units("mu / n * ((I1b - 2.0).powf(n) - 1.0) + x * J.ln() + (mu * x).sqrt()", &[]);
+    check_units("(mu * mu * n * I1 * I2).sqrt() + x * J", &[]);
+    check_units(
+        "mu * (I1 - 3.0) + n * (J - 1.0).powi(2) + x * J",
+        &[("mu * (I1 - 3.0) + n * (J - 1.0).powi(2)", "is added to")],
+    );
+    check_units("mu * (I1 + mu) + n + x", &[("I1 + mu", "`mu`, in Pa, is added to")]);
+    check_units("mu * (I1 * mu).ln() + n * x", &[("(I1 * mu).ln()", "without unit can")]);
+    check_units("mu * I1.powf(mu) + n * x", &[("I1.powf(mu)", "`mu`, in Pa,")]);
+    check_units(
+        "mu * mu * I1.powf(n) + 0.0 * x",
+        &[("mu * mu * I1.powf(n) + 0.0 * x", "this energy is in Pa^2, but an energy density is in Pa")],
+    );
+}
+
+#[test]
+fn typical_parameters_are_those_of_the_declaration() {
+    let of = |typical: &str, expected: &[(&str, &str)]| {
+        let item = "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, a: [f64; N]) -> f64 {
+            (mu + sum(|p| a[p])) * (I1 - 3.0 - 2.0 * J.ln())
+        }";
+        check(&format!("domain(J > 0.0), {typical}"), item, expected);
+    };
+    of("typical(\"rubber\", mu = 4e5, a = [1.0, -2.0])", &[]);
+    of("typical(\"rubber\", mu = 4e5)", &[("typical", "add one for `a`")]);
+    of("typical(\"rubber\", mu = [4e5], a = [1.0])", &[("mu", "one number")]);
+    of("typical(\"rubber\", mu = 4e5, a = 1.0)", &[("a", "a list")]);
+    of("typical(\"rubber\", mu = 4e5, a = [1.0], nu = 0.5)", &[("nu", "no parameter")]);
+    of(
+        "typical(\"rubber\", mu = x, a = [1.0])",
+        &[("x", "typical parameters are written"), ("typical", "`mu`")],
+    );
+    of("typical(mu = 4e5)", &[("mu", "the material first")]);
+    of("typical", &[("typical", "is written `typical(\"natural rubber\", mu = 4e5)`")]);
+}

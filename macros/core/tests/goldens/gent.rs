@@ -2,11 +2,10 @@
 ///
 /// ψ = −μ Jm/2 ln(1 − (I1 − 3)/Jm) − μ ln J + κ/2 (J − 1)².
 ///
-/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is incompressible, and the
-/// others free the rest state of stress and penalise changes of volume. Defined for J > 0 and I1 − 3 < Jm; the first of
-/// these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend) if κ ≥ 0, the second stays.
-///
-/// Typical: `mu = 3.3e5, jm = 108.0, kappa = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+/// Gent, *A New Constitutive Relation for Rubber*, 1996, eq. 2, for the first term; the source is
+/// incompressible, and the others free the rest state of stress and penalise changes of volume. Defined for J
+/// > 0 and I1 − 3 < Jm; the first of these bounds opens with [`Inversion::Extend`](piola::Inversion::Extend)
+/// if κ ≥ 0, the second stays.
 ///
 /// ```text
 /// ψ = 1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J
@@ -15,10 +14,12 @@
 /// **Parameters**:
 ///
 /// * `mu`: Shear modulus μ, Pa.
-/// * `jm`: Locking value Jm of I1 − 3.
+/// * `jm`: Locking value Jm of I1 − 3, dimensionless.
 /// * `kappa`: Volumetric modulus κ, Pa.
 ///
 /// They satisfy `mu > 0, jm > 0`.
+///
+/// **Typical**: `mu = 3.3e5, jm = 108.0, kappa = 2e7`, natural rubber, fitted to Treloar 1944.
 ///
 /// **Domain**: `J > 0, I1 - 3 < jm`. It can be continued beyond J > 0 where `kappa >= 0`.
 ///
@@ -69,7 +70,7 @@ impl Gent {
     /// The material with these parameters.
     ///
     /// * `mu`: Shear modulus μ, Pa.
-    /// * `jm`: Locking value Jm of I1 − 3.
+    /// * `jm`: Locking value Jm of I1 − 3, dimensionless.
     /// * `kappa`: Volumetric modulus κ, Pa.
     ///
     /// # Errors
@@ -155,7 +156,7 @@ impl Gent {
     pub fn mu(&self) -> f64 {
         self.mu
     }
-    /// Locking value Jm of I1 − 3.
+    /// Locking value Jm of I1 − 3, dimensionless.
     #[must_use]
     pub fn jm(&self) -> f64 {
         self.jm
@@ -788,17 +789,22 @@ const _: () = {
                 ::piola::material::Parameter {
                     name: "mu",
                     doc: "Shear modulus μ, Pa.",
-                    is_list: false,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::Number,
                 },
                 ::piola::material::Parameter {
                     name: "jm",
-                    doc: "Locking value Jm of I1 − 3.",
-                    is_list: false,
+                    doc: "Locking value Jm of I1 − 3, dimensionless.",
+                    unit: ::core::option::Option::Some(
+                        ::piola::material::Unit::Dimensionless,
+                    ),
+                    form: ::piola::material::Form::Number,
                 },
                 ::piola::material::Parameter {
                     name: "kappa",
                     doc: "Volumetric modulus κ, Pa.",
-                    is_list: false,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::Number,
                 },
             ],
             domain: "J > 0, I1 - 3 < jm",
@@ -806,6 +812,10 @@ const _: () = {
             refusal: ::core::option::Option::None,
             admissible: &["mu > 0", "jm > 0"],
             moduli: ["μ", "κ + 2 μ/jm"],
+            typical: ::core::option::Option::Some(::piola::material::Typical {
+                values: &[&[330000.0], &[108.0], &[20000000.0]],
+                source: "natural rubber, fitted to Treloar 1944",
+            }),
         };
         fn from_values(
             values: &[&[f64]],
@@ -890,6 +900,87 @@ const _: () = {
             derivatives[1].push([t19, t21, t23]);
             derivatives[2].push([t27, t29, t30]);
             derivatives.concat()
+        }
+        #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+        fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
+            use ::piola::Real;
+            type R = f64;
+            let mut constraints = ::piola::material::Constraint::all(
+                [
+                    ::piola::material::Limit::Admissible("mu > 0"),
+                    ::piola::material::Limit::Admissible("jm > 0"),
+                    ::piola::material::Limit::ShearModulus,
+                    ::piola::material::Limit::BulkModulus,
+                ],
+                {
+                    let mu: R = __piola::ParameterValue::on(&self.mu);
+                    let jm: R = __piola::ParameterValue::on(&self.jm);
+                    let kappa: R = __piola::ParameterValue::on(&self.kappa);
+                    let t0 = mu.mul_add(R::splat(0.6666666666666666), kappa);
+                    let t1 = R::splat(1.0) / jm;
+                    let t2 = mu * t1;
+                    let t3 = t2.mul_add(R::splat(2.0), t0);
+                    [mu, jm, mu, t3]
+                },
+                {
+                    let mut derivatives: [::std::vec::Vec<[f64; 4]>; 3] = [const {
+                        ::std::vec::Vec::new()
+                    }; 3];
+                    let jm: R = __piola::ParameterValue::on(&self.jm);
+                    let t0 = R::splat(1.0) / jm;
+                    let t1 = t0.mul_add(R::splat(2.0), R::splat(0.6666666666666666));
+                    let mu: R = __piola::ParameterValue::on(&self.mu);
+                    let t2 = t0 * mu;
+                    let t3 = t0 * t2;
+                    let t4 = R::splat(2.0) * t3;
+                    let t5 = -t4;
+                    derivatives[0]
+                        .push([R::splat(1.0), R::splat(0.0), R::splat(1.0), t1]);
+                    derivatives[1]
+                        .push([R::splat(0.0), R::splat(1.0), R::splat(0.0), t5]);
+                    derivatives[2]
+                        .push([
+                            R::splat(0.0),
+                            R::splat(0.0),
+                            R::splat(0.0),
+                            R::splat(1.0),
+                        ]);
+                    derivatives.concat()
+                },
+            );
+            constraints
+        }
+        #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+        fn domain_constraints(
+            &self,
+            [l1,
+            l2,
+            l3,
+            ]: [f64; 3],
+        ) -> ::std::vec::Vec<::piola::material::Constraint> {
+            use ::piola::Real;
+            type R = f64;
+            let mut constraints = ::piola::material::Constraint::all(
+                [::piola::material::Limit::Domain("I1 - 3 < jm")],
+                {
+                    let jm: R = __piola::ParameterValue::on(&self.jm);
+                    let t0 = (-l1).mul_add(l1, jm);
+                    let t1 = (-l2).mul_add(l2, t0);
+                    let t2 = (-l3).mul_add(l3, t1);
+                    let t3 = t2 + R::splat(3.0);
+                    [t3]
+                },
+                {
+                    let mut derivatives: [::std::vec::Vec<[f64; 1]>; 3] = [const {
+                        ::std::vec::Vec::new()
+                    }; 3];
+                    derivatives[0].push([R::splat(0.0)]);
+                    derivatives[1].push([R::splat(1.0)]);
+                    derivatives[2].push([R::splat(0.0)]);
+                    derivatives.concat()
+                },
+            );
+            constraints
         }
     }
 };

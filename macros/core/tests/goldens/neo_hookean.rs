@@ -2,10 +2,9 @@
 ///
 /// ψ = μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
 ///
-/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined for J > 0;
-/// continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
-///
-/// Typical: `mu = 3.8e5, lambda = 2e7`, natural rubber, fitted to \[Treloar 1944\].
+/// Bonet, Wood, *Nonlinear Continuum Mechanics for Finite Element Analysis*, 2nd ed. 2008, eq. 6.27. Defined
+/// for J > 0; continued below a threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥
+/// 0.
 ///
 /// ```text
 /// ψ = 1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J
@@ -17,6 +16,8 @@
 /// * `lambda`: First Lamé parameter λ, Pa.
 ///
 /// They satisfy `mu > 0`.
+///
+/// **Typical**: `mu = 3.8e5, lambda = 2e7`, natural rubber, fitted to Treloar 1944.
 ///
 /// **Domain**: `J > 0`. It can be continued beyond J > 0 where `lambda >= 0`.
 ///
@@ -638,12 +639,14 @@ const _: () = {
                 ::piola::material::Parameter {
                     name: "mu",
                     doc: "Shear modulus μ, Pa.",
-                    is_list: false,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::Number,
                 },
                 ::piola::material::Parameter {
                     name: "lambda",
                     doc: "First Lamé parameter λ, Pa.",
-                    is_list: false,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::Number,
                 },
             ],
             domain: "J > 0",
@@ -651,6 +654,10 @@ const _: () = {
             refusal: ::core::option::Option::None,
             admissible: &["mu > 0"],
             moduli: ["μ", "λ"],
+            typical: ::core::option::Option::Some(::piola::material::Typical {
+                values: &[&[380000.0], &[20000000.0]],
+                source: "natural rubber, fitted to Treloar 1944",
+            }),
         };
         fn from_values(
             values: &[&[f64]],
@@ -704,6 +711,38 @@ const _: () = {
             derivatives[0].push([t1, t3, t5]);
             derivatives[1].push([t7, t8, t9]);
             derivatives.concat()
+        }
+        #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+        fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
+            use ::piola::Real;
+            type R = f64;
+            let mut constraints = ::piola::material::Constraint::all(
+                [
+                    ::piola::material::Limit::Admissible("mu > 0"),
+                    ::piola::material::Limit::ShearModulus,
+                    ::piola::material::Limit::BulkModulus,
+                ],
+                {
+                    let mu: R = __piola::ParameterValue::on(&self.mu);
+                    let lambda: R = __piola::ParameterValue::on(&self.lambda);
+                    let t0 = mu.mul_add(R::splat(0.6666666666666666), lambda);
+                    [mu, mu, t0]
+                },
+                {
+                    let mut derivatives: [::std::vec::Vec<[f64; 3]>; 2] = [const {
+                        ::std::vec::Vec::new()
+                    }; 2];
+                    derivatives[0]
+                        .push([
+                            R::splat(1.0),
+                            R::splat(1.0),
+                            R::splat(0.6666666666666666),
+                        ]);
+                    derivatives[1].push([R::splat(0.0), R::splat(0.0), R::splat(1.0)]);
+                    derivatives.concat()
+                },
+            );
+            constraints
         }
     }
 };

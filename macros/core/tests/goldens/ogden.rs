@@ -2,14 +2,12 @@
 ///
 /// ψ = Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
 ///
-/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for incompressible
-/// rubberlike solids*, Proc. R. Soc. Lond. A 326, 1972, eq. 12, for the shear part. The source is incompressible; here
-/// −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of volume. κ is the first Lamé
-/// parameter at small strain. Defined for J > 0; continued below a threshold stretch with
-/// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ αₚ < 0 would attract collapse.
-///
-/// Typical: `mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7`, natural rubber, the three terms of the
-/// source.
+/// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
+/// incompressible rubberlike solids*, Proc. R. Soc. Lond. A 326, 1972, eq. 12, for the shear part. The source
+/// is incompressible; here −(Σₚ μₚ) ln J frees the rest state of stress and κ/2 (J − 1)² penalises changes of
+/// volume. κ is the first Lamé parameter at small strain. Defined for J > 0; continued below a threshold
+/// stretch with [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ αₚ > 0 and κ ≥ 0: a term with μₚ
+/// αₚ < 0 would attract collapse.
 ///
 /// ```text
 /// ψ = Σₚ μₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3)/αₚ + 1/2 κ (J − 1)² − (Σₚ μₚ) ln J
@@ -18,10 +16,12 @@
 /// **Parameters**:
 ///
 /// * `mu`: Moduli μₚ, Pa.
-/// * `alpha`: Exponents αₚ.
+/// * `alpha`: Exponents αₚ, dimensionless.
 /// * `kappa`: Volumetric modulus κ, Pa.
 ///
 /// They satisfy `alpha[p] != 0`.
+///
+/// **Typical**: `mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7`, natural rubber, the three terms of the source.
 ///
 /// **Domain**: `J > 0`. It can be continued beyond J > 0 where `mu[p] * alpha[p] > 0, kappa >= 0`.
 ///
@@ -64,7 +64,7 @@ impl<const N: usize> Ogden<N> {
     /// The material with these parameters.
     ///
     /// * `mu`: Moduli μₚ, Pa.
-    /// * `alpha`: Exponents αₚ.
+    /// * `alpha`: Exponents αₚ, dimensionless.
     /// * `kappa`: Volumetric modulus κ, Pa.
     ///
     /// # Errors
@@ -163,7 +163,7 @@ impl<const N: usize> Ogden<N> {
     pub fn mu(&self) -> [f64; N] {
         self.mu
     }
-    /// Exponents αₚ.
+    /// Exponents αₚ, dimensionless.
     #[must_use]
     pub fn alpha(&self) -> [f64; N] {
         self.alpha
@@ -906,17 +906,22 @@ const _: () = {
                 ::piola::material::Parameter {
                     name: "mu",
                     doc: "Moduli μₚ, Pa.",
-                    is_list: true,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::List,
                 },
                 ::piola::material::Parameter {
                     name: "alpha",
-                    doc: "Exponents αₚ.",
-                    is_list: true,
+                    doc: "Exponents αₚ, dimensionless.",
+                    unit: ::core::option::Option::Some(
+                        ::piola::material::Unit::Dimensionless,
+                    ),
+                    form: ::piola::material::Form::List,
                 },
                 ::piola::material::Parameter {
                     name: "kappa",
                     doc: "Volumetric modulus κ, Pa.",
-                    is_list: false,
+                    unit: ::core::option::Option::Some(::piola::material::Unit::Pascal),
+                    form: ::piola::material::Form::Number,
                 },
             ],
             domain: "J > 0",
@@ -924,6 +929,14 @@ const _: () = {
             refusal: ::core::option::Option::None,
             admissible: &["alpha[p] != 0"],
             moduli: ["1/2 Σₚ μₚ αₚ", "κ"],
+            typical: ::core::option::Option::Some(::piola::material::Typical {
+                values: &[
+                    &[630000.0, 1200.0, -10000.0],
+                    &[1.3, 5.0, -2.0],
+                    &[20000000.0],
+                ],
+                source: "natural rubber, the three terms of the source",
+            }),
         };
         fn from_values(
             values: &[&[f64]],
@@ -1007,6 +1020,48 @@ const _: () = {
                 derivatives[1].push([t15, t18, t21]);
             }
             derivatives.concat()
+        }
+        #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
+        fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
+            use ::piola::Real;
+            type R = f64;
+            let mut constraints = ::piola::material::Constraint::all(
+                [
+                    ::piola::material::Limit::ShearModulus,
+                    ::piola::material::Limit::BulkModulus,
+                ],
+                {
+                    let mut t0 = R::splat(0.0);
+                    for p in 0..N {
+                        let mu: R = __piola::ParameterValue::on(&self.mu[p]);
+                        let alpha: R = __piola::ParameterValue::on(&self.alpha[p]);
+                        let t1 = mu * alpha;
+                        t0 = t0 + t1;
+                    }
+                    let t2 = t0 * R::splat(0.5);
+                    let kappa: R = __piola::ParameterValue::on(&self.kappa);
+                    let t3 = t0.mul_add(R::splat(0.3333333333333333), kappa);
+                    [t2, t3]
+                },
+                {
+                    let mut derivatives: [::std::vec::Vec<[f64; 2]>; 3] = [const {
+                        ::std::vec::Vec::new()
+                    }; 3];
+                    derivatives[2].push([R::splat(0.0), R::splat(1.0)]);
+                    for p in 0..N {
+                        let alpha: R = __piola::ParameterValue::on(&self.alpha[p]);
+                        let t0 = alpha * R::splat(0.5);
+                        let t1 = alpha * R::splat(0.3333333333333333);
+                        let mu: R = __piola::ParameterValue::on(&self.mu[p]);
+                        let t2 = R::splat(0.5) * mu;
+                        let t3 = R::splat(0.3333333333333333) * mu;
+                        derivatives[0].push([t0, t1]);
+                        derivatives[1].push([t2, t3]);
+                    }
+                    derivatives.concat()
+                },
+            );
+            constraints
         }
     }
 };

@@ -94,7 +94,7 @@ macro_rules! of_two_moduli {
 of_two_moduli!(
     StVenantKirchhoff,
     "Saint Venant–Kirchhoff",
-    "stvk",
+    "st_venant_kirchhoff",
     fn special<E: Number>(&self, work: Work) -> Vec<Contestant<E>> {
         let &Self { mu, lambda, .. } = self;
         methods::by_invariants(invariants::StVenantKirchhoff { mu, lambda }, work)
@@ -104,7 +104,7 @@ of_two_moduli!(
 of_two_moduli!(
     NeoHookean,
     "neo-Hookean",
-    "neo_hookean_lnj",
+    "neo_hookean",
     fn special<E: Number>(&self, work: Work) -> Vec<Contestant<E>> {
         let &Self { mu, lambda, .. } = self;
         methods::by_invariants(invariants::NeoHookean { mu, lambda }, work)

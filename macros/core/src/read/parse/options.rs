@@ -8,6 +8,8 @@ use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::nearest;
 
+use super::typical::Typical;
+
 /// The arguments of the attribute.
 #[derive(Default)]
 pub struct Options {
@@ -19,6 +21,8 @@ pub struct Options {
     pub extend: Option<Vec<Expr>>,
     /// Why there is no extension.
     pub refuse: Option<LitStr>,
+    /// Parameters of some real material.
+    pub typical: Option<Typical>,
     /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a sum.
     pub prestressed: bool,
     /// Derivatives by the parameters are asked for.
@@ -30,11 +34,12 @@ pub struct Options {
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 8] = [
+const FORMS: [(&str, &str); 9] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
+    ("typical", "typical(\"natural rubber\", mu = 4e5)"),
     ("prestressed", "prestressed"),
     ("part", "part"),
     ("fit", "fit"),
@@ -68,6 +73,7 @@ impl Options {
             ("extend", Meta::List(list)) => self.extend = Some(comparisons(&list.tokens, diagnostics)),
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
+            ("typical", Meta::List(list)) => self.typical = Typical::read(name, &list.tokens, diagnostics),
             ("prestressed" | "part", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
             ("serde", Meta::Path(_)) => self.serde = true,

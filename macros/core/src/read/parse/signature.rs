@@ -9,7 +9,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// What every material has by name, which a parameter's own method would hide.
-const MEMBERS: [&str; 25] = [
+const MEMBERS: [&str; 27] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -38,6 +38,8 @@ const MEMBERS: [&str; 25] = [
     // Of `Fittable`.
     "values",
     "gradient_by_parameters",
+    "constraints",
+    "domain_constraints",
     // Of `Graded`.
     "on_lanes",
 ];

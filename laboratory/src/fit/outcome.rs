@@ -1,0 +1,289 @@
+//! The outcome of a fit: parameters, how well they agree with the data, and warnings; or why there is none.
+
+use std::fmt;
+
+use super::trial::TrialError;
+use crate::data::Agreement;
+
+/// Parameters that fit, and how well.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The parameters as [`Declared::from_values`](piola::material::Declared::from_values) takes them.
+    pub values: Vec<Vec<f64>>,
+    /// The parameters one by one, lists entry by entry.
+    pub numbers: Vec<Number>,
+    /// R² of each mode and of all, whatever was made small.
+    pub agreement: Agreement,
+    /// The root of the mean square of the differences that were made small: 0.05 is five percent.
+    pub difference: f64,
+    /// The condition number of ∂r/∂p for the parameters that were free at the minimum, columns scaled to one:
+    /// the fit determines the parameters so many times worse than the data determine the fit.
+    pub condition: f64,
+    /// Index of the start that led to the best minimum: 0 is the one given, others are random.
+    pub start: usize,
+    /// Descents that ended in a minimum.
+    pub descents: usize,
+    /// How often the curves were computed on the way to the best minimum.
+    pub evaluations: usize,
+    /// Why the search ended there.
+    pub ended: Ended,
+    /// Why other parameters might do as well, or better.
+    pub warnings: Vec<Warning>,
+}
+
+/// A parameter, or an entry of a list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// The name, such as `kappa`, or `mu_1` for the first entry of a list.
+    pub name: String,
+    /// The fitted value.
+    pub value: f64,
+    /// Whether it was sought.
+    pub standing: Standing,
+    /// Standard error of the value to first order, the differences being independent and alike, if it was
+    /// sought from more points than unknowns, and no edge of what the energy accepts ended the search.
+    pub error: Option<f64>,
+}
+
+/// Whether a parameter was sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It was sought.
+    Free,
+    /// It kept its value, as was asked for.
+    Held,
+    /// It kept its value, because the data say nothing about it.
+    Unidentifiable,
+}
+
+/// Why a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// The curves go through the data exactly.
+    Exact,
+    /// No change of the parameters improves the fit to first order.
+    Stationary,
+    /// Parameters and differences no longer change except by rounding.
+    Settled,
+    /// The energy refuses the parameters on the way to a better fit: [`Warning::Edge`].
+    Edge,
+    /// The number of evaluations was exhausted before.
+    Unfinished,
+}
+
+impl fmt::Display for Ended {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Exact => "the curves go through the data",
+            Self::Stationary => "no change of the parameters improves the fit",
+            Self::Settled => "the parameters no longer change except by rounding",
+            Self::Edge => "at an edge of what the energy accepts",
+            Self::Unfinished => "not at a minimum yet when the evaluations were exhausted",
+        })
+    }
+}
+
+/// Why other parameters might fit as well, or better.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The data say nothing about a parameter, such as a bulk modulus at constant volume.
+    Unidentifiable {
+        /// Its name.
+        parameter: String,
+    },
+    /// The data say little about a combination of parameters.
+    Collinear {
+        /// Relative changes of parameters that make up for each other, the greatest being 1; absolute where
+        /// one is zero. A single one where no other makes up for it.
+        changes: Vec<(String, f64)>,
+        /// The root of the mean square of what such a change changes of the differences, to first order.
+        effect: f64,
+    },
+    /// There is another minimum, about as good, of a solid with other stresses.
+    OtherMinimum {
+        /// Its parameters, in the form of [`Fit::values`].
+        values: Vec<Vec<f64>>,
+        /// Its parameters one by one, by the names of [`Fit::numbers`].
+        numbers: Vec<(String, f64)>,
+        /// Its [`Fit::difference`].
+        difference: f64,
+        /// [`Fit::difference`] of the minimum that was found, to compare with.
+        found: f64,
+    },
+    /// Other parameters make an equivalent solid: one grows without bound, a term has vanished, two terms
+    /// have become one, or parameters make up for each other.
+    EquivalentParameters {
+        /// Name, value, and value of the other, of the parameters that are not the same but for the order of
+        /// terms; lists with all their entries.
+        numbers: Vec<(String, f64, f64)>,
+        /// Whether the only difference is one parameter that runs off to infinity.
+        is_runaway: bool,
+    },
+    /// A better fit is beyond an edge of what the energy accepts: these are the best parameters that were
+    /// found along it. One warning for each edge.
+    Edge {
+        /// Why the parameters next beyond are refused.
+        reason: TrialError,
+    },
+    /// The volume was kept, but the energy with these parameters gives way in volume: a body of it is another
+    /// solid than the one fitted.
+    Compressible {
+        /// Poisson's ratio at small strain.
+        poisson: f64,
+        /// A bulk modulus that would bring it to 0.49, Pa.
+        bulk: f64,
+    },
+    /// The mean of the measured stresses would be a better guess than the curves.
+    Poor {
+        /// R² of all points, below 0.
+        determination: f64,
+    },
+    /// The best that was found is no minimum yet, and no edge keeps the search from going on.
+    Unfinished,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unidentifiable { parameter } => {
+                write!(f, "the data say nothing about {parameter}, which keeps its value")
+            }
+            Self::Collinear { changes, effect } => match changes.as_slice() {
+                [(name, _)] => write!(
+                    f,
+                    "the data say little about {name}: a change by 1 % changes the fit by {}; hold it (`--hold {name}`, \
+                     `FitSettings::with_held`), or add data of other tests",
+                    Percent(*effect)
+                ),
+                changes => {
+                    let together: Vec<_> =
+                        changes.iter().map(|(name, change)| format!("{name} {change:+.3} %")).collect();
+                    let name = changes.first().map_or("", |(name, _)| name);
+                    write!(
+                        f,
+                        "the data say little about {}: changed together in this proportion, they change the fit by {}; \
+                         hold one of them (such as `--hold {name}`, `FitSettings::with_held`), or add data of other tests",
+                        together.join(", "),
+                        Percent(*effect)
+                    )
+                }
+            },
+            Self::OtherMinimum { numbers, difference, found, .. } => {
+                let numbers: Vec<_> =
+                    numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
+                write!(
+                    f,
+                    "another minimum has differences of {:.3} %, beside {:.3} % of this one: {}",
+                    100.0 * difference,
+                    100.0 * found,
+                    numbers.join(", ")
+                )
+            }
+            Self::EquivalentParameters { numbers, is_runaway } => {
+                let change = |(_, here, there): &(String, f64, f64)| change(*here, *there);
+                let most = numbers.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
+                let name = most.map_or("", |(name, ..)| name);
+                let [here, there]: [Vec<_>; 2] = [
+                    numbers.iter().map(|(name, here, _)| format!("{name} = {here:.4e}")).collect(),
+                    numbers.iter().map(|(name, _, there)| format!("{name} = {there:.4e}")).collect(),
+                ];
+                let (here, there) = (here.join(", "), there.join(", "));
+                let hold = format_args!("(`--hold {name}`, `FitSettings::with_held`)");
+                match is_runaway {
+                    true => write!(
+                        f,
+                        "{name} grows without bound: {there} does about as well as {here}; hold it {hold}, or declare what the \
+                         energy becomes in that limit"
+                    ),
+                    false => write!(
+                        f,
+                        "the solid is the same with {there} as with {here}: a term has vanished, two terms have become \
+                         one, or parameters make up for each other; hold one of them {hold}, or leave the term out"
+                    ),
+                }
+            }
+            Self::Edge { reason } => {
+                write!(
+                    f,
+                    "the search ended at an edge of what the energy accepts, and a better fit is beyond: there {reason}"
+                )?;
+                for (entry, number) in reason.entries() {
+                    write!(f, " ({entry} is the number {number})")?;
+                }
+                f.write_str(
+                    "; hold a parameter, start elsewhere, add data of other tests, or, if the bound is one of `admissible` \
+                     and not of physics, move it",
+                )
+            }
+            Self::Compressible { poisson, bulk } => write!(
+                f,
+                "the volume was kept, but this energy is compressible: its Poisson's ratio at small strain is {poisson:.2}; to \
+                 fit the solid that will move, leave the sides free (`--compressible`, \
+                 `FitSettings::with_volume(Volume::Free)`), or make it incompressible with a term such as \
+                 `kappa / 2.0 * (J - 1.0).powi(2)`, kappa being {bulk:.0e} Pa or more"
+            ),
+            Self::Poor { determination } => write!(
+                f,
+                "R² of all points is {determination:.3}, below 0: the mean of the measured stresses would be a better \
+                 guess than these curves"
+            ),
+            Self::Unfinished => f.write_str("this is no minimum yet: start from these parameters"),
+        }
+    }
+}
+
+/// A small percentage, printed as a bound when it is tiny.
+struct Percent(f64);
+
+impl fmt::Display for Percent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 < 1e-4 { f.write_str("less than 0.0001 %") } else { write!(f, "{:.4} %", self.0) }
+    }
+}
+
+/// Why nothing can be fitted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// A parameter that is to be held does not exist.
+    #[error("there is no parameter `{name}` to hold; there are {}", known.join(", "))]
+    UnknownParameter {
+        /// The name as given.
+        name: String,
+        /// The names that exist, list by entry.
+        known: Vec<String>,
+    },
+    /// No parameter is left that could change, or that the data say anything about.
+    #[error("no parameter is left to fit: hold fewer, or add data of other tests")]
+    NothingFree,
+    /// No point counts.
+    #[error("there is no point with a stress to fit")]
+    NoPoints,
+    /// There are fewer points than parameters.
+    #[error("{points} points cannot determine {free} parameters; hold some, or add data")]
+    TooFewPoints {
+        /// Points that count.
+        points: usize,
+        /// Parameters that are sought.
+        free: usize,
+    },
+    /// With the parameters to start from, the energy is refused, or has no stress at a measured point.
+    #[error("the parameters to start from {verb} {error}", error = .0, verb = match .0 {
+        TrialError::Point(_) => "must reach all points, but",
+        TrialError::Inadmissible(_) => "are refused without an extension:",
+    })]
+    Start(
+        /// The reason.
+        #[from]
+        TrialError,
+    ),
+    /// The residuals became NaN or infinite from every start.
+    #[error("residuals become infinite on the way; start nearer to the solution")]
+    NoMinimum,
+}
+
+/// How far apart two values are, relative to the lesser of them.
+pub(super) fn change(one: f64, other: f64) -> f64 {
+    if one == other { 0.0 } else { (one - other).abs() / one.abs().min(other.abs()) }
+}

@@ -1,0 +1,47 @@
+//! Why an energy with trial parameters has no stresses to compare with the data.
+
+use piola::material::{Given, Inadmissible};
+
+use crate::data::PointError;
+
+/// Why parameters have no curves to compare with the data.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(transparent)]
+pub enum TrialError {
+    /// The constructor of the energy refuses the parameters.
+    Inadmissible(
+        /// Its reason.
+        #[from]
+        Inadmissible,
+    ),
+    /// A measured point has no stress.
+    Point(
+        /// The point and the reason.
+        #[from]
+        PointError,
+    ),
+}
+
+impl TrialError {
+    /// The entries of lists that a constructor speaks of, each with its name among the numbers, which count
+    /// from 1: `beta[0]` and `beta_1`.
+    pub(super) fn entries(&self) -> Vec<(String, String)> {
+        let Self::Inadmissible(Inadmissible::Violated { given, .. }) = self else { return Vec::new() };
+        let names = |given: &Given| Some((given.name(), format!("{}_{}", given.parameter, given.index? + 1)));
+        given.iter().filter_map(names).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_of_lists_go_by_the_names_of_numbers() {
+        let given =
+            vec![Given::entry("mu", 0, -1.0), Given::scalar("kappa", 2.0), Given::entry("alpha", 11, 0.5)];
+        let violated = TrialError::Inadmissible(Inadmissible::Violated { condition: "", given });
+        let names = [("mu[0]", "mu_1"), ("alpha[11]", "alpha_12")];
+        assert_eq!(violated.entries(), names.map(|(entry, number)| (entry.to_owned(), number.to_owned())));
+    }
+}

@@ -1,0 +1,125 @@
+//! Descriptions of declared materials, for programs that choose one at run time.
+
+/// The texts and data of a declaration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Description {
+    /// The type's name.
+    pub name: &'static str,
+    /// First paragraph of the documentation.
+    pub summary: &'static str,
+    /// ψ as a formula in one line.
+    pub formula: &'static str,
+    /// The parameters in the order of the constructor.
+    pub parameters: &'static [Parameter],
+    /// The domain of ψ, such as `J > 0`.
+    pub domain: &'static str,
+    /// Whether the material can be built with [`Inversion::Extend`](super::Inversion::Extend).
+    pub extends: bool,
+    /// The reason why it does not extend, if the declaration states one.
+    pub refusal: Option<&'static str>,
+    /// Conditions on the parameters, which must also be finite.
+    pub admissible: &'static [&'static str],
+    /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
+    pub moduli: [&'static str; 2],
+    /// Parameters of some real material, if the declaration has them: `typical(…)`.
+    pub typical: Option<Typical>,
+}
+
+/// A parameter of a declared energy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// The name in the declaration.
+    pub name: &'static str,
+    /// Its documentation, units included.
+    pub doc: &'static str,
+    /// The unit that its documentation states, as in `Shear modulus μ, Pa.`; of a function that of its
+    /// values.
+    pub unit: Option<Unit>,
+    /// Its form as values at run time.
+    pub form: Form,
+}
+
+impl Parameter {
+    /// Whether it takes a list of values: one for each term of a sum, or those that a function is built from.
+    #[must_use]
+    pub fn is_list(&self) -> bool {
+        self.form != Form::Number
+    }
+
+    /// Multiplies by powers of a factor what is in powers of Pa among the values of this parameter, so that
+    /// an energy whose parameters are all rescaled is multiplied by the factor. Gives whether that is known:
+    /// the parameter has a unit, and a function in Pa is given by points.
+    ///
+    /// ```
+    /// use piola::material::{Form, Parameter, Unit};
+    ///
+    /// let curve = Parameter { name: "f", doc: "Energy, Pa.", unit: Some(Unit::Pascal), form: Form::Points };
+    /// let mut points = [0.5, -1e5, 1.0, 0.0, 2.0, 1e5];
+    /// assert!(curve.rescale(&mut points, 3.0));
+    /// assert_eq!(points, [0.5, -3e5, 1.0, 0.0, 2.0, 3e5]);
+    /// ```
+    pub fn rescale(&self, values: &mut [f64], factor: f64) -> bool {
+        let Some(unit) = self.unit else { return false };
+        if unit == Unit::Dimensionless {
+            return true;
+        }
+        let (first, step) = match self.form {
+            Form::Number | Form::List => (0, 1),
+            Form::Points => (1, 2),
+            Form::Function => return false,
+        };
+        let factor = factor.powi(unit.pascals());
+        values.iter_mut().skip(first).step_by(step).for_each(|value| *value *= factor);
+        true
+    }
+}
+
+/// Units that the documentation of a parameter can end with.
+///
+/// `#[piola::material]` checks that ψ is in Pa, as far as its parameters have units. Without one nothing is
+/// checked, and nothing can be derived from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unit {
+    /// `Pa`, which is `J/m³` and `N/m²`.
+    Pascal,
+    /// `1/Pa`.
+    PerPascal,
+    /// `dimensionless`: exponents, stretches, fractions.
+    Dimensionless,
+}
+
+impl Unit {
+    /// The exponent of Pa.
+    #[must_use]
+    pub fn pascals(self) -> i32 {
+        match self {
+            Self::Pascal => 1,
+            Self::PerPascal => -1,
+            Self::Dimensionless => 0,
+        }
+    }
+}
+
+/// The form of a parameter as values at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// One number.
+    Number,
+    /// One number for each term of a sum.
+    List,
+    /// Points of a function or of one of its derivatives: x1, y1, x2, y2, ….
+    Points,
+    /// Numbers from which a function is built in a way of its own, if it can be built from numbers.
+    Function,
+}
+
+/// Parameters of some real material, as declared by `typical("natural rubber", mu = 4e5)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Typical {
+    /// One slice for each parameter of the description, in its order, as
+    /// [`Declared::from_values`](super::Declared::from_values) takes them.
+    pub values: &'static [&'static [f64]],
+    /// The material, and where the values are from.
+    pub source: &'static str,
+}
