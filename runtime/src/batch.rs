@@ -52,14 +52,14 @@ use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub(crate) mod element;
 mod form;
 mod jobs;
 mod material;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub(crate) mod operator;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub(crate) mod rest;
 mod sink;
 mod stage;
@@ -71,9 +71,9 @@ pub use sink::Layout;
 pub use stage::{Points, Stages};
 pub use tile::Rows;
 
-#[cfg(all(test, feature = "system"))]
+#[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
-#[cfg(any(feature = "system", test))]
+#[cfg(any(feature = "bodies", test))]
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::{Sink, Source};
@@ -322,7 +322,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`; F = Ds Dm⁻¹. Of the
     /// gradients there are 12 components, coordinate a of node n at 3n+a; **forces are minus these**. Of the stiffnesses all 144
-    /// entries, unknown 3n+a in row and column 3n+a. With feature `system`, `BlockMatrix` sums them into a sparse matrix.
+    /// entries, unknown 3n+a in row and column 3n+a. With feature `bodies`, `BlockMatrix` sums them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of the
     /// tangent, it is cut there, because a factorisation could not resolve more.

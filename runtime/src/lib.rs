@@ -40,13 +40,13 @@
 //! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
 //! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
-//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `system`);
+//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `bodies`);
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
-//!   (feature `system`);
-//! * [`step`]: implicit Euler by Newton's method (feature `system`).
+//!   (feature `bodies`);
+//! * [`step`]: implicit Euler by Newton's method (feature `bodies`).
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
-//! materials, test them and evaluate them at points. `batch` adds rayon. `system` adds `batch` and faer, and minutes.
+//! materials, test them and evaluate them at points. `batch` adds rayon. `bodies` adds `batch` and faer, and minutes.
 //!
 //! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number that is not
 //! finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read back from there.
@@ -57,7 +57,7 @@
 // Modules that a feature adds, where it is off.
 #![cfg_attr(not(feature = "batch"), doc = "", doc = "[`batch`]: https://docs.rs/piola/latest/piola/batch/")]
 #![cfg_attr(
-    not(feature = "system"),
+    not(feature = "bodies"),
     doc = "",
     doc = "[`mesh`]: https://docs.rs/piola/latest/piola/mesh/",
     doc = "[`step`]: https://docs.rs/piola/latest/piola/step/",
@@ -70,7 +70,7 @@ extern crate self as piola;
 pub mod __private;
 #[cfg(feature = "batch")]
 pub mod batch;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 mod chained;
 pub mod contract;
 #[cfg(any(feature = "glam", feature = "nalgebra"))]
@@ -79,16 +79,16 @@ pub mod convert;
 mod hand_written;
 pub mod lanes;
 pub mod material;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub mod mesh;
 pub mod point;
 mod quotient;
 #[doc(hidden)] // samples for the contract and for tests: no part of the interface
 pub mod random;
 mod status;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub mod step;
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub mod system;
 pub mod univariate;
 

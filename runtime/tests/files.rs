@@ -1,5 +1,5 @@
 //! Settings, reports, moduli and splines come back from JSON with the same bits (feature `serde`).
-#![cfg(all(feature = "serde", feature = "system"))]
+#![cfg(all(feature = "serde", feature = "bodies"))]
 
 use std::fmt::Debug;
 

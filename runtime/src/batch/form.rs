@@ -328,7 +328,7 @@ stiffness_form! {
     }
 }
 
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 stiffness_form! {
     /// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
     BlockStiffness of 90, |i, a, j, c| {
@@ -338,10 +338,10 @@ stiffness_form! {
 }
 
 /// The stiffness as what it is made of: U, W, ψij, flips, twists.
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 pub(super) struct FactoredStiffness;
 
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 impl Form<10, 30> for FactoredStiffness {
     #[inline(always)]
     fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {

@@ -78,7 +78,7 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
         Self([[E::default(); N]; TILE])
     }
 
-    #[cfg(feature = "system")]
+    #[cfg(feature = "bodies")]
     pub(super) fn set(&mut self, point: usize, k: usize, number: E) {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
     }
@@ -102,7 +102,7 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
         Source(self.0.as_flattened())
     }
 
-    #[cfg(feature = "system")]
+    #[cfg(feature = "bodies")]
     pub(super) fn sink(&mut self) -> Sink<'_, E> {
         Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None }
     }

@@ -7,7 +7,7 @@
 
 use std::cell::Cell;
 
-#[cfg(feature = "system")]
+#[cfg(feature = "bodies")]
 use super::form::{BlockStiffness, FactoredStiffness};
 use super::form::{
     Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite, put_all,
@@ -340,9 +340,9 @@ pub(super) enum TangentForm {
 pub(super) enum StiffnessForm {
     Full,
     Packed,
-    #[cfg(feature = "system")]
+    #[cfg(feature = "bodies")]
     Blocks,
-    #[cfg(feature = "system")]
+    #[cfg(feature = "bodies")]
     Factored,
 }
 
@@ -418,9 +418,9 @@ macro_rules! stages {
                 match form {
                     StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
-                    #[cfg(feature = "system")]
+                    #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
-                    #[cfg(feature = "system")]
+                    #[cfg(feature = "bodies")]
                     StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
                 }
             }
