@@ -1,4 +1,5 @@
-//! Tells the crate by `cfg(unoptimised)` that it is compiled without optimisation, where stack frames are many times as large.
+//! Tells the crate by `cfg(unoptimised)` that it is compiled without optimisation, where stack frames are
+//! many times as large.
 
 use std::env;
 

@@ -26,7 +26,7 @@ struct Material {
     material: String,
 
     /// Value of a parameter; lists as NAME=V,V,V [default: the typical one of `piola materials`].
-    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::command::parameter)]
+    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
     parameters: Vec<(String, Vec<f64>)>,
 }
 

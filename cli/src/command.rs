@@ -114,12 +114,12 @@ struct Choice {
 
     /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all
     /// or none.
-    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
     parameters: Vec<(String, Vec<f64>)>,
 
     /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
     /// energy is extended by polynomials [default: 0.1 where it can be].
-    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::value::inversion, allow_negative_numbers = true)]
     inversion: Option<Inversion>,
 
     /// Density in kg/m³ [default: the scene's, 1000].
@@ -246,27 +246,12 @@ fn scenes() -> String {
     text
 }
 
-/// Reads `NAME=V,V,V`.
-pub(crate) fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
-    let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
-    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
-    Ok((name.trim().into(), values.split(',').map(number).collect::<Result<_, _>>()?))
-}
-
-/// Reads `refuse` or the stretch where an extension begins.
-pub(crate) fn inversion(text: &str) -> Result<Inversion, String> {
-    if text == "refuse" {
-        return Ok(Inversion::Refuse);
-    }
-    let epsilon = text.parse().map_err(|_| "write `refuse`, or a stretch between 0 and 1")?;
-    Ok(Inversion::Extend { epsilon })
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
 
     use super::*;
+    use crate::value::parameter;
 
     #[test]
     fn the_command_line_is_consistent() {

@@ -10,6 +10,7 @@ pub mod error;
 mod materials;
 mod picture;
 pub mod render;
+mod value;
 pub mod view;
 
 use std::fmt::Display;

@@ -1,15 +1,15 @@
-//! Any material of the catalogue, with any parameters, at any deformation gradient: no panic, no infinite or NaN result
-//! under a clean status, and in single precision no clean result flagged.
+//! Any material of the catalogue, with any parameters, at any deformation gradient: no panic, no infinite or
+//! NaN result under a clean status, and in single precision no clean result flagged.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O point fuzz/corpus/point fuzz/seeds/point -- -max_len=256 -use_value_profile=1
 //! ```
 //!
-//! The seeds hold each entry of the catalogue at deformations at rest, sheared, inverted, of rank one, graded, huge, tiny
-//! and subnormal.
+//! The seeds hold each entry of the catalogue at deformations at rest, sheared, inverted, of rank one,
+//! graded, huge, tiny and subnormal.
 //!
-//! An input is read as: the entry of the catalogue; precision, inversion and origin of the parameters; parameters; nine
-//! numbers by their bits. What is missing is zero.
+//! An input is read as: the entry of the catalogue; precision, inversion and origin of the parameters;
+//! parameters; nine numbers by their bits. What is missing is zero.
 
 #![no_main]
 #![expect(non_snake_case, reason = "F as in the literature")]
@@ -42,7 +42,8 @@ fuzz_target!(|input: &[u8]| {
         .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
         .collect();
     let parameters: Vec<&[f64]> = parameters.iter().map(Vec::as_slice).collect();
-    // What single precision rounds to zero or infinity, or can hardly hold the square of, is another material there.
+    // What single precision rounds to zero or infinity, or can hardly hold the square of, is another material
+    // there.
     let is_typical = origin == Origin::Typical
         && match inversion {
             Inversion::Refuse => true,

@@ -40,10 +40,11 @@ use proc_macro::TokenStream;
 /// * `typical("natural rubber", mu = 4e5, alpha = [1.3, 5.0])`: parameters of some real material, for
 ///   documentation and programs;
 /// * `prestressed`: stress at rest is intended;
-/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all conditions
-///   on its parameters with respect to these.
-/// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`), as its
-///   parameters, which are checked when they are read; functions among them must implement both as well.
+/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all
+///   conditions on its parameters with respect to these.
+/// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
+///   as its parameters, which are checked when they are read; functions among them must implement both as
+///   well.
 /// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
 /// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no

@@ -1,10 +1,10 @@
 //! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
 //!
-//! This is the interface for finite-element codes that have their own elements: it knows points, not meshes. A [`Batch`] says
-//! of which material, with which filter, instructions and layout of the slices; its methods are the kernels. They
-//! allocate nothing, but for some 80 kB of room on the first call in each thread. Points go through in tiles of 64:
-//! decomposition, energy, outputs, each stage with as many points side by side as the registers hold, and what lies between
-//! the stages stays in the inner caches.
+//! This is the interface for finite-element codes that have their own elements: it knows points, not meshes.
+//! A [`Batch`] says of which material, with which filter, instructions and layout of the slices; its methods
+//! are the kernels. They allocate nothing, but for some 80 kB of room on the first call in each thread.
+//! Points go through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by
+//! side as the registers hold, and what lies between the stages stays in the inner caches.
 //!
 //! ```
 //! use piola::batch::Batch;
@@ -30,17 +30,18 @@
 //! # }
 //! ```
 //!
-//! **Bits.** Within a back end a point's numbers are the same whatever the other points, its place, the number of points and
-//! of threads. Two back ends differ by rounding.
+//! **Bits.** Within a back end a point's numbers are the same whatever the other points, its place, the
+//! number of points and of threads. Two back ends differ by rounding.
 //!
-//! **Status.** A point that cannot be computed is no error of a call: its numbers mean nothing, and a [`Survey`] counts such
-//! points and names the first.
+//! **Status.** A point that cannot be computed is no error of a call: its numbers mean nothing, and a
+//! [`Survey`] counts such points and names the first.
 //!
-//! **Parameters.** A material is the same for all points; with [`Each`](crate::material::Each) every point has its own.
+//! **Parameters.** A material is the same for all points; with [`Each`](crate::material::Each) every point
+//! has its own.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
-//! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or out of their range
-//! takes the way of all others.
+//! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or
+//! out of their range takes the way of all others.
 //!
 //! This module knows no sparsity and no particular material.
 
@@ -63,12 +64,14 @@ pub(crate) mod operator;
 pub(crate) mod rest;
 mod sink;
 mod stage;
+mod svd_tile;
 mod tile;
 mod workspace;
 
 pub use material::{Arguments, Properties, TileMaterial};
 pub use sink::Layout;
-pub use stage::{Points, Stages};
+pub use stage::Stages;
+pub use svd_tile::SvdTile;
 pub use tile::Rows;
 
 #[cfg(all(test, feature = "bodies"))]
@@ -76,19 +79,20 @@ pub(crate) use form::MAX_STIFFNESS_RATIO;
 #[cfg(any(feature = "bodies", test))]
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
-use sink::{Sink, Source};
+use sink::{Line, Sink, Source};
 use stage::{
     Decompose, Forces, Invariants, Judge, Product, Respond, StiffnessForm, Stress, StressByInvariants,
     TangentForm,
 };
 use tile::first_bits;
-use workspace::{Line, Workspace};
+use workspace::Workspace;
 
 /// A material and how to compute with it.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Batch<'a, E> {
-    /// The material of the points: a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
+    /// The material of the points: a [`Material`](crate::Material), or a
+    /// [`PerPoint`](crate::material::PerPoint).
     pub material: &'a dyn TileMaterial<E>,
     /// What happens to negative eigenvalues of dP/dF.
     pub filter: Filter,
@@ -96,8 +100,9 @@ pub struct Batch<'a, E> {
     pub backend: Backend,
     /// How the components of the points are arranged in every slice of a call.
     pub layout: Layout,
-    /// Whether tangents are written past the caches: about twice as fast where they are larger than the last one, and
-    /// slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes, else it does nothing.
+    /// Whether tangents are written past the caches: about twice as fast where they are larger than the last
+    /// one, and slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes,
+    /// else it does nothing.
     pub streams: bool,
     /// Whether the points are shared among the threads of rayon's pool.
     pub threads: bool,
@@ -244,8 +249,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         })
     }
 
-    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 components of each F, row 3i+j for entry (i, j) of P and column 3k+l
-    /// for entry (k, l) of F.
+    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 components of each F, row 3i+j for entry (i, j) of P
+    /// and column 3k+l for entry (k, l) of F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -269,8 +274,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
     }
 
-    /// ψ, P and all entries of dP/dF, Pa, the latter filtered: [`Batch::energies`] and [`Batch::tangents`] with one
-    /// decomposition of each F.
+    /// ψ, P and all entries of dP/dF, Pa, the latter filtered: [`Batch::energies`] and [`Batch::tangents`]
+    /// with one decomposition of each F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -320,12 +325,13 @@ impl<'a, E: Stages> Batch<'a, E> {
 
     /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
     ///
-    /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`; F = Ds Dm⁻¹. Of the
-    /// gradients there are 12 components, coordinate a of node n at 3n+a; **forces are minus these**. Of the stiffnesses all 144
-    /// entries, unknown 3n+a in row and column 3n+a. With feature `bodies`, `BlockMatrix` sums them into a sparse matrix.
+    /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
+    /// F = Ds Dm⁻¹. Of the gradients there are 12 components, coordinate a of node n at 3n+a; **forces are
+    /// minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a. With feature
+    /// `bodies`, `BlockMatrix` sums them into a sparse matrix.
     ///
-    /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of the
-    /// tangent, it is cut there, because a factorisation could not resolve more.
+    /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
+    /// the tangent, it is cut there, because a factorisation could not resolve more.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -339,8 +345,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond_elements(StiffnessForm::Full, F, rest, gradients, (stiffnesses, 144))
     }
 
-    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], of each stiffness the 78 entries on and above the diagonal, row by
-    /// row.
+    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], of each stiffness the 78 entries on and above
+    /// the diagonal, row by row.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -451,7 +457,7 @@ struct Call<'a, E> {
 }
 
 impl<E: Stages> Call<'_, E> {
-    fn decompose(&self, F: Source<'_, E, 9>, count: usize, points: &mut Points<E>) {
+    fn decompose(&self, F: Source<'_, E, 9>, count: usize, points: &mut SvdTile<E>) {
         let is_signed = self.properties.ends_at_zero_volume;
         E::decompose(self.backend, Decompose { F, count, is_signed, points });
     }
@@ -459,7 +465,7 @@ impl<E: Stages> Call<'_, E> {
     /// The filtered blocks of a tile.
     fn blocks(
         &self,
-        points: &Points<E>,
+        points: &SvdTile<E>,
         start: usize,
         count: usize,
         blocks: &mut Rows<E, 15>,
@@ -474,7 +480,7 @@ impl<E: Stages> Call<'_, E> {
     fn stress_and_tangent(
         &self,
         form: TangentForm,
-        points: &Points<E>,
+        points: &SvdTile<E>,
         blocks: &mut Rows<E, 15>,
         line: &mut Line<E>,
         start: usize,
@@ -505,7 +511,8 @@ impl<E: Stages> Call<'_, E> {
     }
 }
 
-/// Numbers of a point that [`Batch::factored_tangents`] writes: U, V, the Hessian in the stretches, flips, twists.
+/// Numbers of a point that [`Batch::factored_tangents`] writes: U, V, the Hessian in the stretches, flips,
+/// twists.
 pub const FACTORS: usize = 30;
 
 /// Numbers of an element's rest shape: Dm⁻¹ row by row, the volume.

@@ -17,8 +17,8 @@
 //! # fn main() {}
 //! ```
 //!
-//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`. The same as a
-//! function is [`check`], and each rule is one of its own:
+//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`. The
+//! same as a function is [`check`], and each rule is one of its own:
 //!
 //! | rule | what must hold |
 //! |---|---|
@@ -38,15 +38,15 @@
 //! | [`single_precision`] | `f32` gives what `f64` does, to the rounding of `f32` |
 //! | [`lanes`] | every lane of every back end gives what a scalar does, whatever its neighbours |
 //!
-//! A material is anything that implements [`Material`], by the macro or by hand; of what it has not, an extension or
-//! invariants, nothing is asked. A check returns what it found or the first [`Violation`]; nothing is printed, nothing
-//! panics but the tests of [`contract!`](crate::contract!). Samples are reproducible: they follow from
-//! [`Settings::seed`]. Points that the material does not admit are left out, and a check that could not compare anything
-//! says so.
+//! A material is anything that implements [`Material`], by the macro or by hand; of what it has not, an
+//! extension or invariants, nothing is asked. A check returns what it found or the first [`Violation`];
+//! nothing is printed, nothing panics but the tests of [`contract!`](crate::contract!). Samples are
+//! reproducible: they follow from [`Settings::seed`]. Points that the material does not admit are left out,
+//! and a check that could not compare anything says so.
 //!
-//! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the tangent
-//! times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign or factor
-//! exceeds it by ten orders of magnitude.
+//! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the
+//! tangent times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign
+//! or factor exceeds it by ten orders of magnitude.
 //!
 //! This module knows materials only through their trait, and no way to repair them.
 
@@ -90,7 +90,8 @@ pub use violation::{Violation, Violations};
 
 use judge::Judge;
 
-/// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without optimisation may need.
+/// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without
+/// optimisation may need.
 pub const STACK: usize = 1 << 26;
 
 /// Which points are checked.
@@ -102,7 +103,8 @@ pub struct Settings {
     pub seed: u64,
     /// Stretches are drawn between these, 0 < smallest < 1 < largest.
     pub range: (f64, f64),
-    /// Whether the material claims that F = I is free of stress: `false` for one that is declared `prestressed`.
+    /// Whether the material claims that F = I is free of stress: `false` for one that is declared
+    /// `prestressed`.
     ///
     /// ```
     /// use piola::contract::{Settings, check};
@@ -180,7 +182,8 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
     if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
 }
 
-/// Checks one rule; nothing where the material has not what the rule is about: an extension, invariants, stated moduli.
+/// Checks one rule; nothing where the material has not what the rule is about: an extension, invariants,
+/// stated moduli.
 pub fn check_rule<M: Material>(
     rule: Rule,
     material: &M,

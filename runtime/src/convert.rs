@@ -20,11 +20,11 @@
 //! `reshape` or `as_slice` is in the other order, 3j+i: use `dP_dF *
 //! SVector::from_row_slice(dF.as_flattened())` on piola's rows instead.
 
-#[cfg(any(feature = "glam", test))]
+#[cfg(feature = "glam")]
 use crate::point::Matrix3;
 
 /// The rows of a matrix of nalgebra.
-#[cfg(feature = "nalgebra")]
+#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn from_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>(
     matrix: &nalgebra::SMatrix<T, M, N>,
@@ -34,7 +34,7 @@ pub fn from_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>
 
 /// The matrix of nalgebra with these rows: 3×3 for F and P, 6×6 for tangents in Voigt notation, 9×9 for
 /// dP/dF.
-#[cfg(feature = "nalgebra")]
+#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn to_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>(
     rows: &[[T; N]; M],
@@ -74,9 +74,9 @@ pub fn to_glam_f32(rows: &Matrix3<f32>) -> glam::Mat3 {
 mod tests {
     use super::*;
 
-    const ROWS: Matrix3<f64> = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    const ROWS: [[f64; 3]; 3] = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
 
-    #[cfg(feature = "nalgebra")]
+    #[cfg(any(feature = "nalgebra", test))]
     #[test]
     fn nalgebra_stores_columns_and_piola_rows() {
         let matrix: nalgebra::Matrix3<f64> = to_nalgebra(&ROWS);
@@ -87,7 +87,7 @@ mod tests {
     }
 
     /// dP/dF times dF in the documented order of indices is what the tangent applies.
-    #[cfg(feature = "nalgebra")]
+    #[cfg(any(feature = "nalgebra", test))]
     #[test]
     #[expect(non_snake_case, reason = "F as in the literature")]
     fn tangents_multiply_flattened_rows() {

@@ -1,6 +1,7 @@
 //! Energies with derivatives by hand, for tests: the only ones in the workspace.
 //!
-//! The point and the contract must be testable without the code generator, and against something it has not written.
+//! The point and the contract must be testable without the code generator, and against something it has not
+//! written.
 
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, Inversion, Material, PAIRS};
@@ -148,8 +149,8 @@ impl Material for RotatedLinear {
     }
 }
 
-/// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across ε,
-/// and with a pole where two stretches are opposite.
+/// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across
+/// ε, and with a pole where two stretches are opposite.
 pub(crate) struct ExtendedNeoHookean {
     pub(crate) epsilon: f64,
 }

@@ -1,9 +1,9 @@
 //! Invertible isotropic hyperelasticity.
 //!
-//! Declare an energy density in principal stretches with [`#[piola::material]`](macro@material) and get everything an
-//! implicit simulator needs: energy, first Piola stress, tangent and its semidefinite projection, element forces and
-//! stiffness, an implicit time step. No derivative is written by hand, no spacing of the stretches is special,
-//! inverted elements are ordinary elements.
+//! Declare an energy density in principal stretches with [`#[piola::material]`](macro@material) and get
+//! everything an implicit simulator needs: energy, first Piola stress, tangent and its semidefinite
+//! projection, element forces and stiffness, an implicit time step. No derivative is written by hand, no
+//! spacing of the stretches is special, inverted elements are ordinary elements.
 //!
 //! ```
 //! use piola::point::{Filter, evaluate};
@@ -33,26 +33,32 @@
 //!
 //! From the bottom up, each module knowing only those above it:
 //!
-//! * [`lanes`]: the real numbers everything is generic over, one at a time or side by side in vector registers;
-//! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels they call;
+//! * [`lanes`]: the real numbers everything is generic over, one at a time or side by side in vector
+//!   registers;
+//! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels
+//!   they call;
 //! * [`univariate`]: curves as parameters of an energy;
-//! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of stress;
-//! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature `batch`);
+//! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of
+//!   stress;
+//! * [`batch`]: slices of many points at once on lanes, for finite-element codes of any kind (feature
+//!   `batch`);
 //! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `bodies`);
-//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear solvers
-//!   (feature `bodies`);
+//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear
+//!   solvers (feature `bodies`);
 //! * [`step`]: implicit Euler by Newton's method (feature `bodies`).
 //!
-//! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds: enough to declare
-//! materials, test them and evaluate them at points. `batch` adds rayon. `bodies` adds `batch` and faer, and minutes.
+//! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds:
+//! enough to declare materials, test them and evaluate them at points. `batch` adds rayon. `bodies` adds
+//! `batch` and faer, and minutes.
 //!
-//! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number that is not
-//! finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read back from there.
+//! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number
+//! that is not finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read
+//! back from there.
 //!
-//! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time integrator but
-//! implicit Euler.
+//! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time
+//! integrator but implicit Euler.
 
 // Modules that a feature adds, where it is off.
 #![cfg_attr(not(feature = "batch"), doc = "", doc = "[`batch`]: https://docs.rs/piola/latest/piola/batch/")]
@@ -73,8 +79,9 @@ pub mod batch;
 #[cfg(feature = "bodies")]
 mod chained;
 pub mod contract;
-#[cfg(any(feature = "glam", feature = "nalgebra"))]
+#[cfg(any(feature = "glam", feature = "nalgebra", test))]
 pub mod convert;
+mod dynamic;
 #[cfg(test)]
 mod hand_written;
 pub mod lanes;
@@ -92,6 +99,7 @@ pub mod step;
 pub mod system;
 pub mod univariate;
 
+pub use dynamic::DynMaterial;
 pub use lanes::Real;
 pub use material::{Inversion, Material};
 pub use piola_macros::material;

@@ -1,8 +1,9 @@
-//! The seam between an energy and everything else: what `#[piola::material]` writes and the rest of piola reads.
+//! The seam between an energy and everything else: what `#[piola::material]` writes and the rest of piola
+//! reads.
 //!
-//! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches
-//! λ1 ≥ λ2 ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second derivatives
-//! in the stretches and, for each pair of them, two difference quotients (names after \[SGK19\]):
+//! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches λ1 ≥ λ2
+//! ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second
+//! derivatives in the stretches and, for each pair of them, two difference quotients (names after \[SGK19\]):
 //!
 //! ```text
 //! flip   D⁻ij = (ψi − ψj) / (λi − λj)
@@ -31,12 +32,13 @@ pub use fittable::{Constraint, Fittable, Limit};
 pub use inadmissible::{Given, Inadmissible};
 pub use normalised::{Normalised, VolumetricPenalty};
 pub use parameter::{Graded, ParameterValue, PerLane, PerPoint, PerPointError};
-pub use response::{DynMaterial, Response};
+pub use response::Response;
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
-/// First and second derivatives of an energy density at one triple of stretches, with its quotients. All in Pa.
+/// First and second derivatives of an energy density at one triple of stretches, with its quotients. All in
+/// Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocks<R> {
     /// ψ1, ψ2, ψ3.
@@ -54,18 +56,19 @@ pub struct Blocks<R> {
 /// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
 /// ([`Material::admits`]) results are meaningless and may be NaN.
 ///
-/// Methods that compute should be `#[inline(always)]`, and what they call: see [`Kernel`](crate::lanes::Kernel).
+/// Methods that compute should be `#[inline(always)]`, and what they call: see
+/// [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
     /// ψ, J/m³ of rest volume.
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::material::DynMaterial
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial
 
     /// ψ1, ψ2, ψ3, Pa.
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
 
     /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
     ///
-    /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate relative to the
-    /// strains, however small. As given here it is as accurate as 1 + si.
+    /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate
+    /// relative to the strains, however small. As given here it is as accurate as 1 + si.
     #[inline(always)]
     fn gradient_at_strains<R: Real>(&self, [s1, s2, s3]: [R; 3]) -> [R; 3] {
         let one = R::splat(1.0);
@@ -86,7 +89,8 @@ pub trait Material: Send + Sync {
     /// Where the energy in use is defined.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
 
-    /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no stretch is named.
+    /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no
+    /// stretch is named.
     ///
     /// The three methods below then give ψ and P without a singular value decomposition:
     ///
@@ -94,9 +98,10 @@ pub trait Material: Send + Sync {
     /// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
     /// ```
     ///
-    /// Each number is as accurate, relative to the terms that it is a sum of, as by stretches: near rest these cancel, so that
-    /// P errs by u times the moduli, however small the strains; [`Material::gradient_at_strains`] knows more. The
-    /// range is that of I2 and J, which ends at the cube root of that of stretches.
+    /// Each number is as accurate, relative to the terms that it is a sum of, as by stretches: near rest
+    /// these cancel, so that P errs by u times the moduli, however small the strains;
+    /// [`Material::gradient_at_strains`] knows more. The range is that of I2 and J, which ends at the cube
+    /// root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
     /// ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
@@ -113,8 +118,8 @@ pub trait Material: Send + Sync {
 
     /// Where \[I1, I2, J\] give the energy in use; nowhere without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     ///
-    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1. Elsewhere
-    /// [`Material::admits`] decides.
+    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1.
+    /// Elsewhere [`Material::admits`] decides.
     #[inline(always)]
     fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
         R::Mask::splat(false)
@@ -122,10 +127,12 @@ pub trait Material: Send + Sync {
 
     /// Whether some twist has a true pole at λi + λj = 0, where the stress itself jumps.
     ///
-    /// The denominator is then bounded from below by [`pole_floor`](crate::quotient::pole_floor), and the point says so.
+    /// The denominator is then bounded from below by [`pole_floor`](crate::quotient::pole_floor), and the
+    /// point says so.
     fn has_pole(&self) -> bool;
 
-    /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact determinant.
+    /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact
+    /// determinant.
     fn ends_at_zero_volume(&self) -> bool;
 
     /// What the material does beyond J > 0, where its domain ends there.
@@ -133,8 +140,8 @@ pub trait Material: Send + Sync {
         Inversion::Refuse
     }
 
-    /// Small-strain moduli, where they are known from elsewhere than the Hessian at rest, as those of a declaration are; for
-    /// comparison with it by the [`contract`](mod@crate::contract).
+    /// Small-strain moduli, where they are known from elsewhere than the Hessian at rest, as those of a
+    /// declaration are; for comparison with it by the [`contract`](mod@crate::contract).
     fn stated_moduli(&self) -> Option<Moduli> {
         None
     }
@@ -142,8 +149,8 @@ pub trait Material: Send + Sync {
 
 /// What a material does beyond J > 0, or J ≠ 0, where its domain ends there.
 ///
-/// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a point is refused
-/// whatever is chosen.
+/// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a
+/// point is refused whatever is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -154,10 +161,11 @@ pub enum Inversion {
     /// The point's status says so, and a line search takes a shorter step.
     #[default]
     Refuse,
-    /// ln λ and real or negative powers of a stretch continue below `epsilon` as their quadratic Taylor polynomials.
+    /// ln λ and real or negative powers of a stretch continue below `epsilon` as their quadratic Taylor
+    /// polynomials.
     ///
-    /// The energy stays twice continuously differentiable, isotropic and restoring, and stress and tangent stay its
-    /// exact derivatives.
+    /// The energy stays twice continuously differentiable, isotropic and restoring, and stress and tangent
+    /// stay its exact derivatives.
     Extend {
         /// The stretch below which the polynomials are in use, 0 < ε < 1.
         epsilon: f64,
@@ -243,8 +251,8 @@ pub trait Declared: Material + Sized {
         self.stated_moduli().unwrap_or_else(|| Moduli::at_rest(self))
     }
 
-    /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2 (J − 1)²; see
-    /// [`Normalised`].
+    /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2
+    /// (J − 1)²; see [`Normalised`].
     ///
     /// # Errors
     /// As [`Normalised::with_young_poisson`]: E or ν out of bounds, or ν below that of the energy itself.

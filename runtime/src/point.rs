@@ -1,15 +1,16 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
-//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames
-//! carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames
-//! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly deform start
-//! from the displacement gradient F − I instead ([`small_strain`]), and codes that have their own elements find other
-//! [`measures`] of stress here, with their tangents. Everything is generic over the real type, and what cannot be
-//! computed is said in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the
+//! frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the
+//! frames ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly
+//! deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that have their
+//! own elements find other [`measures`] of stress here, with their tangents. Everything is generic over the
+//! real type, and what cannot be computed is said in a [`Status`] instead of an error, because a point may be
+//! one of many in a batch.
 //!
-//! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa. Where
-//! a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and a
-//! column for each entry of F.
+//! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
+//! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
+//! P and a column for each entry of F.
 //!
 //! This module knows no particular material and no mesh.
 
@@ -100,9 +101,9 @@ pub fn evaluate_stress<R: Real>(
 
 /// Stress and tangent at F, the tangent filtered.
 ///
-/// Outside the domain of the energy the status says `refused` and the numbers mean nothing. Where it does not say
-/// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to any dF with
-/// ‖dF‖ ≤ 1.
+/// Outside the domain of the energy the status says `refused` and the numbers mean nothing. Where it does not
+/// say `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`]
+/// to any dF with ‖dF‖ ≤ 1.
 #[inline(always)]
 #[must_use]
 pub fn evaluate<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>, filter: Filter) -> Point<R> {
@@ -112,7 +113,8 @@ pub fn evaluate<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>,
     point
 }
 
-/// Energy density, stress and filtered tangent at F: [`evaluate_energy`] and [`evaluate`] with one decomposition of F.
+/// Energy density, stress and filtered tangent at F: [`evaluate_energy`] and [`evaluate`] with one
+/// decomposition of F.
 ///
 /// What the energy and its derivatives have in common is computed once.
 #[inline(always)]
@@ -130,7 +132,8 @@ pub fn evaluate_with_energy<R: Real>(
     (energy, point)
 }
 
-/// Stress and filtered tangent from the derivatives of the energy in the stretches; the status leaves `refused` unset.
+/// Stress and filtered tangent from the derivatives of the energy in the stretches; the status leaves
+/// `refused` unset.
 #[inline(always)]
 fn respond<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>, has_pole: bool, filter: Filter) -> Point<R> {
     let P = stress(svd, blocks.gradient);
@@ -202,17 +205,18 @@ fn none_large<R: Real, const N: usize>(mut numbers: [R; N]) -> R {
     none_infinite(numbers)
 }
 
-/// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of the largest
-/// finite number.
+/// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of
+/// the largest finite number.
 #[inline(always)]
 pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
     none_large(stretches).is_finite()
 }
 
-/// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest finite one.
+/// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest
+/// finite one.
 ///
-/// With m the largest of the numbers, an eigenvalue of the Hessian block is at most 3m, which so bounds what a filter
-/// leaves; and the partial sums of [`contract`] between rotations stay below four times that.
+/// With m the largest of the numbers, an eigenvalue of the Hessian block is at most 3m, which so bounds what
+/// a filter leaves; and the partial sums of [`contract`] between rotations stay below four times that.
 #[inline(always)]
 fn tangent_stays_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
     (none_large(blocks.hessian) + none_large(blocks.flip) + none_large(blocks.twist)).is_finite()

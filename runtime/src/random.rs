@@ -1,6 +1,7 @@
 //! Reproducible random numbers: SplitMix64 \[SLF14\], small enough that no dependency is worth its place.
 //!
-//! Whoever draws samples states a seed, and gets the same samples on every machine and from every later version.
+//! Whoever draws samples states a seed, and gets the same samples on every machine and from every later
+//! version.
 //!
 //! \[SLF14\] Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
 
@@ -36,7 +37,8 @@ impl Random {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1u64 << 53) as f64)
     }
 
-    /// Uniform among 0 … count − 1; `count` is far below 2³² in all uses, so that the bias of the remainder vanishes.
+    /// Uniform among 0 … count − 1; `count` is far below 2³² in all uses, so that the bias of the remainder
+    /// vanishes.
     pub fn below(&mut self, count: usize) -> usize {
         (self.bits() % count.max(1) as u64) as usize
     }

@@ -16,7 +16,8 @@ pub struct Status<M = bool> {
     pub refused: M,
     /// λ2 + λ3 is at a pole of the twist, and the tangent has a bounded value in place of an infinite one.
     pub bounded: M,
-    /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a factor 16 of it.
+    /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a
+    /// factor 16 of it.
     pub nonfinite: M,
     /// The filter met a negative eigenvalue and changed the tangent.
     pub filtered: M,

@@ -1,7 +1,7 @@
 //! Materials of bodies, chosen by name. No other file here knows the catalogue.
 //!
-//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
-//! incompressible rubberlike solids*, 1972.
+//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
+//! for incompressible rubberlike solids*, 1972.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,5 @@
-//! The committed meshes carry their surfaces: positions at rest come back, all of them from inside or near the mesh.
+//! The committed meshes carry their surfaces: positions at rest come back, all of them from inside or near
+//! the mesh.
 
 use piola::mesh::{Embedding, read_msh, read_surface_obj};
 

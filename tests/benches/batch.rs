@@ -1,6 +1,8 @@
-//! The kernels of a batch in cache: `cargo bench -p piola-tests`, with a part of a name behind `--` for some of them.
+//! The kernels of a batch in cache: `cargo bench -p piola-tests`, with a part of a name behind `--` for some
+//! of them.
 //!
-//! The example `speed` times the same calls, says nanoseconds per point and compares; this is for one kernel at a time.
+//! The example `speed` times the same calls, says nanoseconds per point and compares; this is for one kernel
+//! at a time.
 
 use std::fmt;
 

@@ -1,8 +1,9 @@
-//! What a material costs whoever builds it: clean builds of crates outside the workspace, against one of `syn` and `quote`.
+//! What a material costs whoever builds it: clean builds of crates outside the workspace, against one of
+//! `syn` and `quote`.
 //!
-//! `cargo bench -p piola-tests --bench build` in the profile `dev`, with `-- --release` in `release`. The crates they need
-//! must be on this machine, as they are once the workspace has been built. Times are medians of three, on a machine that
-//! should do nothing else.
+//! `cargo bench -p piola-tests --bench build` in the profile `dev`, with `-- --release` in `release`. The
+//! crates they need must be on this machine, as they are once the workspace has been built. Times are medians
+//! of three, on a machine that should do nothing else.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 

@@ -1,12 +1,13 @@
-//! Which bodies find their shape again, by scene, body, energy and Newton's method, as Markdown on standard output.
+//! Which bodies find their shape again, by scene, body, energy and Newton's method, as Markdown on standard
+//! output.
 //!
 //! ```sh
 //! cargo bench -p piola-tests --bench recovery -- --seeds 100 --amplitude 0.3 0.5 1 2 box
 //! ```
 //!
-//! A body is back from the frame on from which every node stays within a thousandth of the body's height. All energies
-//! have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and with which seeds. A last
-//! table has what other ways back gain where many bodies are lost.
+//! A body is back from the frame on from which every node stays within a thousandth of the body's height. All
+//! energies have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and
+//! with which seeds. A last table has what other ways back gain where many bodies are lost.
 
 use std::error::Error;
 use std::fmt;

@@ -1,8 +1,10 @@
-//! Boxes of growing size sag under their own weight: time and memory of a static solve by conjugate gradients.
+//! Boxes of growing size sag under their own weight: time and memory of a static solve by conjugate
+//! gradients.
 //!
-//! `cargo bench -p piola-tests --bench statics` goes to a million elements, some minutes on two threads; `-- --cells 6,12,25`
-//! takes other boxes, of six elements a cell. A cube of rubber of 1 m hangs from one face; Newton's method goes on to a residual
-//! of 10⁻⁶ of the weight, its systems as tight as its convergence needs.
+//! `cargo bench -p piola-tests --bench statics` goes to a million elements, some minutes on two threads; `--
+//! --cells 6,12,25` takes other boxes, of six elements a cell. A cube of rubber of 1 m hangs from one face;
+//! Newton's method goes on to a residual of 10⁻⁶ of the weight, its systems as tight as its convergence
+//! needs.
 
 #![expect(clippy::print_stdout, reason = "a command line tool")]
 

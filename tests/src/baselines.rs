@@ -4,7 +4,8 @@
 //!
 //! * [`quotients`]: the same fifteen numbers with quotients as they are usually written;
 //! * [`svd_gradients`]: \[SZLSB11\] by its equations, regularised as it says;
-//! * [`coincidences`]: P = F S(C) differentiated on paper, with a formula for each coincidence of the stretches;
+//! * [`coincidences`]: P = F S(C) differentiated on paper, with a formula for each coincidence of the
+//!   stretches;
 //! * [`clamped`]: all of it at stretches that may not become small.
 //!
 //! From other derivatives, or none:
@@ -20,11 +21,12 @@
 //! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
 //! * [`hand_written`]: energies with derivatives by hand.
 //!
-//! They are written as a good engineer would write them, generic over the real type, and nothing in them is slower or
-//! less exact than its method asks for.
+//! They are written as a good engineer would write them, generic over the real type, and nothing in them is
+//! slower or less exact than its method asks for.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
-//! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011. \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh
+//! simulation*, 2005.
 
 pub mod automatic;
 pub mod clamped;

@@ -1,5 +1,6 @@
-//! Deformation gradients of arbitrary finite entries: random patterns of bits, and families of them that reach the regions
-//! which independent entries miss, such as rank 1, equal stretches, or all entries subnormal.
+//! Deformation gradients of arbitrary finite entries: random patterns of bits, and families of them that
+//! reach the regions which independent entries miss, such as rank 1, equal stretches, or all entries
+//! subnormal.
 //!
 //! This module knows no material.
 
@@ -71,7 +72,8 @@ pub enum Family {
     Palette,
     /// A permuted diagonal matrix of independent patterns of bits.
     Diagonal,
-    /// Rotation times stretches of chosen spread times rotation, some of them equal, opposite, zero or reflected.
+    /// Rotation times stretches of chosen spread times rotation, some of them equal, opposite, zero or
+    /// reflected.
     Frames,
     /// Sums of one or two products of vectors: rank 1 and, but for rounding, rank 2.
     Deficient,

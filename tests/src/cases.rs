@@ -1,7 +1,7 @@
 //! Reference cases: P, dP/dF and its projection for hard deformation gradients, to 25 digits.
 //!
-//! The schema is described in `reference/SCHEMA.md`. A result X is judged by ‖X − X*‖ ≤ C u (‖X*‖ + sens), Frobenius
-//! norms, where sens = ‖∂X/∂F‖ ‖F‖ is what a relative change of F changes in X.
+//! The schema is described in `reference/SCHEMA.md`. A result X is judged by ‖X − X*‖ ≤ C u (‖X*‖ + sens),
+//! Frobenius norms, where sens = ‖∂X/∂F‖ ‖F‖ is what a relative change of F changes in X.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -150,9 +150,11 @@ impl Case {
         self.expected(quantity).unwrap_or_default()
     }
 
-    /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs half a unit.
+    /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs
+    /// half a unit.
     ///
-    /// The noise is Σ|terms| of the energy's formula for ψ, whose terms cancel near rest, and zero for the others.
+    /// The noise is Σ|terms| of the energy's formula for ψ, whose terms cancel near rest, and zero for the
+    /// others.
     #[must_use]
     pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
         let expected = self.reference(quantity);

@@ -1,7 +1,7 @@
 //! The evaluation of a point, compiled once for each material and precision.
 //!
-//! In `piola` it is inlined wherever it is called, for the sake of speed. A judge calls it at many places for all
-//! materials, and its own compilation would take most of the time.
+//! In `piola` it is inlined wherever it is called, for the sake of speed. A judge calls it at many places for
+//! all materials, and its own compilation would take most of the time.
 
 #![expect(non_snake_case, reason = "F and H as in the literature")]
 

@@ -69,14 +69,15 @@ impl Declared {
         Point { stretches, parameters, lengths, epsilon: self.point.epsilon }
     }
 
-    /// Σ|terms| of ψ as written inside its domain, for any parameters: every subtraction in the formula replaced by an
-    /// addition of magnitudes, J/m³.
+    /// Σ|terms| of ψ as written inside its domain, for any parameters: every subtraction in the formula
+    /// replaced by an addition of magnitudes, J/m³.
     #[must_use]
     pub fn energy_terms(&self, values: &[&[f64]], stretches: [f64; 3]) -> f64 {
         evaluate(&self.model.graph, self.model.energy, &self.point(values, stretches)).magnitude
     }
 
-    /// Σ|terms| of the flips and twists of the pairs, every subtraction inside them replaced by an addition of magnitudes, Pa.
+    /// Σ|terms| of the flips and twists of the pairs, every subtraction inside them replaced by an addition
+    /// of magnitudes, Pa.
     #[must_use]
     pub fn terms(&self, stretches: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let variant = match &self.model.extended {

@@ -5,12 +5,15 @@
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
 //! * [`compiled`]: the evaluation of a point, compiled once;
-//! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of them;
-//! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in `STABILITY.md`;
+//! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of
+//!   them;
+//! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in
+//!   `STABILITY.md`;
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
-//! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors refuse;
+//! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors
+//!   refuse;
 //! * `tests/contract.rs`: the contract of every material;
 //! * `tidy/`, a crate of its own: the rules that all sources follow.
 

@@ -1,15 +1,16 @@
 //! Real numbers of any fixed precision, stored in place: the arithmetic of oracles.
 //!
-//! A [`Real`] is `Copy`, and a quotient's oracle takes ten thousands of powers. Libraries of arbitrary precision keep
-//! their digits on the heap and take 200 µs for a power of 100 digits; with a length known to the compiler it takes 10.
-//! Only what [`Real`] asks for is here. Rounding is by truncation: every operation of arithmetic, roots included, errs by
-//! at most [`Real::UNIT_ROUNDOFF`], which leaves 8 of the bits as a reserve.
+//! A [`Real`] is `Copy`, and a quotient's oracle takes ten thousands of powers. Libraries of arbitrary
+//! precision keep their digits on the heap and take 200 µs for a power of 100 digits; with a length known to
+//! the compiler it takes 10. Only what [`Real`] asks for is here. Rounding is by truncation: every operation
+//! of arithmetic, roots included, errs by at most [`Real::UNIT_ROUNDOFF`], which leaves 8 of the bits as a
+//! reserve.
 //!
-//! Exponents have no bounds worth mentioning, so nothing overflows or underflows. There is no infinity: what would be
-//! one, such as 1/0, is NaN.
+//! Exponents have no bounds worth mentioning, so nothing overflows or underflows. There is no infinity: what
+//! would be one, such as 1/0, is NaN.
 //!
-//! Kernels of `piola::quotient` cut their series at the precision of `f64`, and so does every `Material::blocks`. Only
-//! `Material::energy` and `Material::gradient` are as precise as their real type.
+//! Kernels of `piola::quotient` cut their series at the precision of `f64`, and so does every
+//! `Material::blocks`. Only `Material::energy` and `Material::gradient` are as precise as their real type.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -21,7 +22,8 @@ mod elementary;
 #[cfg(test)]
 mod tests;
 
-/// A number with 64·LIMBS bits: sign · 0.limbs · 2^exponent, the most significant limb last, its highest bit set.
+/// A number with 64·LIMBS bits: sign · 0.limbs · 2^exponent, the most significant limb last, its highest bit
+/// set.
 #[derive(Clone, Copy)]
 pub struct Multiprecision<const LIMBS: usize> {
     kind: Kind,

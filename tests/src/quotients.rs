@@ -1,7 +1,8 @@
 //! What a quotient of stresses must be, and where the question is hard.
 //!
-//! The oracle is the definition, (ψi ∓ ψj)/(λi ∓ λj), from the gradient in so many digits that no gap takes all of them.
-//! It shares the gradient with its subject, which the reference cases judge, and nothing of the calculus of quotients.
+//! The oracle is the definition, (ψi ∓ ψj)/(λi ∓ λj), from the gradient in so many digits that no gap takes
+//! all of them. It shares the gradient with its subject, which the reference cases judge, and nothing of the
+//! calculus of quotients.
 
 use piola::material::PAIRS;
 use piola::{Material, Real};
@@ -18,8 +19,8 @@ pub struct Quotient {
     pub value: Number,
     /// max(|D|, |ψii| + |ψij|), Pa: D is a mean of ψii ∓ ψij, and can be the small difference of them.
     pub scale: Number,
-    /// Σk |λk ∂D/∂λk|, Pa: what relative changes of the stretches by one change in D; with |ε ∂D/∂ε| where an extension has
-    /// a threshold ε, which takes the place of a stretch below it.
+    /// Σk |λk ∂D/∂λk|, Pa: what relative changes of the stretches by one change in D; with |ε ∂D/∂ε| where an
+    /// extension has a threshold ε, which takes the place of a stretch below it.
     pub sensitivity: Number,
 }
 
@@ -38,7 +39,8 @@ impl Quotient {
         Error { flat: units(self.scale), conditioned: units(self.scale + self.sensitivity) }
     }
 
-    /// The same quotient with |ε ∂D/∂ε| in its sensitivity, from its value where ε is larger by this fraction.
+    /// The same quotient with |ε ∂D/∂ε| in its sensitivity, from its value where ε is larger by this
+    /// fraction.
     #[must_use]
     pub fn with_threshold(self, moved: Number, fraction: f64) -> Self {
         let change = (moved - self.value).abs() / Number::splat(fraction);
@@ -63,9 +65,9 @@ pub struct Error {
 
 /// The flips and twists of the [`PAIRS`] at stretches that are exact numbers.
 ///
-/// All stretches are nudged by about 10⁻³⁰ of the largest one, each differently, so that no gap is zero; this changes a
-/// quotient by 10⁻³⁰ of its sensitivity. Second derivatives and the quotients' own derivatives are forward differences
-/// over 10⁻⁴⁰.
+/// All stretches are nudged by about 10⁻³⁰ of the largest one, each differently, so that no gap is zero; this
+/// changes a quotient by 10⁻³⁰ of its sensitivity. Second derivatives and the quotients' own derivatives are
+/// forward differences over 10⁻⁴⁰.
 pub fn expected(material: &impl Material, stretches: [f64; 3]) -> ([Quotient; 3], [Quotient; 3]) {
     let size = Number::splat(stretches[0].abs());
     let nudge = size * Number::splat(1e-30);
@@ -96,8 +98,8 @@ pub fn expected(material: &impl Material, stretches: [f64; 3]) -> ([Quotient; 3]
 
 /// Triples λ1 ≥ λ2 ≥ |λ3| in which two stretches, or their magnitudes, differ by every gap.
 ///
-/// `scales` are sizes of the close pair. With `signed`, λ3 may be negative or zero. With a `threshold`, pairs also stand
-/// on either side of it, on it, and below it.
+/// `scales` are sizes of the close pair. With `signed`, λ3 may be negative or zero. With a `threshold`, pairs
+/// also stand on either side of it, on it, and below it.
 #[must_use]
 pub fn samples(scales: &[f64], signed: bool, threshold: Option<f64>) -> Vec<[f64; 3]> {
     let mut samples = Vec::new();

@@ -1,10 +1,10 @@
-//! What must hold at every deformation gradient of finite entries: numbers that mean nothing are flagged, and numbers that
-//! mean something are not.
+//! What must hold at every deformation gradient of finite entries: numbers that mean nothing are flagged, and
+//! numbers that mean something are not.
 //!
-//! One half needs no oracle ([`check`], [`check_element`]): where a status is clean, ψ, P, dP/dF, forces and stiffness are
-//! finite, and all evaluations of one deformation agree on whether it is refused. The other half compares `f32` with `f64`
-//! ([`check_single`]): what every deformation within rounding of F has comfortably inside the range of `f32` may not be
-//! flagged there, and must be right there.
+//! One half needs no oracle ([`check`], [`check_element`]): where a status is clean, ψ, P, dP/dF, forces and
+//! stiffness are finite, and all evaluations of one deformation agree on whether it is refused. The other
+//! half compares `f32` with `f64` ([`check_single`]): what every deformation within rounding of F has
+//! comfortably inside the range of `f32` may not be flagged there, and must be right there.
 //!
 //! This module knows no particular material, and draws no samples.
 
@@ -99,7 +99,8 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// Whatever the entries of F: a clean status means finite numbers, and the status does not depend on what is asked for.
+/// Whatever the entries of F: a clean status means finite numbers, and the status does not depend on what is
+/// asked for.
 ///
 /// # Errors
 /// The first fault found.
@@ -154,8 +155,8 @@ fn finite<'a, R: Precision>(
     if entries.into_iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Fault::Unflagged(quantity)) }
 }
 
-/// Flips and twists are eigenvalues themselves; of the 3×3 block the eigenvalues are known to a few u of the largest, for
-/// which 64 u leaves room.
+/// Flips and twists are eigenvalues themselves; of the 3×3 block the eigenvalues are known to a few u of the
+/// largest, for which 64 u leaves room.
 fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
     let zero = R::splat(0.0);
     if blocks.flip.iter().chain(&blocks.twist).any(|&x| x < zero) {
@@ -171,10 +172,11 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
     H.symmetric_eigenvalues().min() >= -64.0 * R::UNIT_ROUNDOFF - 64.0 * underflow
 }
 
-/// The same of a batch of one: a tetrahedron with the corner shape as rest shape. Where no count of its surveys is other than
-/// zero, energy, stress, forces and stiffness are finite.
+/// The same of a batch of one: a tetrahedron with the corner shape as rest shape. Where no count of its
+/// surveys is other than zero, energy, stress, forces and stiffness are finite.
 ///
-/// The material is dynamic, since that of [`Entry::elements`](piola_materials::Entry::elements) is compiled already.
+/// The material is dynamic, since that of [`Entry::elements`](piola_materials::Entry::elements) is compiled
+/// already.
 ///
 /// # Errors
 /// The first fault found.
@@ -201,11 +203,13 @@ pub fn check_element(material: &dyn TileMaterial<f64>, F: &Matrix3<f64>) -> Resu
     Ok(())
 }
 
-/// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a power of a
-/// stretch, or a product of two, may leave the format though the answer does not, and it is enough that the status says so.
+/// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a
+/// power of a stretch, or a product of two, may leave the format though the answer does not, and it is enough
+/// that the status says so.
 pub const ORDINARY: f64 = 30.0;
 
-/// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not [`ORDINARY`].
+/// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not
+/// [`ORDINARY`].
 ///
 /// # Errors
 /// The first fault found.
@@ -238,11 +242,12 @@ pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, 
 
 /// Where `f32` has a clean answer, it is that of `f64` but for rounding.
 ///
-/// ‖X₃₂ − X₆₄‖ ≤ C u ‖X‖ + C u sens with C = 64, twice what the reference cases allow because two roundings of a result are
-/// compared; C u sens = √Σ‖X(F ± C u ‖F‖ Eij) − X(F)‖² over the nine unit matrices is measured in `f64`, not linearised.
-/// Nothing is said where one of these deformations is refused, bounded or outside the format, nor where they lie around
-/// the end of a domain at zero volume or a pole. A modulus times a few of the smallest numbers is allowed for intermediate
-/// numbers that underflow and a logarithm of up to 88 that multiplies them.
+/// ‖X₃₂ − X₆₄‖ ≤ C u ‖X‖ + C u sens with C = 64, twice what the reference cases allow because two roundings
+/// of a result are compared; C u sens = √Σ‖X(F ± C u ‖F‖ Eij) − X(F)‖² over the nine unit matrices is
+/// measured in `f64`, not linearised. Nothing is said where one of these deformations is refused, bounded or
+/// outside the format, nor where they lie around the end of a domain at zero volume or a pole. A modulus
+/// times a few of the smallest numbers is allowed for intermediate numbers that underflow and a logarithm of
+/// up to 88 that multiplies them.
 ///
 /// # Errors
 /// Which quantity is off.
@@ -295,15 +300,16 @@ fn distance<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> f64 {
 
 const SINGLE: f64 = <f32 as piola::Real>::UNIT_ROUNDOFF;
 
-/// Whether all deformations that an `f32` decomposition cannot tell from these stretches are inside the domain, or all
-/// outside.
+/// Whether all deformations that an `f32` decomposition cannot tell from these stretches are inside the
+/// domain, or all outside.
 fn agreed(material: &impl Material, stretches: [f64; 3]) -> Option<bool> {
     let here = material.admits(stretches);
     let mut others = indistinguishable(material.ends_at_zero_volume(), stretches);
     others.all(|there| material.admits(there) == here).then_some(here)
 }
 
-/// What fits `f32`, in `f64`, at all deformations that an `f32` decomposition cannot tell from these stretches.
+/// What fits `f32`, in `f64`, at all deformations that an `f32` decomposition cannot tell from these
+/// stretches.
 struct Neighbourhood {
     energy_fits: bool,
     stress_fits: bool,
@@ -336,8 +342,8 @@ fn decompose(material: &impl Material, F: &Matrix3<f64>) -> Svd<f64> {
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
-/// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is documented as
-/// 20 u λ1, and for a λ3 from the determinant as the relative error of λ1 λ2.
+/// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is
+/// documented as 20 u λ1, and for a λ3 from the determinant as the relative error of λ1 λ2.
 fn indistinguishable(ends_at_zero_volume: bool, [l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     let error = 20.0 * SINGLE * l1 + f32::SMALLEST;
     let ratio = (l2 / l1) * (l3 / l1).abs();

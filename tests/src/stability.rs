@@ -1,4 +1,5 @@
-//! The table of errors over the reference cases, ours and those of the [`baselines`](crate::baselines), as Markdown.
+//! The table of errors over the reference cases, ours and those of the [`baselines`](crate::baselines), as
+//! Markdown.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 

@@ -1,10 +1,10 @@
-//! The catalogue at deformation gradients of arbitrary finite entries: no panic, no infinite or NaN result under a clean
-//! status, no clean result flagged.
+//! The catalogue at deformation gradients of arbitrary finite entries: no panic, no infinite or NaN result
+//! under a clean status, no clean result flagged.
 //!
-//! 10⁵ patterns for each energy and precision, shared by its ways of inversion. `PIOLA_BITS` asks for another number, and
-//! with `PIOLA_BITS_ALONE` each precision is only judged by itself, without the slower comparison of the two:
-//! `PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture` prints what was found at 10⁸
-//! patterns of each and the time.
+//! 10⁵ patterns for each energy and precision, shared by its ways of inversion. `PIOLA_BITS` asks for another
+//! number, and with `PIOLA_BITS_ALONE` each precision is only judged by itself, without the slower comparison
+//! of the two: `PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture`
+//! prints what was found at 10⁸ patterns of each and the time.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 #![expect(clippy::print_stdout, reason = "a count and a time to show")]
@@ -89,7 +89,8 @@ fn every_entry<R: Judged>() {
 
 /// A precision with all the judges that it has.
 trait Judged: Precision {
-    /// `elements` is the same material as that of a body; `closely` asks for the judge that takes the longest, too.
+    /// `elements` is the same material as that of a body; `closely` asks for the judge that takes the
+    /// longest, too.
     fn judge(
         material: &impl Material,
         elements: &dyn TileMaterial<f64>,

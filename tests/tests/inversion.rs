@@ -1,4 +1,5 @@
-//! An extended energy restores a point: a free element, however collapsed or inverted, ends at a rotation of its rest shape.
+//! An extended energy restores a point: a free element, however collapsed or inverted, ends at a rotation of
+//! its rest shape.
 
 use piola::Inversion;
 use piola::batch::TileMaterial;
@@ -12,8 +13,9 @@ use piola_materials::{CATALOGUE, Entry};
 /// How many random deformation gradients each element starts from.
 const STARTS: u64 = 60;
 
-/// Most of the typical materials are nearly incompressible. Above a threshold of about 2μ/κ, here 0.04, those whose
-/// resistance to volume is −ln J rather than (ln J)² have a second equilibrium, a wide disc as thin as nothing.
+/// Most of the typical materials are nearly incompressible. Above a threshold of about 2μ/κ, here 0.04, those
+/// whose resistance to volume is −ln J rather than (ln J)² have a second equilibrium, a wide disc as thin as
+/// nothing.
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.03 };
 
 const REST: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 0.9, 0.0], [0.3, 0.2, 1.1]];
@@ -38,7 +40,8 @@ fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<
     Ok(svd(&deformation).stretches)
 }
 
-/// A third inverted as they come, a third collapsed nearly to a point, a third mirrored; and one without any extent.
+/// A third inverted as they come, a third collapsed nearly to a point, a third mirrored; and one without any
+/// extent.
 fn starts() -> impl Iterator<Item = [[f64; 3]; 3]> {
     let random = (0..STARTS).map(|seed| {
         let mut start = Random::new(seed).matrix();

@@ -1,4 +1,5 @@
-//! Energies normalised to a Young's modulus and a Poisson's ratio: the whole contract, and a tensile test that finds both.
+//! Energies normalised to a Young's modulus and a Poisson's ratio: the whole contract, and a tensile test
+//! that finds both.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

@@ -1,9 +1,10 @@
-//! What holds for every isotropic energy at every deformation of moderate condition: each property for the whole catalogue,
-//! refusing and extended, at deformations that `proptest` draws and, on failure, shrinks.
+//! What holds for every isotropic energy at every deformation of moderate condition: each property for the
+//! whole catalogue, refusing and extended, at deformations that `proptest` draws and, on failure, shrinks.
 //!
-//! Bounds. A stress is computed to 30 u (‖P‖ + ‖dP/dF‖ ‖F‖), which the reference cases establish for every material. A
-//! property that compares two stresses may use twice that, and a few u more for the products that set it up: C = 64.
-//! Sums of nine products and eigenvalues of 9×9 matrices are good to less than C u of the norms that enter.
+//! Bounds. A stress is computed to 30 u (‖P‖ + ‖dP/dF‖ ‖F‖), which the reference cases establish for every
+//! material. A property that compares two stresses may use twice that, and a few u more for the products that
+//! set it up: C = 64. Sums of nine products and eigenvalues of 9×9 matrices are good to less than C u of the
+//! norms that enter.
 
 #![expect(non_snake_case, reason = "F, P, Q, U, V as in the literature")]
 

@@ -1,10 +1,10 @@
 //! Every flip and twist of the catalogue at every gap, a trial for each energy and inversion, with a table:
 //! `cargo test -p piola-tests --test quotients`.
 //!
-//! A quotient D may err by 10 u (1 + κ) relative to max(|D|, |ψii| + |ψij|), where κ is its condition with respect to
-//! relative changes of the stretches, and of the threshold of an extension. Where that fails, Σ|terms of D| enters the
-//! maximum: a sum whose terms cancel by the nature of the energy cannot do better. The table counts those. Parameters are
-//! rounded to `f32` first, so that both formats judge one material.
+//! A quotient D may err by 10 u (1 + κ) relative to max(|D|, |ψii| + |ψij|), where κ is its condition with
+//! respect to relative changes of the stretches, and of the threshold of an extension. Where that fails,
+//! Σ|terms of D| enters the maximum: a sum whose terms cancel by the nature of the energy cannot do better.
+//! The table counts those. Parameters are rounded to `f32` first, so that both formats judge one material.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
@@ -43,9 +43,9 @@ fn main() -> ExitCode {
     conclusion.exit_code()
 }
 
-/// Parameters other than the typical ones: where those switch off a part of the energy, and splines whose coefficients are
-/// exact in `f64`, from control points at equal distances of ½. Rounded ones make the force jump by a rounding error at each
-/// control point, which a definition in 96 digits divides by the gap.
+/// Parameters other than the typical ones: where those switch off a part of the energy, and splines whose
+/// coefficients are exact in `f64`, from control points at equal distances of ½. Rounded ones make the force
+/// jump by a rounding error at each control point, which a definition in 96 digits divides by the gap.
 const OTHERS: [(&str, &[&[f64]]); 2] = [
     ("blatz_ko", &[&[2.2e5], &[0.6], &[1.0]]),
     (

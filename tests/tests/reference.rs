@@ -1,9 +1,11 @@
-//! The reference cases, a trial for each energy, with a table of the worst errors: `cargo test -p piola-tests --test reference`.
+//! The reference cases, a trial for each energy, with a table of the worst errors: `cargo test -p piola-tests
+//! --test reference`.
 //!
-//! Every case of all files is judged, in `f64` and, where its F is exact there, in `f32`, under [`Inversion::Refuse`], as a
-//! single point and in batches of every back end (in `f32` those of a few energies): by C u (‖X*‖ + sens), ψ by
-//! C u (|ψ*| + sens + Σ|terms|). What has no representation in a format cannot be returned there;
-//! its status must then say so, and say so only then. The variable `PIOLA_CASES` names one other file of the same schema.
+//! Every case of all files is judged, in `f64` and, where its F is exact there, in `f32`, under
+//! [`Inversion::Refuse`], as a single point and in batches of every back end (in `f32` those of a few
+//! energies): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no representation in a format
+//! cannot be returned there; its status must then say so, and say so only then. The variable `PIOLA_CASES`
+//! names one other file of the same schema.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 

@@ -10,8 +10,8 @@ const COLUMNS: usize = 11;
 /// Those of piola among the columns.
 const OURS: std::ops::Range<usize> = 2..5;
 
-/// By how much another processor or another platform's ln, exp and pow may move an error: units up to the bound, and above
-/// it one in the exponent of ten, as the document says.
+/// By how much another processor or another platform's ln, exp and pow may move an error: units up to the
+/// bound, and above it one in the exponent of ten, as the document says.
 const MOVED: f64 = 2.0;
 
 /// Lines of a document as cells; a line that is no row of a table is a single one.

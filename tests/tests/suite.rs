@@ -1,5 +1,5 @@
-//! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives, quotients,
-//! schedule and emission at once, in `f64` and `f32`.
+//! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives,
+//! quotients, schedule and emission at once, in `f64` and `f32`.
 
 use piola::material::{Blocks, Declared, Inadmissible};
 use piola::{Inversion, Material, Real};
@@ -42,7 +42,8 @@ fn the_catalogue_is_complete_and_sorted() {
 
 #[test]
 fn compiled_materials_compute_what_they_declare() {
-    // What a function that is a parameter computes is unknown to the interpreter; contract and oracles judge those.
+    // What a function that is a parameter computes is unknown to the interpreter; contract and oracles judge
+    // those.
     for (declaration, model) in models().into_iter().filter(|(declared, _)| !declared.has_functions()) {
         let entry = CATALOGUE
             .iter()
@@ -114,7 +115,8 @@ fn ordered(stretches: [f64; 3]) -> [f64; 3] {
 }
 
 impl Judge<'_> {
-    /// Within `roundings` times u of the magnitudes that enter, exponents included: a count of operations, generously.
+    /// Within `roundings` times u of the magnitudes that enter, exponents included: a count of operations,
+    /// generously.
     fn check<M: Material, R: Real>(&self, material: &M, point: &Point, widen: fn(R) -> f64, roundings: f64) {
         let stretches = point.stretches.map(R::splat);
         let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);

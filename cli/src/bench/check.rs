@@ -19,7 +19,7 @@ pub(crate) struct Check {
 
     /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which
     /// the energy is extended by polynomials.
-    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::command::inversion, default_value = "refuse")]
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::value::inversion, default_value = "refuse")]
     #[arg(allow_negative_numbers = true)]
     inversion: Inversion,
 

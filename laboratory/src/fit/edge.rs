@@ -21,7 +21,8 @@ use super::trial::TrialError;
 const GAIN: f64 = 1e-10;
 /// Residuals whose squares are below this are rounding errors.
 const EXACT: f64 = 1e-24;
-/// Halvings of a probe until its end is at the edge: to 1e-12 of it, about as near as rounding of the place allows.
+/// Halvings of a probe until its end is at the edge: to 1e-12 of it, about as near as rounding of the place
+/// allows.
 const HALVINGS: usize = 40;
 /// A step is refused at once if this share of it is.
 const PROBE: f64 = 1e-3;
@@ -183,8 +184,8 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         self.problem.accepts(&self.free(place))
     }
 
-    /// Outwards, of the length one, where a probe meets the edge that refuses it; `None` if no constraint of the
-    /// declaration does.
+    /// Outwards, of the length one, where a probe meets the edge that refuses it; `None` if no constraint of
+    /// the declaration does.
     fn normal(
         &self,
         from: &DVector<f64>,

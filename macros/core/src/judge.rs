@@ -6,7 +6,7 @@
 //! [`report`] puts them into words.
 
 use crate::algebra::expr::{Graph, Id};
-use crate::algebra::interpret::{Point, Value, evaluate};
+use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::domain::Volume;
 pub(crate) use explain::report;
 pub(crate) use finding::Finding;
@@ -37,7 +37,7 @@ pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) ->
                 swapped.stretches.swap(i, j);
                 let [a, b] = [point, &swapped].map(|point| evaluate(graph, id, point));
                 // NaN differs.
-                !is_zero(Value { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
+                !is_zero(Estimate { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
             })
         };
         is_asymmetric(source.energy).then(|| {

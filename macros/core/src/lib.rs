@@ -49,7 +49,7 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// All mistakes of form and meaning, each at its tokens.
 pub fn analyse(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
     let mut diagnostics = Diagnostics::default();
-    let analysed = parse::read(arguments, item, &mut diagnostics).and_then(|declaration| {
+    let analysed = parse::parse_declaration(arguments, item, &mut diagnostics).and_then(|declaration| {
         let model = model::read(&declaration, &mut diagnostics)?;
         Some((declaration, model))
     });

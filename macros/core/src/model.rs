@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
-use crate::algebra::expand::expand;
+use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
 use crate::algebra::increment::{Increments, substitute_rest};
@@ -51,7 +51,7 @@ pub struct Model {
     pub moduli: [Id; 2],
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, where asked for.
     pub by_parameters: Option<Vec<[Id; 3]>>,
-    /// What keeps parameters admissible, where that is asked for.
+    /// Conditions that keep parameters admissible, if the attribute asks for them.
     pub constraints: Vec<Constraint>,
     /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
     pub from_young_poisson: Option<YoungPoisson>,
@@ -95,7 +95,7 @@ impl Model {
 /// A condition on parameters: an expression that is positive, or at least not negative, where it holds.
 #[derive(Clone, Debug)]
 pub struct Constraint {
-    /// What demands it.
+    /// Origin of the condition.
     pub limit: Limit,
     /// The length of the lists whose entries it holds for, one by one.
     pub length: Option<Length>,
@@ -105,7 +105,7 @@ pub struct Constraint {
     pub by_parameters: Vec<Id>,
 }
 
-/// What demands a condition on parameters.
+/// Origin of a condition on parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// A comparison of `admissible(…)`, by its place there.
@@ -213,14 +213,14 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
         findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
     }
-    let invariants = resolve::by_invariants(declaration, &mut graph)
+    let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
         .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
     if findings.is_empty() {
         findings.extend(judge::fractions(&graph, &source));
     }
-    let moduli = moduli.map(|modulus| expand(&mut graph, modulus));
+    let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
     // Moduli of a stressed rest state determine no response; those with functions are known to the
     // constructor alone.
     let are_known = !options.prestressed && !declaration.has_functions();
@@ -280,7 +280,7 @@ fn bulk(graph: &mut Graph, [shear, lame]: [Id; 2]) -> Id {
     let two_thirds = Rational::new(2, 3).unwrap_or(Rational::ONE);
     let shear = graph.scale(shear, two_thirds);
     let bulk = graph.add(lame, shear);
-    expand(graph, bulk)
+    expand_products(graph, bulk)
 }
 
 fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {

@@ -2,7 +2,7 @@
 
 use piola_codegen::analyse;
 use piola_codegen::model::Variant;
-use piola_codegen::schedule::count::{Count, Kind};
+use piola_codegen::schedule::count::{Count, OperationKind};
 
 /// Operations and real powers of ψ with its three first and six second derivatives, where lists have three
 /// entries.
@@ -18,8 +18,8 @@ fn check(declaration: &str, operations: usize, powers: usize) {
     let Variant { energy, gradient, hessian, .. } = &model.plain;
     let roots = [&[*energy], &gradient[..], hessian].concat();
     let count = Count::of(&model.program(&roots));
-    let number = |is_asked: fn(Kind) -> bool| count.number(&[3], is_asked);
-    assert_eq!((number(|_| true), number(|kind| kind == Kind::Power)), (operations, powers));
+    let number = |is_asked: fn(OperationKind) -> bool| count.number(&[3], is_asked);
+    assert_eq!((number(|_| true), number(|kind| kind == OperationKind::Power)), (operations, powers));
 }
 
 /// sympy 1.14, `count_ops` after `cse`: 138 and 9.

@@ -1,7 +1,9 @@
-//! How long an expansion takes beside work that only the compiler's own libraries do: a macro must not be felt.
+//! How long an expansion takes beside work that only the compiler's own libraries do: a macro must not be
+//! felt.
 //!
-//! Both are measured in turn on one thread, in time of the processor that Linux gives this thread, so that neither a slow
-//! machine nor a busy one makes them differ. Milliseconds are what the bench `expansion` measures.
+//! Both are measured in turn on one thread, in time of the processor that Linux gives this thread, so that
+//! neither a slow machine nor a busy one makes them differ. Milliseconds are what the bench `expansion`
+//! measures.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -10,7 +12,8 @@ use std::time::{Duration, Instant};
 use piola_codegen::{declarations, expand};
 use quote::ToTokens;
 
-/// Longest expansion, in units of parsing and printing the [`reference`]. The slowest of the catalogue takes 1.5.
+/// Longest expansion, in units of parsing and printing the [`reference`]. The slowest of the catalogue takes
+/// 1.5.
 const LONGEST: f64 = 3.0;
 
 /// A measurement that something disturbs, such as a neighbour in the caches, is repeated up to this often.

@@ -1,4 +1,4 @@
-//! A material behind `dyn` is a `DynMaterial`: the compiler's message for the wrong trait shows the right one.
+//! A material behind `dyn` is a `DynMaterial`: the message for the wrong trait shows the right one.
 
 use piola::Material;
 

@@ -1,4 +1,5 @@
-//! A tile of linear tetrahedra: the stages of a batch with the memory between them kept, for solvers that come back.
+//! A tile of linear tetrahedra: the stages of a batch with the memory between them kept, for solvers that
+//! come back.
 //!
 //! One decomposition of each element serves the energy, the gradient and the stiffness.
 
@@ -6,7 +7,8 @@ use super::material::{Arguments, TileMaterial};
 use super::operator::StiffnessFactors;
 use super::rest::{RestShapes, by_elements, set_edges};
 use super::sink::Sink;
-use super::stage::{Decompose, Deform, Forces, Judge, Points, Respond, Stages, StiffnessForm};
+use super::stage::{Decompose, Deform, Forces, Judge, Respond, Stages, StiffnessForm};
+use super::svd_tile::SvdTile;
 use super::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
@@ -22,7 +24,7 @@ pub(crate) struct ElementTile {
     count: usize,
     rest: RestShapes,
     volumes: [f64; TILE],
-    points: Points<f64>,
+    points: SvdTile<f64>,
 }
 
 impl ElementTile {
@@ -33,7 +35,7 @@ impl ElementTile {
             volumes[count] = shape.volume;
             count += 1;
         }));
-        Self { backend, count, rest, volumes, points: Points::new() }
+        Self { backend, count, rest, volumes, points: SvdTile::new() }
     }
 
     /// λ1, λ2, λ3 of an element, as evaluated last.

@@ -2,10 +2,9 @@
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
-use super::stage::to_numbers;
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
-use crate::point::matrix::{dot, three, thrice};
+use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
 use crate::status::Status;
 
@@ -138,8 +137,8 @@ impl Form<0, 30> for Factored {
 #[inline(always)]
 fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Scalar]) {
     let line = <R::Scalar as Scalar>::LINE;
-    put_all(to_numbers(*U), to);
-    put_all(to_numbers(*W), &mut to[9 * line..]);
+    put_all(to_row_major(*U), to);
+    put_all(to_row_major(*W), &mut to[9 * line..]);
     put_all(blocks.hessian, &mut to[18 * line..]);
     put_all(blocks.flip, &mut to[24 * line..]);
     put_all(blocks.twist, &mut to[27 * line..]);
@@ -157,8 +156,8 @@ impl<R: Real> Rest<R> {
         Self { inverse: [[a, b, c], [d, e, f], [g, h, i]], volume }
     }
 
-    /// W: row n is the gradient of the barycentric coordinate of node n + 1, seen from the principal frame at rest, times
-    /// √volume.
+    /// W: row n is the gradient of the barycentric coordinate of node n + 1, seen from the principal frame at
+    /// rest, times √volume.
     #[inline(always)]
     fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         let factor = self.volume.sqrt();
@@ -178,15 +177,16 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
     largest
 }
 
-/// The largest twist in an element's stiffness, relative to the rest of its tangent: far above what is ordinary, far below
-/// 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
+/// The largest twist in an element's stiffness, relative to the rest of its tangent: far above what is
+/// ordinary, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
 pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Cuts off what a factorisation cannot resolve, and says so.
 ///
-/// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) > 2μ, the energy
-/// has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the factors of a matrix that
-/// holds it beside ordinary entries lose all digits of those. A stiffness [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.
+/// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
+/// 2μ, the energy has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the
+/// factors of a matrix that holds it beside ordinary entries lose all digits of those. A stiffness
+/// [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.
 #[inline(always)]
 fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     let limit = R::splat(MAX_STIFFNESS_RATIO) * largest([largest(blocks.hessian), largest(blocks.flip)]);
@@ -196,21 +196,21 @@ fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     is_capped[0] | is_capped[1] | is_capped[2]
 }
 
-/// Whether no number can overflow on the way from the tangent to the stiffness: its entries are sums of at most 27 products
-/// of an entry of the tangent and two of W, or sums of nine such entries.
+/// Whether no number can overflow on the way from the tangent to the stiffness: its entries are sums of at
+/// most 27 products of an entry of the tangent and two of W, or sums of nine such entries.
 #[inline(always)]
 fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
     let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
-    let shape = largest(to_numbers(rest.inverse));
+    let shape = largest(to_row_major(rest.inverse));
     ((shape * rest.volume) * R::splat(1024.0) * (shape * tangent)).is_finite()
 }
 
-/// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the stress, Dm⁻¹ and
-/// the volume.
+/// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the
+/// stress, Dm⁻¹ and the volume.
 #[inline(always)]
 pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);
-    (largest(to_numbers(inverse)) * volume * R::splat(16.0) * largest(to_numbers(*stress))).is_finite()
+    (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
 }
 
 /// What every form of a stiffness asks of the blocks.
@@ -232,7 +232,8 @@ pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
     });
 }
 
-/// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at 3n+a.
+/// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at
+/// 3n+a.
 #[inline(always)]
 pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Scalar]) {
     put(to, a, -(g1 + g2 + g3));
@@ -243,7 +244,8 @@ pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R
 
 /// Where the entries of an element's stiffness go.
 trait Places {
-    /// The place of the entry between coordinate a of node i and c of node j, i ≥ j, and that of its mirror image.
+    /// The place of the entry between coordinate a of node i and c of node j, i ≥ j, and that of its mirror
+    /// image.
     fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>);
 }
 
@@ -266,8 +268,8 @@ impl<F: Places, E: Scalar> Stiffness<'_, F, E> {
 impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Scalar> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for its mirror image
-        // too, which for a = c is itself.
+        // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for
+        // its mirror image too, which for a = c is itself.
         let rows = three!(x => block[x][0] + block[x][1] + block[x][2]);
         self.put([0, a], [0, c], rows[0] + rows[1] + rows[2]);
         thrice!(x => {

@@ -68,8 +68,8 @@ pub struct Arguments<'a, E> {
 
 /// Declares the responses of a tile: for each a method of [`TileMaterial`] and the kernel behind it.
 ///
-/// A kernel writes the rows of a response for the points of a tile, and returns as bits the points outside the domain of the
-/// response and those where it is not finite, as far as that is asked of it.
+/// A kernel writes the rows of a response for the points of a tile, and returns as bits the points outside
+/// the domain of the response and those where it is not finite, as far as that is asked of it.
 macro_rules! tile_responses {
     ($(
         $(#[$doc:meta])*
@@ -120,11 +120,13 @@ macro_rules! tile_responses {
 
             fn properties(&self) -> Properties {
                 let materials = self.materials();
+                #[cfg(feature = "bodies")]
                 let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
                 Properties {
                     has_invariants: P::Material::HAS_INVARIANTS,
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
+                    #[cfg(feature = "bodies")]
                     rest_stiffness: materials.iter().map(stiffness).fold(0.0, f64::max),
                     points: self.count(),
                 }
@@ -165,6 +167,7 @@ pub struct Properties {
     /// As [`Material::ends_at_zero_volume`], of one of the materials.
     pub(crate) ends_at_zero_volume: bool,
     /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
+    #[cfg(feature = "bodies")]
     pub(crate) rest_stiffness: f64,
     /// How many points have a material of their own; `None` if one serves any number of points.
     pub(crate) points: Option<usize>,

@@ -1,32 +1,34 @@
 //! The stiffness of a tile of linear tetrahedra as an operator: its products, without its entries.
 //!
-//! With W = √v Dm⁻¹ V the stiffness between the nodes 1, 2, 3 of an element is (U ⊗ W) A (U ⊗ W)ᵀ, as dP/dF is with V in
-//! the place of W (see [`contract`](crate::point::contract)). So the thirty numbers of a tangent's factors, with W, are a
-//! stiffness, and the operations of dP = (dP/dF) dF multiply by it: displacements with the edges Ds give
+//! With W = √v Dm⁻¹ V the stiffness between the nodes 1, 2, 3 of an element is (U ⊗ W) A (U ⊗ W)ᵀ, as dP/dF
+//! is with V in the place of W (see [`contract`](crate::point::contract)). So the thirty numbers of a
+//! tangent's factors, with W, are a stiffness, and the operations of dP = (dP/dF) dF multiply by it:
+//! displacements with the edges Ds give
 //!
 //! ```text
 //! U A(Uᵀ Ds W) Wᵀ
 //! ```
 //!
-//! the column n of which belongs to node n + 1, and node 0 takes minus the sum of them. Neither V nor Dm⁻¹ is needed any more.
+//! the column n of which belongs to node n + 1, and node 0 takes minus the sum of them. Neither V nor Dm⁻¹ is
+//! needed any more.
 
 #![expect(non_snake_case, reason = "F, U, V, W, D as in the literature")]
 
 use super::form::{Factored, put, put_at_nodes};
 use super::material::{Arguments, TileMaterial};
 use super::rest::{RestShapes, by_elements, set_edges};
-use super::sink::{Lines, Sink, Source};
-use super::stage::{Decompose, Deform, Judge, Respond, Stages, StiffnessForm, to_matrix};
+use super::sink::{Line, Lines, Sink, Source};
+use super::stage::{Decompose, Deform, Judge, Respond, Stages, StiffnessForm};
 use super::tile::for_each_group;
-use super::workspace::{Line, Workspace};
+use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Blocks;
-use crate::point::matrix::{dot, three, thrice};
+use crate::point::matrix::{dot, three, thrice, to_matrix};
 use crate::point::{Filter, Matrix3, Tangent};
 use crate::status::Status;
 
-/// The stiffnesses of up to [`TILE`](super::tile::TILE) elements of one material where they were linearised last: zero before
-/// that.
+/// The stiffnesses of up to [`TILE`](super::tile::TILE) elements of one material where they were linearised
+/// last: zero before that.
 #[derive(Clone, Debug)]
 pub(crate) struct StiffnessFactors {
     backend: Backend,
@@ -82,7 +84,8 @@ impl StiffnessFactors {
         f64::stiffness(backend, StiffnessForm::Factored, kernel) | judged | refused
     }
 
-    /// Stiffness times displacement, 12 numbers of each element; `corners` are the displacements of its nodes.
+    /// Stiffness times displacement, 12 numbers of each element; `corners` are the displacements of its
+    /// nodes.
     pub(crate) fn multiply(&self, corners: impl Iterator<Item = [[f64; 3]; 4]>, products: &mut [f64]) {
         f64::with_workspace(|Workspace { F: edges, line, .. }| {
             for (lane, corners) in corners.enumerate() {
@@ -93,8 +96,8 @@ impl StiffnessFactors {
         });
     }
 
-    /// Of the stiffness of each node with itself the column of this coordinate, 12 numbers of each element: coordinate a
-    /// of node n at 3n+a.
+    /// Of the stiffness of each node with itself the column of this coordinate, 12 numbers of each element:
+    /// coordinate a of node n at 3n+a.
     pub(crate) fn diagonal_columns(&self, coordinate: usize, columns: &mut [f64]) {
         f64::with_workspace(|Workspace { line, .. }| {
             let (factors, count) = (self.factors.source(), self.count);

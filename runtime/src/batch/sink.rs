@@ -1,7 +1,6 @@
 //! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
 
 use super::tile::TILE;
-use super::workspace::Line;
 use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
 
 /// How N numbers of each of many points lie in a slice.
@@ -10,9 +9,9 @@ pub enum Layout {
     /// Point by point: number k of point p at p N + k. Lanes are transposed in registers.
     #[default]
     Points,
-    /// In lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number k of point p
-    /// at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a multiple of L: fill the last
-    /// line up with identities.
+    /// In lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number
+    /// k of point p at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a
+    /// multiple of L: fill the last line up with identities.
     Lines,
 }
 
@@ -36,7 +35,8 @@ impl<E> Source<'_, E, 0> {
 }
 
 impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
-    /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not full gets its room.
+    /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not
+    /// full gets its room.
     pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
             Layout::Lines if from.len() == N * TILE => return Self(from),
@@ -108,6 +108,17 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
     }
 }
 
+/// Room for up to 144 components of one line of points, on their way to a slice in another layout.
+#[derive(Debug)]
+#[repr(C, align(64))]
+pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
+
+impl<E: Scalar> Line<E> {
+    pub(super) fn zero() -> Self {
+        Self([[E::default(); 16]; 144])
+    }
+}
+
 /// The points of a line, or fewer.
 struct Turn<'a, E, const N: usize> {
     from: &'a [E],
@@ -134,7 +145,8 @@ pub(super) struct Sink<'a, E> {
 }
 
 impl<E: Scalar> Sink<'_, E> {
-    /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`] must follow.
+    /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`]
+    /// must follow.
     #[inline(always)]
     pub(super) fn place<'a, R: Lanes<Scalar = E>, const N: usize>(
         &'a mut self,

@@ -1,7 +1,7 @@
 //! The stages of a batch that know no material, compiled once for each format and back end.
 //!
-//! Between them and the material's stage a tile's numbers lie in [`Rows`]: frames and stretches, then the fifteen numbers
-//! of the energy. Each stage keeps few enough numbers alive for the registers.
+//! Between them and the material's stage a tile's numbers lie in [`Rows`]: frames and stretches, then the
+//! fifteen numbers of the energy. Each stage keeps few enough numbers alive for the registers.
 
 #![expect(non_snake_case, reason = "F, U, V, P as in the literature")]
 
@@ -14,62 +14,24 @@ use super::form::{
     put_gradient,
 };
 use super::material::{from_rows, to_rows};
-use super::sink::{Lines, Sink, Source};
+use super::sink::{Line, Lines, Sink, Source};
+use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};
-use super::workspace::{Line, Workspace};
+use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::invariants::{invariants, stress_by_invariants};
-use crate::point::matrix::three;
+use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::{
-    Filter, Matrix3, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
+    Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
     svd_signed_by_determinant,
 };
 use crate::status::Status;
 
-/// Frames and stretches of a tile's deformation gradients.
-#[derive(Clone, Copy, Debug)]
-pub struct Points<E> {
-    U: Rows<E, 9>,
-    pub(crate) stretches: Rows<E, 3>,
-    V: Rows<E, 9>,
-}
-
-impl<E: Scalar> Points<E> {
-    pub(crate) fn new() -> Self {
-        Self { U: Rows::zero(), stretches: Rows::zero(), V: Rows::zero() }
-    }
-
-    #[inline(always)]
-    fn get<R: Lanes<Scalar = E>>(&self, at: usize) -> Svd<R> {
-        Svd {
-            U: to_matrix(self.U.get_all(at)),
-            stretches: self.stretches.get_all(at),
-            V: to_matrix(self.V.get_all(at)),
-        }
-    }
-
-    #[inline(always)]
-    fn set<R: Lanes<Scalar = E>>(&mut self, at: usize, svd: &Svd<R>) {
-        self.U.set_all(at, to_numbers(svd.U));
-        self.stretches.set_all(at, svd.stretches);
-        self.V.set_all(at, to_numbers(svd.V));
-    }
-}
-
-#[inline(always)]
-pub(super) fn to_matrix<R: Copy>([a, b, c, d, e, f, g, h, i]: [R; 9]) -> Matrix3<R> {
-    [[a, b, c], [d, e, f], [g, h, i]]
-}
-
-#[inline(always)]
-pub(super) fn to_numbers<R: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Matrix3<R>) -> [R; 9] {
-    [a, b, c, d, e, f, g, h, i]
-}
-
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
 #[cfg(not(unoptimised))]
 type InTurns<R> = <R as Lanes>::Interleaved;
-/// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved, where a thread has 2.
+/// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved,
+/// where a thread has 2.
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 
@@ -79,7 +41,7 @@ pub(super) struct Decompose<'a, E> {
     pub(super) count: usize,
     /// Whether the sign of det F decides over the domain.
     pub(super) is_signed: bool,
-    pub(super) points: &'a mut Points<E>,
+    pub(super) points: &'a mut SvdTile<E>,
 }
 
 impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
@@ -146,7 +108,7 @@ impl<E: Scalar> Kernel<E> for StressByInvariants<'_, E> {
             let (F, I1) = (to_matrix(F.get_all::<R>(at)), invariants.get(0, at));
             let stress = stress_by_invariants(&F, I1, gradients.get_all(at));
             finite |= R::bits(entries_are_finite(&stress)) << at;
-            put_all(to_numbers(stress), P.place::<R, 9>(line, at));
+            put_all(to_row_major(stress), P.place::<R, 9>(line, at));
             P.finish::<R, 9>(line, at, count);
         });
         finite & first_bits(count)
@@ -170,14 +132,14 @@ impl<E: Scalar> Kernel<E> for Deform<'_, E> {
         for_each_group!(R, count, |at| {
             let Ds = to_matrix(edges.source().get_all::<R>(at));
             let [a, b, c, d, e, f, g, h, i, _] = rest.get_all::<R>(at);
-            edges.set_all(at, to_numbers(multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])));
+            edges.set_all(at, to_row_major(multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])));
         });
     }
 }
 
 /// Frames and ψi into the gradients of elements.
 pub(super) struct Forces<'a, E> {
-    pub(super) points: &'a Points<E>,
+    pub(super) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
     pub(super) gradients: &'a [Row<E>],
     pub(super) rest: Source<'a, E, 10>,
@@ -208,7 +170,7 @@ impl<E: Scalar> Kernel<E> for Forces<'_, E> {
 
 /// Frames and ψi into P.
 pub(super) struct Stress<'a, E> {
-    pub(super) points: &'a Points<E>,
+    pub(super) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
     pub(super) gradients: &'a [Row<E>],
     pub(super) count: usize,
@@ -227,7 +189,7 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E> {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
-            put_all(to_numbers(stress), P.place::<R, 9>(line, at));
+            put_all(to_row_major(stress), P.place::<R, 9>(line, at));
             P.finish::<R, 9>(line, at, count);
         });
         status & first_bits(count)
@@ -236,7 +198,7 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E> {
 
 /// Filters the blocks of a tile in place, and says what is wrong with them.
 pub(super) struct Judge<'a, E> {
-    pub(super) points: &'a Points<E>,
+    pub(super) points: &'a SvdTile<E>,
     pub(super) blocks: &'a mut Rows<E, 15>,
     pub(super) count: usize,
     pub(super) filter: Filter,
@@ -266,7 +228,7 @@ impl<E: Scalar> Kernel<E> for Judge<'_, E> {
 
 /// Frames and judged blocks into tangents or stiffnesses.
 pub(super) struct Respond<'a, E, const REST: usize> {
-    pub(super) points: &'a Points<E>,
+    pub(super) points: &'a SvdTile<E>,
     pub(super) blocks: &'a Rows<E, 15>,
     pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
@@ -321,7 +283,7 @@ impl<E: Scalar> Kernel<E> for Product<'_, E> {
         for_each_group!(R, count, |at| {
             let tangent = Factored::restore(stored.get_all::<R>(at));
             let product = tangent.apply(&to_matrix(dF.get_all(at)));
-            put_all(to_numbers(product), dP.place::<R, 9>(line, at));
+            put_all(to_row_major(product), dP.place::<R, 9>(line, at));
             dP.finish::<R, 9>(line, at, count);
         });
     }

@@ -1,4 +1,5 @@
-//! Batches of every format, back end and layout against the points of scalars, and against themselves in other places.
+//! Batches of every format, back end and layout against the points of scalars, and against themselves in
+//! other places.
 
 use super::*;
 use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
@@ -26,7 +27,8 @@ impl Number for f32 {
     }
 }
 
-/// Rest shapes, deformation gradients and increments of so many elements, inverted and collapsed ones among them.
+/// Rest shapes, deformation gradients and increments of so many elements, inverted and collapsed ones among
+/// them.
 struct Sample<E> {
     F: Vec<[E; 9]>,
     dF: Vec<[E; 9]>,
@@ -144,9 +146,9 @@ fn norm<E: Number>(numbers: impl IntoIterator<Item = E>) -> f64 {
 
 /// Compares a batch with scalar points and dense algebra on them.
 ///
-/// Both sides have a few u of backward error in F, so P differs by u ‖dP/dF‖ ‖F‖ and dP/dF by u times its own slope, for which
-/// its norm over the smallest distance between singular values of what matters stands: the sample has nothing near a pole
-/// but the points of `skip`.
+/// Both sides have a few u of backward error in F, so P differs by u ‖dP/dF‖ ‖F‖ and dP/dF by u times its own
+/// slope, for which its norm over the smallest distance between singular values of what matters stands: the
+/// sample has nothing near a pole but the points of `skip`.
 #[track_caller]
 fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usize) -> bool) {
     let sample = Sample::<E>::new(200);

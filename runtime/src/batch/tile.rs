@@ -1,15 +1,15 @@
 //! Tiles: the numbers of 64 points, number by number, small enough to stay in the innermost cache.
 //!
-//! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as it is. A tile
-//! that is not full is padded with copies of nothing in particular: no lane looks at another.
+//! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as
+//! it is. A tile that is not full is padded with copies of nothing in particular: no lane looks at another.
 
 use crate::lanes::{Lanes, Scalar};
 
 /// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
 pub(crate) const TILE: usize = 64;
 
-/// Places of a row, more than points: rows as far apart as a power of two would compete for the same places of the innermost
-/// cache, and loads would wait for stores to addresses that only look the same.
+/// Places of a row, more than points: rows as far apart as a power of two would compete for the same places
+/// of the innermost cache, and loads would wait for stores to addresses that only look the same.
 pub(super) const ROW: usize = 80;
 
 /// A number of each point of a tile.
@@ -54,15 +54,17 @@ impl<E: Scalar, const N: usize> Rows<E, N> {
     }
 }
 
-/// Runs a block for each group of lanes of a tile that holds one of the first points, `at` being the first of the group.
+/// Runs a block for each group of lanes of a tile that holds one of the first points, `at` being the first of
+/// the group.
 ///
-/// A macro and no function with a closure: a long closure is a function of its own to the compiler, and not compiled for
-/// the instructions of a back end unless it chooses to inline it.
+/// A macro and no function with a closure: a long closure is a function of its own to the compiler, and not
+/// compiled for the instructions of a back end unless it chooses to inline it.
 macro_rules! for_each_group {
     ($R:ty, $count:expr, |$at:ident| $body:block) => {
         let mut $at = 0;
         while $at < $count {
-            // Always true, since the lanes of every back end divide the tile; said for the bounds checks' sake.
+            // Always true, since the lanes of every back end divide the tile; said for the bounds checks'
+            // sake.
             if $at + <$R as $crate::lanes::Lanes>::LANES <= $crate::batch::tile::TILE $body
             $at += <$R as $crate::lanes::Lanes>::LANES;
         }

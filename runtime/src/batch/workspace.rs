@@ -1,7 +1,8 @@
-//! What lies between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear memory.
+//! What lies between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear
+//! memory.
 
-use super::sink::Lines;
-use super::stage::Points;
+use super::sink::{Line, Lines};
+use super::svd_tile::SvdTile;
 use super::tile::Rows;
 use crate::lanes::Scalar;
 
@@ -11,7 +12,7 @@ pub struct Workspace<E> {
     pub(super) F: Lines<E, 9>,
     pub(super) dF: Lines<E, 9>,
     pub(super) stress: Lines<E, 9>,
-    pub(super) points: Points<E>,
+    pub(super) points: SvdTile<E>,
     pub(super) energies: Rows<E, 1>,
     pub(super) gradients: Rows<E, 3>,
     pub(super) invariants: Rows<E, 3>,
@@ -22,18 +23,13 @@ pub struct Workspace<E> {
     pub(super) line: Line<E>,
 }
 
-/// Up to 144 numbers of one line of points, on their way to a slice that cannot take them as they come.
-#[derive(Debug)]
-#[repr(C, align(64))]
-pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
-
 impl<E: Scalar> Workspace<E> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             F: Lines::zero(),
             dF: Lines::zero(),
             stress: Lines::zero(),
-            points: Points::new(),
+            points: SvdTile::new(),
             energies: Rows::zero(),
             gradients: Rows::zero(),
             invariants: Rows::zero(),
@@ -41,7 +37,7 @@ impl<E: Scalar> Workspace<E> {
             blocks: Rows::zero(),
             rest: Lines::zero(),
             factors: Lines::zero(),
-            line: Line([[E::default(); 16]; 144]),
+            line: Line::zero(),
         })
     }
 }

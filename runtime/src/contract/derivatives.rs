@@ -9,7 +9,8 @@ use crate::material::Material;
 /// The entries ψ11, ψ22, ψ33, ψ12, ψ13, ψ23 as pairs of stretches.
 pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// `energy` of dual numbers gives ψi, as `gradient` and `blocks` do; `gradient` of dual numbers gives ψij, either way round.
+/// `energy` of dual numbers gives ψi, as `gradient` and `blocks` do; `gradient` of dual numbers gives ψij,
+/// either way round.
 ///
 /// Both the energy and its derivatives are sums of terms no larger than the tangent, with tens of roundings.
 ///

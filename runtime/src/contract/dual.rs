@@ -1,7 +1,9 @@
-//! Dual numbers x + x′ε, ε² = 0: arithmetic on them differentiates exactly, whatever program it is \[Clifford73\].
+//! Dual numbers x + x′ε, ε² = 0: arithmetic on them differentiates exactly, whatever program it is
+//! \[Clifford73\].
 //!
-//! They know nothing of how a material found its own derivatives: `energy`, run with them, is an oracle for the gradient,
-//! and `gradient` one for the Hessian. Values are those of `f64`, bit for bit, so that a program takes the same way.
+//! They know nothing of how a material found its own derivatives: `energy`, run with them, is an oracle for
+//! the gradient, and `gradient` one for the Hessian. Values are those of `f64`, bit for bit, so that a
+//! program takes the same way.
 //!
 //! | operation | derivative |
 //! |---|---|
@@ -14,7 +16,8 @@
 //! | ln(x/y) | x′/x − y′/y |
 //! | \|x\|, max, min, select | that of what is taken |
 //!
-//! Where a derivative does not exist, as that of max(x, x), it is that of the second argument: rules stay away from there.
+//! Where a derivative does not exist, as that of max(x, x), it is that of the second argument: rules stay
+//! away from there.
 //!
 //! \[Clifford73\] Clifford, *Preliminary sketch of biquaternions*, 1873.
 

@@ -1,7 +1,7 @@
 //! A point as the contract asks for it, compiled once for each material and kind of number.
 //!
-//! The methods of a material and the functions of [`point`] are inlined wherever they are called, for the sake of speed. The
-//! rules call them at many places, and each material would be compiled for each of those.
+//! The methods of a material and the functions of [`point`] are inlined wherever they are called, for the
+//! sake of speed. The rules call them at many places, and each material would be compiled for each of those.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

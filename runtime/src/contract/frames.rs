@@ -11,8 +11,9 @@ use crate::point::matrix::multiply;
 
 /// ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
 ///
-/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is enough to change
-/// its numbers beyond their tolerance, or where they are none. Else what is judged is how [`point`](crate::point) rotates.
+/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is
+/// enough to change its numbers beyond their tolerance, or where they are none. Else what is judged is how
+/// [`point`](crate::point) rotates.
 ///
 /// # Errors
 /// The first violation.
@@ -43,8 +44,8 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
 
 /// A : (dP/dF) B = B : (dP/dF) A for random A, B.
 ///
-/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by blocks that are no finite
-/// numbers. Else what is judged is the tangent that [`point`](crate::point) makes of them.
+/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by blocks
+/// that are no finite numbers. Else what is judged is the tangent that [`point`](crate::point) makes of them.
 ///
 /// # Errors
 /// The first violation.
@@ -73,7 +74,8 @@ fn rotated(
     let F = multiply(&multiply(Q, &diagonal(stretches)), W);
     let blocks = blocks_at(material, stretches);
     let scale = stress_scale(&blocks, stretches);
-    // The product and the decomposition know F to some 30 u, and each of the rotations Q, W is one to a few u.
+    // The product and the decomposition know F to some 30 u, and each of the rotations Q, W is one to a few
+    // u.
     let tolerance = 100.0 * UNIT * scale;
     let expected = energy_at(material, stretches);
     let energy_tolerance = tolerance * stretches[0] + 100.0 * UNIT * expected.abs();

@@ -12,8 +12,9 @@ const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 /// For a material whose [`inversion`](Material::inversion) is `Inversion::Extend { epsilon }`:
 ///
 /// * it admits an inverted point where it admits its mirror image;
-/// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the threshold, be
-///   it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01, −0.5 and −2;
+/// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the
+///   threshold, be it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01, −0.5
+///   and −2;
 /// * those across the threshold do so as h² and as h, since third derivatives of ψ jump there;
 /// * ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
 ///
@@ -117,8 +118,8 @@ fn restoring(
     judge.negative(|| gradient_name(2), stretches, found, remedy)
 }
 
-/// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such as Gent's
-/// on I1 is no matter of inversion.
+/// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such
+/// as Gent's on I1 is no matter of inversion.
 fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<bool, Violation> {
     let [l1, l2, l3] = stretches;
     if !is_admitted(material, [l1, l2, l3.abs()]) {

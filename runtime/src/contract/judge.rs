@@ -1,9 +1,7 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
-use super::{Finding, Rule, Violation};
-
-/// What a number is that is neither infinite nor NaN.
-pub(super) const FINITE: &str = "a finite number";
+use super::violation::{FINITE, Violation};
+use super::{Finding, Rule};
 
 /// The state of one rule.
 pub(super) struct Judge {

@@ -14,8 +14,9 @@ use crate::random::Random;
 /// * on any, with the same bits whatever its lane and its neighbours;
 /// * on the fastest one of this processor, as a scalar but for rounding: it has other instructions.
 ///
-/// Neighbours differ as much as they can: beside one of the samples are the same stretches with two of them 10⁻⁹ apart and
-/// equal, so that what is done for some lanes alone shows. Truth values are compared as 0 and 1.
+/// Neighbours differ as much as they can: beside one of the samples are the same stretches with two of them
+/// 10⁻⁹ apart and equal, so that what is done for some lanes alone shows. Truth values are compared as 0 and
+/// 1.
 ///
 /// # Errors
 /// The first violation.
@@ -130,7 +131,8 @@ fn side_by_side_on(backend: Backend, material: &impl Material, points: &[[f64; 3
     backend.run(SideBySide(material, points))
 }
 
-/// Everything at these stretches, as many points at once as there are lanes; the last point fills up what is left.
+/// Everything at these stretches, as many points at once as there are lanes; the last point fills up what is
+/// left.
 struct SideBySide<'a, M>(&'a M, &'a [[f64; 3]]);
 
 impl<M: Material> Kernel<f64> for SideBySide<'_, M> {

@@ -1,4 +1,5 @@
-//! All numbers of a point in a row, and how well a format can know them: what the rules on formats and lanes compare.
+//! All numbers of a point in a row, and how well a format can know them: what the rules on formats and lanes
+//! compare.
 
 use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::{gradient_name, hessian_name, pair_name, stiffness, stress_scale};
@@ -41,9 +42,10 @@ pub(super) fn name(number: usize) -> String {
 
 /// By how many u each number may err, and the numbers themselves; nothing where the material ends too near.
 ///
-/// A hundred times the sum of two parts. One is the size of the terms that a number is a sum of: the tangent for second
-/// derivatives, what it makes of the stretches for first ones and the energy. The other is how it answers to relative
-/// changes of the stretches, since what is computed of them first, such as J or a bound that the energy nears, is rounded.
+/// A hundred times the sum of two parts. One is the size of the terms that a number is a sum of: the tangent
+/// for second derivatives, what it makes of the stretches for first ones and the energy. The other is how it
+/// answers to relative changes of the stretches, since what is computed of them first, such as J or a bound
+/// that the energy nears, is rounded.
 pub(super) fn known(material: &impl Material, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
     /// Long beside rounding, short beside what an energy changes over.
     const STEP: f64 = 1.0 / 4096.0;

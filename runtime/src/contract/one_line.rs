@@ -12,9 +12,10 @@
 /// # fn main() {}
 /// ```
 ///
-/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and what fails says which component is wrong, at
-/// which stretches, and both values. After the name is the module's, and the expression is what the tests are about, of any
-/// type that implements [`Material`](crate::Material); it sees what the place of the macro sees and may use `?` on any error.
+/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and what fails says which
+/// component is wrong, at which stretches, and both values. After the name is the module's, and the
+/// expression is what the tests are about, of any type that implements [`Material`](crate::Material); it sees
+/// what the place of the macro sees and may use `?` on any error.
 ///
 /// [`Settings`](crate::contract::Settings) other than the default ones follow by name:
 ///
@@ -41,8 +42,8 @@
 /// # fn main() {}
 /// ```
 ///
-/// A rule that does not apply, as that on extensions of a material that refuses inversion, is kept. What each was judged on is
-/// what `cargo test -- --show-output` shows.
+/// A rule that does not apply, as that on extensions of a material that refuses inversion, is kept. What each
+/// was judged on is what `cargo test -- --show-output` shows.
 #[macro_export]
 macro_rules! contract {
     ($name:ident: $material:expr $(, $setting:ident: $value:expr)* $(,)?) => {

@@ -1,17 +1,18 @@
 //! The rule on quotients: flips and twists against means of second derivatives, which cancel nowhere.
 //!
-//! On the line x = m + t, y = m − t the difference ψx − ψy vanishes at t = 0 and has the slope ψxx − 2ψxy + ψyy, so
-//! that
+//! On the line x = m + t, y = m − t the difference ψx − ψy vanishes at t = 0 and has the slope ψxx − 2ψxy +
+//! ψyy, so that
 //!
 //! ```text
 //! D⁻(m + T, m − T) = (ψx − ψy)/2T = mean over 0 ≤ t ≤ T of (ψxx − 2ψxy + ψyy)/2
 //! ```
 //!
-//! for every gap 2T, zero included. On x = t + m, y = t − m the sum ψx + ψy of an even energy does likewise with
-//! ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to full
-//! accuracy over gaps of a tenth of the stretches; where higher derivatives jump in between, as at the threshold of an
-//! extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing cancels and the quotients
-//! are what their definition says. Stretches 1 and 3 can only be close together with stretch 2 between them.
+//! for every gap 2T, zero included. On x = t + m, y = t − m the sum ψx + ψy of an even energy does likewise
+//! with ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to
+//! full accuracy over gaps of a tenth of the stretches; where higher derivatives jump in between, as at the
+//! threshold of an extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing
+//! cancels and the quotients are what their definition says. Stretches 1 and 3 can only be close together
+//! with stretch 2 between them.
 
 use super::evaluation::{blocks_at, is_admitted};
 use super::samples::at_samples;
@@ -142,8 +143,8 @@ fn tolerance(blocks: &Blocks<f64>) -> f64 {
     200.0 * UNIT * stiffness(blocks)
 }
 
-/// The mean of f over [0, end] and how inexact it may be: four times by how much rules with fewer panels differ from
-/// it, zero up to rounding for a smooth f.
+/// The mean of f over [0, end] and how inexact it may be: four times by how much rules with fewer panels
+/// differ from it, zero up to rounding for a smooth f.
 pub(super) fn mean(end: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     let [whole, halves, quarters] = [1, 2, 4].map(|panels| {
         let width = end / f64::from(panels);
@@ -152,7 +153,8 @@ pub(super) fn mean(end: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     (quarters, 4.0 * (whole - quarters).abs().max((halves - quarters).abs()))
 }
 
-/// The mean of f over [start, start + width] by Gauss's rule with eight points [Abramowitz, Stegun, table 25.4].
+/// The mean of f over [start, start + width] by Gauss's rule with eight points [Abramowitz, Stegun, table
+/// 25.4].
 fn gauss(start: f64, width: f64, f: impl Fn(f64) -> f64) -> f64 {
     const RULE: [(f64, f64); 4] = [
         (0.183434642495649804939476142360, 0.362683783378361982965150449277),

@@ -7,8 +7,9 @@ use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
 use crate::material::Material;
 
-/// Energy, gradient, Hessian and quotients in `f32` are those in `f64`, but for roundings of `f32`: at the samples, and
-/// where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is so in `f32`.
+/// Energy, gradient, Hessian and quotients in `f32` are those in `f64`, but for roundings of `f32`: at the
+/// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is
+/// so in `f32`.
 ///
 /// # Errors
 /// The first violation.

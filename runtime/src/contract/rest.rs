@@ -4,7 +4,8 @@ use super::evaluation::blocks_at;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
 use crate::material::{Material, Moduli};
 
-/// At F = I: no stress and twists of zero, unless [`Settings::stress_free_at_rest`] is `false`; flips of ψ11 − ψ12 = 2μ > 0.
+/// At F = I: no stress and twists of zero, unless [`Settings::stress_free_at_rest`] is `false`; flips of ψ11
+/// − ψ12 = 2μ > 0.
 ///
 /// # Errors
 /// The first violation.
@@ -30,7 +31,8 @@ const STRESSED: &str = "append to the energy what cancels this stress, such as `
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
-/// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
+/// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F =
+/// I.
 ///
 /// # Errors
 /// The first violation; [`Violation::DoesNotApply`] where it states none.

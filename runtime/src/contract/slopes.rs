@@ -1,8 +1,8 @@
-//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding takes
-//! over.
+//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding
+//! takes over.
 //!
-//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative leaves
-//! an error that does not shrink with h.
+//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative
+//! leaves an error that does not shrink with h.
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
@@ -16,7 +16,8 @@ use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 use crate::random::Random;
 
-/// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h²; and between one sample and the next, ψ grows by the work of its gradient.
+/// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h²; and between one sample and the next, ψ grows by the
+/// work of its gradient.
 ///
 /// Near a sample, an energy that jumps elsewhere looks as it should.
 ///
@@ -30,9 +31,11 @@ pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Fin
     })
 }
 
-/// ψ(to) − ψ(from) against the integral of ψ1 dλ1 + ψ2 dλ2 + ψ3 dλ3 on the straight line, where the material admits it.
+/// ψ(to) − ψ(from) against the integral of ψ1 dλ1 + ψ2 dλ2 + ψ3 dλ3 on the straight line, where the material
+/// admits it.
 ///
-/// Gauss's rule says how far off it is, and each ψ is known to some u times its own size and that of its terms.
+/// Gauss's rule says how far off it is, and each ψ is known to some u times its own size and that of its
+/// terms.
 fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
     let at = |t: f64| std::array::from_fn(|k| from[k] + t * (to[k] - from[k]));
     // On the way through λ3 = 0 there may be a pole.
@@ -104,8 +107,8 @@ impl Approach {
     }
 }
 
-/// A random frame and direction at these stretches, as long as the reach. Stretches move by no more than F does
-/// [Weyl's inequality], so steps below 1 keep to where the approach is as said.
+/// A random frame and direction at these stretches, as long as the reach. Stretches move by no more than F
+/// does [Weyl's inequality], so steps below 1 keep to where the approach is as said.
 fn line(stretches: [f64; 3], reach: f64, random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
     let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
     let A = random.matrix();
@@ -157,8 +160,8 @@ pub(super) fn stress_along(
 
 /// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
 ///
-/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One step
-/// alone would not do: its error may happen to vanish between two orders of opposite sign.
+/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One
+/// step alone would not do: its error may happen to vanish between two orders of opposite sign.
 fn slope(
     judge: &mut Judge,
     name: impl Fn() -> String + Copy,

@@ -5,8 +5,8 @@ use super::samples::at_samples;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
 
-/// `gradient_at_strains` at s is `gradient` at 1 + s, but for the rounding of 1 + s: for the strains of the samples with
-/// λ3 > 0, and these times 10⁻¹ … 10⁻¹⁵ and 0.
+/// `gradient_at_strains` at s is `gradient` at 1 + s, but for the rounding of 1 + s: for the strains of the
+/// samples with λ3 > 0, and these times 10⁻¹ … 10⁻¹⁵ and 0.
 ///
 /// # Errors
 /// The first violation.

@@ -4,9 +4,11 @@ use std::error::Error;
 use std::fmt;
 
 use super::Rule;
-use super::judge::FINITE;
 
-/// What rounding explains is exceeded by more than this where a formula is wrong: by ten orders of magnitude, mostly.
+/// Expectation of a violation where a value is infinite or NaN.
+pub(super) const FINITE: &str = "a finite number";
+/// What rounding explains is exceeded by more than this where a formula is wrong: by ten orders of magnitude,
+/// mostly.
 const MISTAKE: f64 = 1e6;
 /// What else it is.
 const DIGITS: &str = "so small a difference is likelier digits lost than a mistake in the formula: where something nearly cancels, such \
@@ -55,7 +57,8 @@ pub enum Violation {
         expected: f64,
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
-        /// What to write instead, where the rule knows; told where the difference is too large to be digits lost.
+        /// What to write instead, where the rule knows; told where the difference is too large to be digits
+        /// lost.
         remedy: Option<String>,
     },
     /// A value that must be positive, negative or finite isn't.
@@ -78,7 +81,8 @@ pub enum Violation {
         /// The rule.
         rule: Rule,
     },
-    /// The material has nothing that the rule is about, which [`check_rule`](super::check_rule) would not have asked for.
+    /// The material has nothing that the rule is about, which [`check_rule`](super::check_rule) would not
+    /// have asked for.
     DoesNotApply {
         /// The rule.
         rule: Rule,

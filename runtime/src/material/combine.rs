@@ -1,7 +1,8 @@
 //! Sums and multiples of materials, which are materials.
 //!
-//! Energies of the literature are sums: of an isochoric and a volumetric part, of a rubber and its filler. Every response is
-//! linear in the energy, so that a sum needs no derivative of its own and is as exact as its parts.
+//! Energies of the literature are sums: of an isochoric and a volumetric part, of a rubber and its filler.
+//! Every response is linear in the energy, so that a sum needs no derivative of its own and is as exact as
+//! its parts.
 
 use super::response::with_responses;
 use super::{Blocks, Given, Graded, Inadmissible, Inversion, Material, Moduli, ParameterValue, PerLane};
@@ -36,8 +37,8 @@ pub struct Sum<A, B> {
 impl<A, B> Sum<A, B> {
     /// The sum of two energies.
     ///
-    /// Its rest state may be stressed or unstable if that of a part is: [`Moduli::at_rest`] gives the moduli, and the
-    /// [`contract`](mod@crate::contract) judges both.
+    /// Its rest state may be stressed or unstable if that of a part is: [`Moduli::at_rest`] gives the moduli,
+    /// and the [`contract`](mod@crate::contract) judges both.
     #[must_use]
     pub fn new(a: A, b: B) -> Self {
         Self { a, b }
@@ -164,7 +165,8 @@ macro_rules! sum_responses {
             fn ends_at_zero_volume(&self) -> bool {
                 self.a.ends_at_zero_volume() || self.b.ends_at_zero_volume()
             }
-            /// An extension of both parts, or of one where the other is defined everywhere; of two, that with the larger ε.
+            /// An extension of both parts, or of one where the other is defined everywhere; of two, that with
+            /// the larger ε.
             fn inversion(&self) -> Inversion {
                 match (self.a.inversion(), self.b.inversion()) {
                     _ if self.ends_at_zero_volume() => Inversion::Refuse,

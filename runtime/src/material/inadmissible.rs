@@ -142,7 +142,8 @@ impl fmt::Display for Inadmissible {
 
 impl std::error::Error for Inadmissible {}
 
-/// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] = 0`.
+/// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] =
+/// 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Given {
     /// Name of the parameter.

@@ -1,21 +1,24 @@
 //! An energy with wanted small-strain moduli, whatever its own are.
 //!
-//! Two energies can only be compared by how they go on if they begin alike \[CB24\]: with the same linearisation of P at rest,
-//! that is, with the same Young's modulus E and Poisson's ratio ν. A factor gives any energy the shear modulus that is wanted,
-//! and what then lacks in resistance to changes of volume is added:
+//! Two energies can only be compared by how they go on if they begin alike \[CB24\]: with the same
+//! linearisation of P at rest, that is, with the same Young's modulus E and Poisson's ratio ν. A factor gives
+//! any energy the shear modulus that is wanted, and what then lacks in resistance to changes of volume is
+//! added:
 //!
 //! ```text
 //! ψ' = s ψ + c/2 (J − 1)²,    s = μ*/μ,    c = λ* − s λ
 //! ```
 //!
-//! with μ, λ of the energy and μ*, λ* of E and ν. (J − 1)² has ψ11 = ψ12 = 1 at rest, so that it changes λ alone.
+//! with μ, λ of the energy and μ*, λ* of E and ν. (J − 1)² has ψ11 = ψ12 = 1 at rest, so that it changes λ
+//! alone.
 //!
-//! The latter is a polynomial: no quotient is formed, nothing but J − 1 cancels, there is no pole, and inverted material is
-//! driven back by it as well.
+//! The latter is a polynomial: no quotient is formed, nothing but J − 1 cancels, there is no pole, and
+//! inverted material is driven back by it as well.
 //!
-//! \[CB24\] Chen, Barbič, *Tuning Nonlinear Elastic Materials under Small and Large Deformations*, arXiv 2412.18631, 2024. Aim
-//! and meaning of E and ν are those of its abstract, which alone was at hand: the term by which it makes up for another λ may
-//! differ from ours. Its third property, how nonlinear an energy is at large strain, is not set here.
+//! \[CB24\] Chen, Barbič, *Tuning Nonlinear Elastic Materials under Small and Large Deformations*, arXiv
+//! 2412.18631, 2024. Aim and meaning of E and ν are those of its abstract, which alone was at hand: the term
+//! by which it makes up for another λ may differ from ours. Its third property, how nonlinear an energy is at
+//! large strain, is not set here.
 
 use super::{Inadmissible, Material, Moduli, Scaled, Sum};
 use crate::lanes::Real;
@@ -33,7 +36,8 @@ pub fn VolumetricPenalty(
 
 /// A material with the small-strain moduli of a wanted E and ν: s ψ + c/2 (J − 1)².
 ///
-/// Domain, inversion and poles are those of the material. Of one whose rest state carries stress, that stress is multiplied by s.
+/// Domain, inversion and poles are those of the material. Of one whose rest state carries stress, that stress
+/// is multiplied by s.
 ///
 /// ```
 /// use piola::material::{Declared, Moduli, Normalised};
@@ -58,8 +62,8 @@ impl<M: Material> Normalised<M> {
     /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½, both of small strain.
     ///
     /// # Errors
-    /// E or ν outside these bounds; a material that is unstable at rest; and ν below that of the material itself, since c < 0 would
-    /// take away resistance to changes of volume, the more the larger they are.
+    /// E or ν outside these bounds; a material that is unstable at rest; and ν below that of the material
+    /// itself, since c < 0 would take away resistance to changes of volume, the more the larger they are.
     pub fn with_young_poisson(material: M, young: f64, poisson: f64) -> Result<Self, Inadmissible> {
         let moduli = Moduli::from_young_poisson(young, poisson)?;
         let own = Moduli::at_rest(&material);

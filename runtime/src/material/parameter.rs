@@ -1,7 +1,8 @@
 //! Parameters of an energy: one value for all points, or one for each lane.
 //!
-//! A declared material is generic over how its parameters are kept. With `f64`, which is the default, every lane gets that
-//! value; with [`PerLane`] each gets a value of its own, as points of a graded or fitted body need.
+//! A declared material is generic over how its parameters are kept. With `f64`, which is the default, every
+//! lane gets that value; with [`PerLane`] each gets a value of its own, as points of a graded or fitted body
+//! need.
 
 use std::fmt;
 
@@ -45,15 +46,16 @@ impl ParameterValue for PerLane {
     }
 }
 
-/// A material whose parameters may differ from point to point: every declared one without functions as parameters.
+/// A material whose parameters may differ from point to point: every declared one without functions as
+/// parameters.
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
     type OnLanes: Material;
 
     /// Materials side by side, `material(lane)` on each of at most 16 lanes.
     ///
-    /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] makes sure: it decides which
-    /// program runs.
+    /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] makes
+    /// sure: it decides which program runs.
     fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
     where
         Self: 'a;

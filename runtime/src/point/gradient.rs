@@ -1,14 +1,14 @@
 //! The derivatives of the singular value decomposition itself: dU, dλ, dVᵀ along dF \[PL00\].
 //!
-//! Stress and tangent never need them (see [`tangent`](super::tangent)); they are for those who follow the principal
-//! directions, for instance in anisotropy or in plots.
+//! Stress and tangent never need them (see [`tangent`](super::tangent)); they are for those who follow the
+//! principal directions, for instance in anisotropy or in plots.
 //!
-//! **Where they don't exist.** U, V and λ are not differentiable where |λi| = |λj|. At λi = λj the symmetric part
-//! of the increment decides how both frames turn together, and at λi = −λj the antisymmetric part decides how they
-//! turn against each other: the limits differ from direction to direction. The rotation of such a pair, and of any
-//! pair that close, is reported in [`SvdGradient::singular`], and is whatever the division by the gap gives,
-//! infinity and NaN included. No regularisation could give a right value where there is none. dλ exists everywhere
-//! but for the order of the stretches.
+//! **Where they don't exist.** U, V and λ are not differentiable where |λi| = |λj|. At λi = λj the symmetric
+//! part of the increment decides how both frames turn together, and at λi = −λj the antisymmetric part
+//! decides how they turn against each other: the limits differ from direction to direction. The rotation of
+//! such a pair, and of any pair that close, is reported in [`SvdGradient::singular`], and is whatever the
+//! division by the gap gives, infinity and NaN included. No regularisation could give a right value where
+//! there is none. dλ exists everywhere but for the order of the stretches.
 //!
 //! \[PL00\] Papadopoulo, Lourakis, *Estimating the Jacobian of the singular value decomposition: theory and
 //! applications*, 2000.
@@ -37,8 +37,9 @@ pub struct SvdGradient<R: Real> {
 
 /// dU, dλ and dVᵀ along `dF`; see the module's text for where they exist.
 ///
-/// With dF̂ = Uᵀ dF V: dλi = dF̂ii, Ωij − Θij = (dF̂ij + dF̂ji)/(λj − λi) and Ωij + Θij = (dF̂ij − dF̂ji)/(λi +
-/// λj). Both quotients lose accuracy as u λ1 / |λi ∓ λj|, which is their condition, not a defect of the formula.
+/// With dF̂ = Uᵀ dF V: dλi = dF̂ii, Ωij − Θij = (dF̂ij + dF̂ji)/(λj − λi) and Ωij + Θij = (dF̂ij − dF̂ji)/(λi
+/// + λj). Both quotients lose accuracy as u λ1 / |λi ∓ λj|, which is their condition, not a defect of the
+/// formula.
 #[inline(always)]
 #[must_use]
 pub fn svd_gradient<R: Real>(svd: &Svd<R>, dF: &Matrix3<R>) -> SvdGradient<R> {

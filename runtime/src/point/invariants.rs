@@ -1,11 +1,13 @@
-//! Stress without a singular value decomposition, for energies of the invariants I1 = |F|², I2 = |cof F|², J = det F.
+//! Stress without a singular value decomposition, for energies of the invariants I1 = |F|², I2 = |cof F|², J
+//! = det F.
 //!
 //! ```text
 //! ∂I1/∂F = 2 F,   ∂I2/∂F = 2 (I1 F − F Fᵀ F),   ∂J/∂F = cof F
 //! ```
 //!
-//! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice the working precision,
-//! so that each is as good as F determines it: within a few u of its sensitivity to relative changes of F by 1. So is P.
+//! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice the
+//! working precision, so that each is as good as F determines it: within a few u of its sensitivity to
+//! relative changes of F by 1. So is P.
 
 #![expect(non_snake_case, reason = "F, P, I1, I2, J as in the text above")]
 

@@ -7,9 +7,9 @@ use crate::lanes::Real;
 
 /// `three!(i => x)` is `[x, x, x]` with i = 0, 1, 2.
 ///
-/// What `std::array::from_fn` makes, without a closure. Lanes must be computed with inside one function that is compiled
-/// for their instructions; a long closure is a function of its own unless the compiler finds it worth inlining, and then
-/// costs a call for every operation in it.
+/// What `std::array::from_fn` makes, without a closure. Lanes must be computed with inside one function that
+/// is compiled for their instructions; a long closure is a function of its own unless the compiler finds it
+/// worth inlining, and then costs a call for every operation in it.
 macro_rules! three {
     ($i:ident => $value:expr) => {
         [
@@ -29,8 +29,8 @@ macro_rules! three {
     };
 }
 
-/// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a constant from the
-/// beginning.
+/// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a
+/// constant from the beginning.
 #[cfg(feature = "batch")]
 macro_rules! thrice {
     ($i:ident => $body:block) => {{
@@ -94,4 +94,18 @@ pub(crate) fn to_world<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) 
 #[inline(always)]
 pub(crate) fn to_principal<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
     multiply(&multiply(&transpose(U), A), V)
+}
+
+/// The matrix with these entries, row by row.
+#[cfg(feature = "batch")]
+#[inline(always)]
+pub(crate) fn to_matrix<R: Copy>([a, b, c, d, e, f, g, h, i]: [R; 9]) -> Matrix3<R> {
+    [[a, b, c], [d, e, f], [g, h, i]]
+}
+
+/// The entries of a matrix, row by row.
+#[cfg(feature = "batch")]
+#[inline(always)]
+pub(crate) fn to_row_major<R: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Matrix3<R>) -> [R; 9] {
+    [a, b, c, d, e, f, g, h, i]
 }

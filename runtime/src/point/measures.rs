@@ -1,10 +1,10 @@
 //! Stresses and tangents as engineering codes want them: S and dS/dE, τ, σ and the spatial tangents.
 //!
 //! A code that has its own elements seldom asks for P and dP/dF. A total Lagrangian one wants the second
-//! Piola–Kirchhoff stress S = F⁻¹P and the material tangent dS/dE, an updated one the Cauchy stress σ and a spatial
-//! tangent. They are made here from what a point knows already, its decomposition F = U diag(λ) Vᵀ and the
-//! [`Blocks`] of its energy: F is never inverted, and no tensor pushed forward by four sums. Tangents are 6×6, in
-//! the notation of [`voigt`].
+//! Piola–Kirchhoff stress S = F⁻¹P and the material tangent dS/dE, an updated one the Cauchy stress σ and a
+//! spatial tangent. They are made here from what a point knows already, its decomposition F = U diag(λ) Vᵀ
+//! and the [`Blocks`] of its energy: F is never inverted, and no tensor pushed forward by four sums. Tangents
+//! are 6×6, in the notation of [`voigt`].
 //!
 //! ```
 //! use piola::point::measures::{cauchy, jaumann_tangent, material_tangent, second_piola, spatial_tangent, voigt};
@@ -57,7 +57,8 @@
 //!
 //! # What each of them is
 //!
-//! With J = det F, the Green strain E = (FᵀF − I)/2, and L = dF F⁻¹ = ε + ω, its symmetric and antisymmetric parts:
+//! With J = det F, the Green strain E = (FᵀF − I)/2, and L = dF F⁻¹ = ε + ω, its symmetric and antisymmetric
+//! parts:
 //!
 //! ```text
 //! S = F⁻¹P = ∂ψ/∂E            dS = dS/dE : dE
@@ -65,26 +66,28 @@
 //! σ = τ/J                     dτ − ω τ + τ ω  = J c° : ε
 //! ```
 //!
-//! All of them are symmetric and in Pa. The *spatial tangent* c is the push-forward of dS/dE, by deformed volume:
+//! All of them are symmetric and in Pa. The *spatial tangent* c is the push-forward of dS/dE, by deformed
+//! volume:
 //!
 //! ```text
 //! c_ijkl = 1/J F_ip F_jq F_kr F_ls (dS/dE)_pqrs
 //! ```
 //!
-//! It belongs to the Lie derivative of τ, which is J times the Truesdell rate of σ. To the Jaumann rate of τ belongs
+//! It belongs to the Lie derivative of τ, which is J times the Truesdell rate of σ. To the Jaumann rate of τ
+//! belongs
 //!
 //! ```text
 //! c°_ijkl = c_ijkl + ½ (δik σjl + δil σjk + δjk σil + δjl σik)
 //! ```
 //!
-//! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material under
-//! the name DDSDDE. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I, which is not symmetric.)
+//! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material
+//! under the name DDSDDE. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I, which is not symmetric.)
 //!
 //! # In the principal frames
 //!
-//! [`tangent`](super::tangent) derives how F and P change there: with dF̂ = Uᵀ dF V, the Hessian ψij takes the
-//! diagonal entries of dF̂ to those of Uᵀ dP V, and a, b do it for each pair. S is Vᵀ S V = diag(si) with si = ψi/λi,
-//! and dE is, with Λ = diag(λ),
+//! [`tangent`](super::tangent) derives how F and P change there: with dF̂ = Uᵀ dF V, the Hessian ψij takes
+//! the diagonal entries of dF̂ to those of Uᵀ dP V, and a, b do it for each pair. S is Vᵀ S V = diag(si) with
+//! si = ψi/λi, and dE is, with Λ = diag(λ),
 //!
 //! ```text
 //! dÊ = Vᵀ dE V = (Λ dF̂ + dF̂ᵀ Λ)/2:      dÊii = λi dF̂ii,      2 dÊij = λi dF̂ij + λj dF̂ji.
@@ -98,18 +101,18 @@
 //! dŜii = Σj (ψij − δij si)/(λi λj) dÊjj.
 //! ```
 //!
-//! **A pair.** a dF̂ij + b dF̂ji = sj dF̂ij + λi dŜij. By definition a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2 satisfy ψj =
-//! a λj − b λi, hence a − sj = b λi/λj, and
+//! **A pair.** a dF̂ij + b dF̂ji = sj dF̂ij + λi dŜij. By definition a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2
+//! satisfy ψj = a λj − b λi, hence a − sj = b λi/λj, and
 //!
 //! ```text
 //! dŜij = b/(λi λj) (λi dF̂ij + λj dF̂ji) = b/(λi λj) 2 dÊij.
 //! ```
 //!
-//! Textbooks give this modulus as (si − sj)/(λi² − λj²), with a limit for equal stretches \[Hol00\]. It is the same
-//! number, but here without the gap, since flip and twist come without one.
+//! Textbooks give this modulus as (si − sj)/(λi² − λj²), with a limit for equal stretches \[Hol00\]. It is
+//! the same number, but here without the gap, since flip and twist come without one.
 //!
-//! **Together.** Pushing forward multiplies by one stretch for each index and puts U in the place of V; most of the
-//! division by J = λi λj λk then cancels. For i, j, k all different:
+//! **Together.** Pushing forward multiplies by one stretch for each index and puts U in the place of V; most
+//! of the division by J = λi λj λk then cancels. For i, j, k all different:
 //!
 //! ```text
 //!            stress       iiii                     iijj           ijij                             frame
@@ -122,23 +125,25 @@
 //!
 //! # What floating point does here
 //!
-//! Stresses and tangents are exactly symmetric: each number is computed once. Nothing cancels in a stress, however
-//! near or far apart the stretches are. In the tangents ψii ∓ ψi/λi and D⁻ ± D⁺ may cancel; of either remains an
-//! error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as the table says and
-//! turned into the world, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c and c°.
+//! Stresses and tangents are exactly symmetric: each number is computed once. Nothing cancels in a stress,
+//! however near or far apart the stretches are. In the tangents ψii ∓ ψi/λi and D⁻ ± D⁺ may cancel; of either
+//! remains an error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as
+//! the table says and turned into the world, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c
+//! and c°.
 //!
-//! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters, τ = P +
-//! P Hᵀ keeps the digits of [`evaluate_stress_from_displacement`](super::evaluate_stress_from_displacement).
+//! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters,
+//! τ = P + P Hᵀ keeps the digits of
+//! [`evaluate_stress_from_displacement`](super::evaluate_stress_from_displacement).
 //!
-//! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the range, the
-//! results are what division gives, infinity and NaN included; the status of the point does not speak for them.
-//! Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
+//! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the
+//! range, the results are what division gives, infinity and NaN included; the status of the point does not
+//! speak for them. Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
 //!
-//! **Filters.** The tangents are derivatives if the blocks are: those of [`Filter::None`](super::Filter::None). A
-//! filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is no longer the sum of a part with S and one that
-//! E alone decides, and behind it is no dS/dE. Of filtered blocks these functions make symmetric matrices that are
-//! no derivative and need not be semidefinite; for a semidefinite element stiffness, [`contract`](super::contract)
-//! the filtered blocks instead.
+//! **Filters.** The tangents are derivatives if the blocks are: those of
+//! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
+//! no longer the sum of a part with S and one that E alone decides, and behind it is no dS/dE. Of filtered
+//! blocks these functions make symmetric matrices that are no derivative and need not be semidefinite; for a
+//! semidefinite element stiffness, [`contract`](super::contract) the filtered blocks instead.
 //!
 //! This module knows no particular material and no mesh.
 //!
@@ -197,10 +202,11 @@ pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R>
     principal.to_world(&svd.V)
 }
 
-/// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed volume.
+/// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed
+/// volume.
 ///
-/// Exactly symmetric. Takes ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as seen by an
-/// observer that deforms with the body.
+/// Exactly symmetric. Takes ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as
+/// seen by an observer that deforms with the body.
 #[inline(always)]
 #[must_use]
 pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
@@ -214,10 +220,11 @@ pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
     principal.to_world(&svd.U)
 }
 
-/// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of Abaqus.
+/// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of
+/// Abaqus.
 ///
-/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the body.
-/// The order of Abaqus is told in [`voigt`].
+/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
+/// body. The order of Abaqus is told in [`voigt`].
 #[inline(always)]
 #[must_use]
 pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {

@@ -2,29 +2,32 @@
 //!
 //! In the basis of the diagonal entries and (ij ± ji)/√2 the tangent is diagonal but for one 3×3 block (see
 //! [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian ψij.
-//! Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered dP/dF
-//! is pulled back: that is not the same as filtering the 12×12 stiffness, which some codes do, unless the element
-//! is regular.
+//! Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered
+//! dP/dF is pulled back: that is not the same as filtering the 12×12 stiffness, which some codes do, unless
+//! the element is regular.
 //!
-//! What floating point does here. A filtered eigenvalue is zero up to u ‖dP/dF‖ of either sign; where nothing is
-//! negative beyond doubt, the block comes back bit for bit.
+//! What floating point does here. A filtered eigenvalue is zero up to u ‖dP/dF‖ of either sign; where nothing
+//! is negative beyond doubt, the block comes back bit for bit.
 //!
 //! # The 3×3 block in closed form
 //!
-//! Let A be symmetric with eigenvalues of both signs, f the filter, |·| the spectral norm. Of the three eigenvalues the middle
-//! one is closer to one end than to the other; call the end that stands apart ν. The spread between the ends is at least
+//! Let A be symmetric with eigenvalues of both signs, f the filter, |·| the spectral norm. Of the three
+//! eigenvalues the middle one is closer to one end than to the other; call the end that stands apart ν. The
+//! spread between the ends is at least
 //! |A|, or they would have the same sign, so that ν is |A|/2 or more away from both others, whatever these do. From
-//! this follows that nothing below loses digits, and no case is special: not two eigenvalues near zero, not two equal ones.
+//! this follows that nothing below loses digits, and no case is special: not two eigenvalues near zero, not
+//! two equal ones.
 //!
-//! **ν.** With q = tr A/3, C = A − q I and p² = tr C²/6, the eigenvalues are q + p y for the roots of y³ − 3y = 2x, x =
-//! det C/(2p³), and the one apart is of the sign of x and has |y| = 2 cos(⅓ arccos |x|), between √3 and 2. There the
-//! derivative 3y² − 3 is at least 6: a polynomial and a Newton step give y to rounding.
+//! **ν.** With q = tr A/3, C = A − q I and p² = tr C²/6, the eigenvalues are q + p y for the roots of y³ − 3y
+//! = 2x, x = det C/(2p³), and the one apart is of the sign of x and has |y| = 2 cos(⅓ arccos |x|), between √3
+//! and 2. There the derivative 3y² − 3 is at least 6: a polynomial and a Newton step give y to rounding.
 //!
-//! **Its vector** p is the largest column of the adjugate of A − ν I, which is p pᵀ times the product of the distances to the
-//! other two eigenvalues. That is at least |A|²/2, which no rounding of the adjugate, u |A|², can hurt.
+//! **Its vector** p is the largest column of the adjugate of A − ν I, which is p pᵀ times the product of the
+//! distances to the other two eigenvalues. That is at least |A|²/2, which no rounding of the adjugate, u
+//! |A|², can hurt.
 //!
-//! **The other two** are those of the 2×2 matrix M of A in an orthonormal basis v, w of the plane normal to p: m ± r, with m
-//! half its trace and r² = −det of what M is beside m.
+//! **The other two** are those of the 2×2 matrix M of A in an orthonormal basis v, w of the plane normal to
+//! p: m ± r, with m half its trace and r² = −det of what M is beside m.
 //!
 //! **The filtered matrix** is f(ν) p pᵀ + (v w) f(M) (v w)ᵀ with
 //!
@@ -33,14 +36,14 @@
 //! ```
 //!
 //! |k| ≤ 1 because f is a contraction, however close the two are, and where M − m I is nothing but rounding, so is what a
-//! wrong k does. Both parts are semidefinite, to a few u of their own size and not of that of A: where a large negative
-//! eigenvalue is cut off, what is left is as clean as if it had never been there. The error of the whole is below 16 u |A| in
-//! the tests, as a backward error of A.
+//! wrong k does. Both parts are semidefinite, to a few u of their own size and not of that of A: where a
+//! large negative eigenvalue is cut off, what is left is as clean as if it had never been there. The error of
+//! the whole is below 16 u |A| in the tests, as a backward error of A.
 //!
 //! Where no eigenvalue is positive, nothing need be separated: the answer is zero or −A.
 //!
-//! \[CLLZJ24\] Chen, Liu, Levin, Zheng, Jacobson, *Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for
-//! Projected Newton*, 2024.
+//! \[CLLZJ24\] Chen, Liu, Levin, Zheng, Jacobson, *Stabler Neo-Hookean Simulation: Absolute Eigenvalue
+//! Filtering for Projected Newton*, 2024.
 
 #![expect(non_snake_case, reason = "A, L, Q as in linear algebra")]
 
@@ -105,8 +108,8 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     (Blocks { gradient, hessian, flip, twist }, is_filtered)
 }
 
-/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it is
-/// positive beyond doubt, zero.
+/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it
+/// is positive beyond doubt, zero.
 #[inline(always)]
 fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let [a11, a22, a33, a12, a13, a23] = A;
@@ -115,8 +118,8 @@ fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (scale, back) = largest.power_of_two_scale();
     let scaled = [a11 * scale, a22 * scale, a33 * scale, a12 * scale, a13 * scale, a23 * scale];
 
-    // Both answers are defined for each number of a batch by itself; only the work for the second one is skipped,
-    // and only if none needs it. So a number's result never depends on its neighbours.
+    // Both answers are defined for each number of a batch by itself; only the work for the second one is
+    // skipped, and only if none needs it. So a number's result never depends on its neighbours.
     let definite = surely_definite(scaled);
     let zero = R::splat(0.0);
     if !(!definite).any() {
@@ -135,8 +138,8 @@ fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     (projected, R::select(indefinite, smallest * back, zero))
 }
 
-/// The filtered matrix and its smallest eigenvalue before, by the formulas of the module's text, for a matrix of magnitude
-/// 1 to 2 that is not positive definite.
+/// The filtered matrix and its smallest eigenvalue before, by the formulas of the module's text, for a matrix
+/// of magnitude 1 to 2 that is not positive definite.
 #[inline(always)]
 fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (zero, half) = (R::splat(0.0), R::splat(0.5));
@@ -225,7 +228,8 @@ fn eigenvalue_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6]) -> R {
     p.mul_add(y.copysign(two_x), q)
 }
 
-/// 2 cos(⅓ arccos x) for 0 ≤ x ≤ 1 to 2⁻²⁸, by interpolation in Chebyshev's points. The nearest singularity is at −1.
+/// 2 cos(⅓ arccos x) for 0 ≤ x ≤ 1 to 2⁻²⁸, by interpolation in Chebyshev's points. The nearest singularity
+/// is at −1.
 const COSINE_OF_A_THIRD: [f64; 9] = [
     1.7320508111991306,
     0.3333327422889914,
@@ -273,8 +277,8 @@ fn vector_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6], eigenvalue: R) 
 
 /// Whether every eigenvalue is positive whatever rounding did: LDLᵀ of A − 64 u I has positive pivots.
 ///
-/// The computed factors of that matrix are exact for one that differs by a few u times its entries, which are below
-/// 4 here; the shift outweighs it [Rump 2006, *Verification of positive definiteness*].
+/// The computed factors of that matrix are exact for one that differs by a few u times its entries, which are
+/// below 4 here; the shift outweighs it [Rump 2006, *Verification of positive definiteness*].
 #[inline(always)]
 fn surely_definite<R: Real>(A: [R; 6]) -> R::Mask {
     let zero = R::splat(0.0);

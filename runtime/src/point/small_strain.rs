@@ -2,9 +2,10 @@
 //!
 //! # What is lost in F, and how it is kept
 //!
-//! Vibrations and stiff parts have strains of 10⁻⁶ and less. F = I + H then spends its digits on the identity: u is
-//! all that a diagonal entry tells of H, and a stress that is linear in H comes out with an error of u ‖dP/dF‖
-//! instead of u ‖P‖. No care taken after that brings the digits back, so the way from H to P must not pass F.
+//! Vibrations and stiff parts have strains of 10⁻⁶ and less. F = I + H then spends its digits on the
+//! identity: u is all that a diagonal entry tells of H, and a stress that is linear in H comes out with an
+//! error of u ‖dP/dF‖ instead of u ‖P‖. No care taken after that brings the digits back, so the way from H to
+//! P must not pass F.
 //!
 //! **Strain.** The identity cancels in the Green strain on paper, not in floating point:
 //!
@@ -12,12 +13,12 @@
 //! 2E = FᵀF − I = H + Hᵀ + HᵀH
 //! ```
 //!
-//! Each entry of the sum H + Hᵀ has one rounding, relative to itself. HᵀH is of second order: it cancels against
-//! H + Hᵀ where H is mostly rotation, by an angle θ say, and then leaves an error of u θ² where u θ = u ‖H‖ is what
-//! rounding H itself would do.
+//! Each entry of the sum H + Hᵀ has one rounding, relative to itself. HᵀH is of second order: it cancels
+//! against H + Hᵀ where H is mostly rotation, by an angle θ say, and then leaves an error of u θ² where u θ =
+//! u ‖H‖ is what rounding H itself would do.
 //!
-//! **Stretches.** FᵀF = V diag(λ²) Vᵀ, so the eigenvectors of 2E are the principal directions V, and its eigenvalues
-//! qi = λi² − 1 give the principal Biot strains without subtracting:
+//! **Stretches.** FᵀF = V diag(λ²) Vᵀ, so the eigenvectors of 2E are the principal directions V, and its
+//! eigenvalues qi = λi² − 1 give the principal Biot strains without subtracting:
 //!
 //! ```text
 //! si = λi − 1 = (λi² − 1)/(λi + 1) = qi / (1 + √(1 + qi))
@@ -25,19 +26,20 @@
 //!
 //! Jacobi rotations find V and q as the exact ones of a matrix that differs from 2E by a few u ‖E‖.
 //!
-//! **Stress.** [`Material::gradient_at_strains`] gives ψi from the si. U need not be known, since U diag(λ) = F V:
+//! **Stress.** [`Material::gradient_at_strains`] gives ψi from the si. U need not be known, since U diag(λ) =
+//! F V:
 //!
 //! ```text
 //! P = U diag(ψi) Vᵀ = F V diag(ψi/λi) Vᵀ = S + H S,     S = V diag(ψi/λi) Vᵀ
 //! ```
 //!
-//! with the second Piola stress S, which is proportional to the strain, and once more no identity added to H. The
-//! signs and the order of the columns of V drop out of S. The quotients need λi > 0, away from zero: this is for
-//! ‖H‖ < ½, where λ3 > ½ and λi is the positive root. Beyond, F has lost nothing worth keeping.
+//! with the second Piola stress S, which is proportional to the strain, and once more no identity added to H.
+//! The signs and the order of the columns of V drop out of S. The quotients need λi > 0, away from zero: this
+//! is for ‖H‖ < ½, where λ3 > ½ and λi is the positive root. Beyond, F has lost nothing worth keeping.
 //!
-//! **Error.** A few u (‖P‖ + ‖dP/dF‖ ‖H‖), with a material whose ψi are accurate relative to the strains, however
-//! small these are: no square of a strain can underflow where it matters. (The tangent needs none of this; it changes
-//! by its own rounding when F does.)
+//! **Error.** A few u (‖P‖ + ‖dP/dF‖ ‖H‖), with a material whose ψi are accurate relative to the strains,
+//! however small these are: no square of a strain can underflow where it matters. (The tangent needs none of
+//! this; it changes by its own rounding when F does.)
 //!
 //! This module knows no particular material.
 
@@ -52,8 +54,9 @@ use crate::status::Status;
 
 /// The first Piola stress P, Pa, at F = I + H, and its status; H is the displacement gradient, dimensionless.
 ///
-/// Accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where [`evaluate_stress`] at I + H reaches u ‖dP/dF‖. Where
-/// ‖H‖ ≥ ½ in the Frobenius norm, the two are the same. The status is that of [`evaluate_stress`].
+/// Accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where [`evaluate_stress`] at I + H reaches u
+/// ‖dP/dF‖. Where ‖H‖ ≥ ½ in the Frobenius norm, the two are the same. The status is that of
+/// [`evaluate_stress`].
 ///
 /// ```
 /// use piola::point::{evaluate_stress, evaluate_stress_from_displacement};
@@ -102,7 +105,8 @@ pub fn evaluate_stress_from_displacement<R: Real>(
     (P, (near.1 & is_small) | (far.1 & !is_small))
 }
 
-/// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent filtered.
+/// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent
+/// filtered.
 ///
 /// The tangent is that of [`evaluate`] at I + H. The status says what either says.
 #[inline(always)]
@@ -172,22 +176,22 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
     (strains, V)
 }
 
-/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic Jacobi
-/// rotations.
+/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic
+/// Jacobi rotations.
 #[inline(always)]
 fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
     let [a11, a22, a33, a12, a13, a23] = A;
     let mut A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
     let mut Q = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small to
-    // matter elsewhere.
+    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small
+    // to matter elsewhere.
     let floor = R::splat(R::MIN_POSITIVE.sqrt());
     for _ in 0..sweeps(R::UNIT_ROUNDOFF) {
         for (p, q) in PAIRS {
             let r = 3 - p - q;
-            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation [Golub, Van
-            // Loan, 8.5].
+            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation
+            // [Golub, Van Loan, 8.5].
             let d = A[q][q] - A[p][p];
             let g = A[p][q] + A[p][q];
             let magnitude = g / (d.abs() + d.mul_add(d, g * g).sqrt() + floor);

@@ -3,7 +3,8 @@
 //! This is \[SZLSB11\] eq. 2: the stress of an isotropic energy is diagonal in the same
 //! two frames as F, and the second one enters transposed.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 
 use super::Matrix3;
 use super::matrix::{multiply_transposed, three};

@@ -1,21 +1,22 @@
 //! The signed singular value decomposition of a deformation gradient.
 //!
-//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\]. The
-//! method is one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one first, for a
-//! fixed number of sweeps. There is no branch on a value and no count that depends on one, so that a matrix among
-//! others in lanes gets the bits it would get alone.
+//! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\].
+//! The method is one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one
+//! first, for a fixed number of sweeps. There is no branch on a value and no count that depends on one, so
+//! that a matrix among others in lanes gets the bits it would get alone.
 //!
-//! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares neither
-//! overflow nor, where they matter, underflow. V is accumulated as a quaternion and U is built around its first
-//! column: both are rotations by construction, whatever the rank of F, instead of matrices that may turn out to be
-//! reflections. Each stretch is known to a few u λ1 and no better, as from any backward-stable method; when λ3 is
-//! smaller than that, so is its sign, unless [`svd_signed_by_determinant`] takes it from the determinant.
+//! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares
+//! neither overflow nor, where they matter, underflow. V is accumulated as a quaternion and U is built around
+//! its first column: both are rotations by construction, whatever the rank of F, instead of matrices that may
+//! turn out to be reflections. Each stretch is known to a few u λ1 and no better, as from any backward-stable
+//! method; when λ3 is smaller than that, so is its sign, unless [`svd_signed_by_determinant`] takes it from
+//! the determinant.
 //!
 //! This module knows no material. Reading V by columns vk and U by columns uk, F vk = λk uk.
 //!
-//! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*, 2004.
-//! \[DV92\] Demmel, Veselić, *Jacobi's method is more accurate than QR*, 1992.
-//! \[Duff17\] Duff et al., *Building an orthonormal basis, revisited*, 2017.
+//! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*,
+//! 2004. \[DV92\] Demmel, Veselić, *Jacobi's method is more accurate than QR*, 1992. \[Duff17\] Duff et al.,
+//! *Building an orthonormal basis, revisited*, 2017.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
@@ -30,7 +31,8 @@ mod tests;
 /// A signed singular value decomposition F = U diag(λ) Vᵀ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Svd<R> {
-    /// Left rotation, det U = +1; column k is the direction into which stretch k points after the deformation.
+    /// Left rotation, det U = +1; column k is the direction into which stretch k points after the
+    /// deformation.
     pub U: Matrix3<R>,
     /// λ1 ≥ λ2 ≥ |λ3|, exactly in floating point; λ3 has the sign of det F.
     pub stretches: [R; 3],
@@ -40,9 +42,9 @@ pub struct Svd<R> {
 
 /// Decomposes F; see [`Svd`].
 ///
-/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 20 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I exceeds
-/// 20 u. F = 0 gives U = V = I. Where F holds an infinity or NaN, so does every stretch; where λ1 exceeds the largest
-/// finite number, it is infinite.
+/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 20 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I
+/// exceeds 20 u. F = 0 gives U = V = I. Where F holds an infinity or NaN, so does every stretch; where λ1
+/// exceeds the largest finite number, it is infinite.
 ///
 /// ```
 /// let svd = piola::point::svd::svd(&[[0.0, -2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -0.5]]);
@@ -59,9 +61,9 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
 ///
 /// For energies whose domain ends at det F = 0: there the sign of a tiny λ3 decides whether a deformation is
-/// admissible, and its logarithm wants all the relative accuracy that F can give. The sign is right wherever the
-/// determinant exceeds 2⁵u²·λ1³ (in `f64` 4·10⁻³¹ λ1³) and no product of three entries of F/λ1 comes within 1/u of
-/// underflow. Error bounds are those of [`svd()`].
+/// admissible, and its logarithm wants all the relative accuracy that F can give. The sign is right wherever
+/// the determinant exceeds 2⁵u²·λ1³ (in `f64` 4·10⁻³¹ λ1³) and no product of three entries of F/λ1 comes
+/// within 1/u of underflow. Error bounds are those of [`svd()`].
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
@@ -76,8 +78,9 @@ pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 
 /// F brought to a magnitude between 1 and 2 by a power of two, and the power that brings stretches back.
 ///
-/// What is not finite is left so and needs no mask: the length of its column makes the first cosine NaN (∞ times the
-/// reciprocal of ∞ where it is not NaN itself), the quaternion spreads that over V, and F V over every stretch.
+/// What is not finite is left so and needs no mask: the length of its column makes the first cosine NaN (∞
+/// times the reciprocal of ∞ where it is not NaN itself), the quaternion spreads that over V, and F V over
+/// every stretch.
 #[inline(always)]
 fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
     let rows: [R; 3] = three!(i => F[i][0].abs().max(F[i][1].abs()).max(F[i][2].abs()));
@@ -85,10 +88,11 @@ fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
     (three!(i => three!(j => F[i][j] * scale)), back)
 }
 
-/// Sweeps after which the columns are orthogonal to working precision: 4 for u = 2⁻²⁴, 5 for 2⁻⁵³, 6 for 2⁻¹⁰⁶.
+/// Sweeps after which the columns are orthogonal to working precision: 4 for u = 2⁻²⁴, 5 for 2⁻⁵³, 6 for
+/// 2⁻¹⁰⁶.
 ///
-/// Convergence is quadratic: four sweeps bring every 3×3 matrix that a search found below 2⁻²⁷, each further one
-/// squares that.
+/// Convergence is quadratic: four sweeps bring every 3×3 matrix that a search found below 2⁻²⁷, each further
+/// one squares that.
 pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
     let mut reached = 1.0 / (1u64 << 27) as f64;
     let mut sweeps = 4;
@@ -115,8 +119,8 @@ fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
     (U, descending(stretches), V)
 }
 
-/// How well a sweep knows its angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next sweep squares.
-/// Only what the last one leaves, stays.
+/// How well a sweep knows its angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next
+/// sweep squares. Only what the last one leaves, stays.
 const ROUGH: bool = false;
 const EXACT: bool = true;
 
@@ -146,12 +150,13 @@ fn orthogonalize<R: Real, const ANGLE: bool>(
 
 /// Cosine and sine of θ with tan 2θ = g/d, where d = |bp|² − |bq|² and g = 2 bp·bq, and cos θ ≥ 0.
 ///
-/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both cases
-/// the root that leaves |bp| ≥ |bq|. A rough root gives a rough angle.
+/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both
+/// cases the root that leaves |bp| ≥ |bq|. A rough root gives a rough angle.
 #[inline(always)]
 fn rotation<R: Real, const ANGLE: bool>(d: R, g: R) -> (R, R) {
-    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0: the root is then
-    // twice that of the smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
+    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0: the
+    // root is then twice that of the smallest normal number, its square normal, and c² + s² = 1 to rounding
+    // down here too.
     let floor = R::splat(4.0 * R::MIN_POSITIVE);
     let squared = d.mul_add(d, g.mul_add(g, floor));
     let x = d.abs() + if ANGLE == EXACT { squared.sqrt() } else { squared.rough_sqrt() };
@@ -164,7 +169,8 @@ fn rotation<R: Real, const ANGLE: bool>(d: R, g: R) -> (R, R) {
 
 /// Follows the rotation of two columns in the quaternion (w, x, y, z) of V, up to a positive factor.
 ///
-/// (1 + c, s)/2 is parallel to (cos θ/2, sin θ/2) and since c ≥ 0 its norm is at least 1/√2. The axes are +z, −y, +x.
+/// (1 + c, s)/2 is parallel to (cos θ/2, sin θ/2) and since c ≥ 0 its norm is at least 1/√2. The axes are +z,
+/// −y, +x.
 #[inline(always)]
 fn turn<R: Real>(quaternion: &mut [R; 4], pair: usize, c: R, s: R) {
     let half = R::splat(0.5);
@@ -180,8 +186,8 @@ fn turn<R: Real>(quaternion: &mut [R; 4], pair: usize, c: R, s: R) {
 
 /// The rotation of a quaternion of any positive norm.
 ///
-/// All entries are divided by |q|², the diagonal too: an error of that divisor then disturbs VᵀV half as much as in
-/// the usual form 1 − 2 (y² + z²)/|q|².
+/// All entries are divided by |q|², the diagonal too: an error of that divisor then disturbs VᵀV half as much
+/// as in the usual form 1 − 2 (y² + z²)/|q|².
 #[inline(always)]
 fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
     let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
@@ -197,8 +203,8 @@ fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
 
 /// U and λ from columns bk = λk uk that are orthogonal up to rounding, the longest first.
 ///
-/// Only the direction of the first column and the one of the second within the plane normal to it are used, and the
-/// third is their completion: det U = +1 for any rank, and λ3 = u3·b3 carries the sign of det F.
+/// Only the direction of the first column and the one of the second within the plane normal to it are used,
+/// and the third is their completion: det U = +1 for any rank, and λ3 = u3·b3 carries the sign of det F.
 #[inline(always)]
 fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -238,7 +244,8 @@ pub(super) fn completed<R: Real>([x, y, z]: [R; 3]) -> ([R; 3], [R; 3]) {
     ([one + sign * x * xa, sign * xya, -(sign * x)], [xya, sign + y * (y * a), -y])
 }
 
-/// The length of a vector and its reciprocal from the square; a length of 0 where that is not a normal number.
+/// The length of a vector and its reciprocal from the square; a length of 0 where that is not a normal
+/// number.
 #[inline(always)]
 fn length<R: Real>(squared: R) -> (R, R) {
     let smallest = R::splat(R::MIN_POSITIVE);
@@ -249,8 +256,9 @@ fn length<R: Real>(squared: R) -> (R, R) {
 
 /// λ1 ≥ λ2 ≥ |λ3|.
 ///
-/// The columns are sorted already, their lengths out of order by a few u λ1 at most. Exchanging the lengths alone
-/// changes U diag(λ) Vᵀ by no more than that, and the vectors of stretches so close are arbitrary anyway.
+/// The columns are sorted already, their lengths out of order by a few u λ1 at most. Exchanging the lengths
+/// alone changes U diag(λ) Vᵀ by no more than that, and the vectors of stretches so close are arbitrary
+/// anyway.
 #[inline(always)]
 fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
     let magnitude = s3.abs();
@@ -274,7 +282,8 @@ pub(super) fn determinant<R: Real>(F: &Matrix3<R>) -> R {
     abc + ((da + db) + dc + (dab + dabc))
 }
 
-/// a b − c d as the sum of a rounded value and a correction of at most 2u (|a b| + |c d|), which may be the larger one.
+/// a b − c d as the sum of a rounded value and a correction of at most 2u (|a b| + |c d|), which may be the
+/// larger one.
 #[inline(always)]
 fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> (R, R) {
     let (ab, dab) = a.two_product(b);

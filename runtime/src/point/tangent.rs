@@ -1,11 +1,13 @@
-//! The tangent dP/dF of a point as a block-diagonal map, and how the singular vectors drop out of its derivation.
+//! The tangent dP/dF of a point as a block-diagonal map, and how the singular vectors drop out of its
+//! derivation.
 //!
 //! # From the singular value decomposition to fifteen numbers
 //!
-//! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. A 2×2 system for each pair of stretches and
-//! each of the nine entries of F gives those, and where two stretches meet these systems are singular. This
-//! derivation follows the same equations up to that point and then leaves out the systems: what they would be solved
-//! for cancels. The numbers of the paper's equations stand beside ours; where these differ, the paper has a misprint.
+//! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. A 2×2 system for each pair of
+//! stretches and each of the nine entries of F gives those, and where two stretches meet these systems are
+//! singular. This derivation follows the same equations up to that point and then leaves out the systems:
+//! what they would be solved for cancels. The numbers of the paper's equations stand beside ours; where these
+//! differ, the paper has a misprint.
 //!
 //! With F̂ = Λ = diag(λ) and P̂ = diag(ψ1, ψ2, ψ3), where ψi = ∂ψ/∂λi,
 //!
@@ -35,8 +37,8 @@
 //! (Uᵀ dP V)ii = Σj ψij dF̂jj                  (eq. 5, which needs the whole row, not ψii alone)
 //! ```
 //!
-//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two entries
-//! of the answer:
+//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two
+//! entries of the answer:
 //!
 //! ```text
 //! dF̂ij =  Ωij λj + λi Θij         (Uᵀ dP V)ij =  Ωij ψj + ψi Θij
@@ -45,19 +47,19 @@
 //!
 //! (For a dF with a single 1 at (i, j), dF̂kl = u_ik v_jl: the right sides of eq. 6 are that and −u_il v_jk.)
 //!
-//! The system on the left has the determinant λi² − λj²; solving it is where the paper regularises. Take sums and
-//! differences instead, and each line knows one unknown only:
+//! The system on the left has the determinant λi² − λj²; solving it is where the paper regularises. Take sums
+//! and differences instead, and each line knows one unknown only:
 //!
 //! ```text
 //! dF̂ij + dF̂ji = (λj − λi)(Ωij − Θij)       (Uᵀ dP V)ij + (Uᵀ dP V)ji = (ψj − ψi)(Ωij − Θij)
 //! dF̂ij − dF̂ji = (λi + λj)(Ωij + Θij)       (Uᵀ dP V)ij − (Uᵀ dP V)ji = (ψi + ψj)(Ωij + Θij)
 //! ```
 //!
-//! so that the sum is multiplied by the *flip* D⁻ij = (ψi − ψj)/(λi − λj) and the difference by the *twist* D⁺ij =
-//! (ψi + ψj)/(λi + λj). Ω and Θ are gone, and with them every division: that both quotients are smooth functions of
-//! the stretches (the twist only for energies even in two stretches at once) is a matter of the energy, and its
-//! [`Material::blocks`](crate::Material::blocks) computes them without ever forming the gap. A pair of equal
-//! stretches, where U and V are arbitrary, is nothing special.
+//! so that the sum is multiplied by the *flip* D⁻ij = (ψi − ψj)/(λi − λj) and the difference by the *twist*
+//! D⁺ij = (ψi + ψj)/(λi + λj). Ω and Θ are gone, and with them every division: that both quotients are smooth
+//! functions of the stretches (the twist only for energies even in two stretches at once) is a matter of the
+//! energy, and its [`Material::blocks`](crate::Material::blocks) computes them without ever forming the gap.
+//! A pair of equal stretches, where U and V are arbitrary, is nothing special.
 //!
 //! **Together**, with a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2:
 //!
@@ -67,36 +69,39 @@
 //! ⎣33⎦   ⎣ψ13 ψ23 ψ33⎦ ⎣33⎦
 //! ```
 //!
-//! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs to the
-//! plus sign, a change of shape, and equals 2μ at rest; D⁺ belongs to the minus sign, an infinitesimal rotation, and
-//! is 0 at rest. The map has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of [`Blocks`]. Its
-//! eigenvalues are those of dP/dF, since dF ↦ Uᵀ dF V is an orthogonal change of the nine coordinates; so
-//! [`project`](mod@super::project) works on it instead.
+//! In the orthonormal basis of the diagonal entries and (ij ± ji)/√2 the pairs are diagonal too: D⁻ belongs
+//! to the plus sign, a change of shape, and equals 2μ at rest; D⁺ belongs to the minus sign, an infinitesimal
+//! rotation, and is 0 at rest. The map has 9 + 6 = 15 non-zeros, of which 12 are distinct: the content of
+//! [`Blocks`]. Its eigenvalues are those of dP/dF, since dF ↦ Uᵀ dF V is an orthogonal change of the nine
+//! coordinates; so [`project`](mod@super::project) works on it instead.
 //!
 //! # From fifteen numbers to matrices
 //!
-//! With αii = ψii, αij = a, βij = b, the entry of dP/dF between (row, column) of P and of F is a sum of products of
-//! two entries of U and two of V:
+//! With αii = ψii, αij = a, βij = b, the entry of dP/dF between (row, column) of P and of F is a sum of
+//! products of two entries of U and two of V:
 //!
 //! ```text
 //! ∂Pax/∂Fcy = Σ_lm αlm (Ual Ucl)(Vxm Vym) + Σ_i<j  Uai Ucj (ψij Vxi Vyj + bij Vxj Vyi)
 //!                                                + Uaj Uci (ψij Vxj Vyi + bij Vxi Vyj)
 //! ```
 //!
-//! With the sums and differences S, D of UaiUcj and UajUci, s, d those of VxiVyj and VxjVyi, a pair's share is
+//! With the sums and differences S, D of UaiUcj and UajUci, s, d those of VxiVyj and VxjVyi, a pair's share
+//! is
 //!
 //! ```text
 //! ½ (ψij + bij) S s + ½ (ψij − bij) D d.
 //! ```
 //!
-//! The first term is symmetric in x and y, the second one antisymmetric, and it vanishes for a = c. [`contract`] evaluates
-//! both once for each x ≤ y, with the products of V shared among all (a, c) and those of U among all (x, y).
-//! Nothing in it asks V to be orthogonal, nor to be about columns of F: with √volume·Dm⁻ᵀ-transformed rows in place
-//! of V it gives an element's stiffness, whose product of 9×12, 9×9 and 12×9 matrices is thereby never formed.
+//! The first term is symmetric in x and y, the second one antisymmetric, and it vanishes for a = c.
+//! [`contract`] evaluates both once for each x ≤ y, with the products of V shared among all (a, c) and those
+//! of U among all (x, y). Nothing in it asks V to be orthogonal, nor to be about columns of F: with
+//! √volume·Dm⁻ᵀ-transformed rows in place of V it gives an element's stiffness, whose product of 9×12, 9×9
+//! and 12×9 matrices is thereby never formed.
 //!
 //! This module knows no material and no mesh.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 
 #![expect(non_snake_case, reason = "U, V, W, dF, dP as in the essay above")]
 
@@ -194,9 +199,9 @@ pub trait Assemble<R> {
 /// are coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K
 /// between (c, y) and (a, x) is the same number as between (a, x) and (c, y).
 ///
-/// With W = V, K is dP/dF. With `W[n]` = √volume · Vᵀ∇Nn for the gradients of three shape functions over the rest
-/// shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus their sum.
-/// About 560 multiplications and additions.
+/// With W = V, K is dP/dF. With `W[n]` = √volume · Vᵀ∇Nn for the gradients of three shape functions over the
+/// rest shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus
+/// their sum. About 560 multiplications and additions.
 #[inline(always)]
 pub fn contract<R: Real>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut impl Assemble<R>) {
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
@@ -214,7 +219,8 @@ pub fn contract<R: Real>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to:
         Products::new(W[0], W[2]),
         Products::new(W[1], W[2]),
     ];
-    // A loop that stays one: unrolled, it would move the numbers above between registers and memory many times over.
+    // A loop that stays one: unrolled, it would move the numbers above between registers and memory many
+    // times over.
     for (a, c) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
         let left = Products::new(U[a], U[c]);
         let squares = three!(l => dot(left.straight, alpha[l]));

@@ -112,7 +112,8 @@ impl ElementGroup {
         self.tile.stretches(lane)
     }
 
-    /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as well.
+    /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as
+    /// well.
     pub(crate) fn evaluate(
         &mut self,
         material: &dyn TileMaterial<f64>,

@@ -1,8 +1,8 @@
 //! Rubber in a testing machine.
 //!
 //! \[Tre44\] Treloar, *Stress-strain data for vulcanised rubber under various types of deformation*, 1944.
-//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
-//! incompressible rubberlike solids*, 1972.
+//! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
+//! for incompressible rubberlike solids*, 1972.
 
 use piola::mesh::Bounds;
 use piola::step::Damping;

@@ -63,7 +63,8 @@ pub(crate) struct StepRow {
     /// Largest distance of a node from the reference trajectory at the instants compared, body heights.
     #[serde(with = "finite")]
     pub(crate) error: f64,
-    /// The same distance from the motion with the same time step whose steps are solved as far as rounding allows.
+    /// The same distance from the motion with the same time step whose steps are solved as far as rounding
+    /// allows.
     #[serde(with = "finite")]
     pub(crate) algebraic_error: f64,
     /// Of a free body, from begin to end: the change of the total energy relative to it,
@@ -99,7 +100,8 @@ pub(crate) struct GrowthRow {
     pub(crate) stopped: Option<String>,
 }
 
-/// `null` for what is not finite. Read again, it is NaN: nothing to show; but for errors, which are then as large as can be.
+/// `null` for what is not finite. Read again, it is NaN: nothing to show; but for errors, which are then as
+/// large as can be.
 mod finite {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

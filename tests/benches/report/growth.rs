@@ -1,9 +1,9 @@
 //! Time and memory of a time step against the number of elements, for each linear solver.
 //!
-//! A cube of rubber, one face held, falls under its own weight: boxes of all sizes solve the same problem. Each step of a
-//! hundredth of a second makes one iteration of Newton's method. A solver is stopped where the next box would, by what the
-//! ones before it took, take it beyond 2 GiB or 60 s; but for conjugate gradients to 10⁻³, which an inexact Newton's method
-//! asks for: these go to a million elements.
+//! A cube of rubber, one face held, falls under its own weight: boxes of all sizes solve the same problem.
+//! Each step of a hundredth of a second makes one iteration of Newton's method. A solver is stopped where the
+//! next box would, by what the ones before it took, take it beyond 2 GiB or 60 s; but for conjugate gradients
+//! to 10⁻³, which an inexact Newton's method asks for: these go to a million elements.
 
 use std::time::Instant;
 
@@ -74,7 +74,8 @@ pub(crate) fn rows(
         let threads = rayon::ThreadPoolBuilder::new().num_threads(series.threads).build();
         let threads = threads.map_err(|error| error.to_string())?;
         let failed = |error: Box<dyn std::error::Error>| format!("{}: {error}", series.solver);
-        // Each thread gets its buffers, such as 64 MiB for dense products, with the first box, which does not count.
+        // Each thread gets its buffers, such as 64 MiB for dense products, with the first box, which does not
+        // count.
         series.measure(series.cells[0], memory, &threads).map_err(failed)?;
         let mut before: Vec<GrowthRow> = Vec::new();
         for &cells in series.cells {

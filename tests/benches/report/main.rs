@@ -1,7 +1,8 @@
 //! Measures speed against error and writes what it found: `cargo speed-report`.
 //!
-//! Into `target/report/`: charts, a page that tells what they mean, and all numbers as `report.json`. With `--quick` in less than two
-//! minutes, from fewer repeats and smaller bodies. Nothing else should run on the machine.
+//! Into `target/report/`: charts, a page that tells what they mean, and all numbers as `report.json`. With
+//! `--quick` in less than two minutes, from fewer repeats and smaller bodies. Nothing else should run on the
+//! machine.
 //!
 //! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
 //! * [`steps`]: trajectories of the dinosaur and the horse, wall time against the error of a much finer one;

@@ -1,7 +1,7 @@
 //! Nanoseconds and errors of P and dP/dF, method by method, at the reference cases.
 //!
-//! Each family of cases is a contest of its own: all methods get its deformation gradients in one run, in turns, and what
-//! they leave behind is judged.
+//! Each family of cases is a contest of its own: all methods get its deformation gradients in one run, in
+//! turns, and what they leave behind is judged.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;

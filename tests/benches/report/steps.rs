@@ -1,9 +1,11 @@
-//! Wall time of a trajectory against its error, over time steps, Newton's method, filters, linear solvers and precisions.
+//! Wall time of a trajectory against its error, over time steps, Newton's method, filters, linear solvers and
+//! precisions.
 //!
-//! The dinosaur is played as its scene says. So is the horse, but from a start at two thirds of its height: from the ground,
-//! where most elements are flat, each time step leads elsewhere, which is measured too. A further body flies free: the
-//! dinosaur without pins, pulls and damping, turning and stretching, whose momenta no force changes. The reference is the same motion with 1/64 of the scene's time step
-//! and Newton's method to a relative 10⁻¹⁰; that of 1/128 says how far the reference itself may be off.
+//! The dinosaur is played as its scene says. So is the horse, but from a start at two thirds of its height:
+//! from the ground, where most elements are flat, each time step leads elsewhere, which is measured too. A
+//! further body flies free: the dinosaur without pins, pulls and damping, turning and stretching, whose
+//! momenta no force changes. The reference is the same motion with 1/64 of the scene's time step and Newton's
+//! method to a relative 10⁻¹⁰; that of 1/128 says how far the reference itself may be off.
 
 use std::time::Instant;
 

@@ -1,6 +1,7 @@
 //! Ours beside other ways to the same numbers, timed in turns.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 
 use piola::Material;
 use piola::batch::{Batch, Layout, Stages, TileMaterial};
@@ -34,8 +35,8 @@ fn hand_written_in<E: Stages>(effort: Effort, task: Task, table: &mut String) {
     }
 }
 
-/// P and 81 entries of dP/dF, f64: the paper's method, compiled for the instructions of each back end, beside a batch with the
-/// best one.
+/// P and 81 entries of dP/dF, f64: the paper's method, compiled for the instructions of each back end, beside
+/// a batch with the best one.
 pub(crate) fn paper(effort: Effort) -> String {
     let titles = ["energy", "compiled for", "decomposition", "[SZLSB11]", "tangents", "factor (goal: ≥ 20)"];
     let mut table = header(&titles);

@@ -1,7 +1,7 @@
 //! What must be reached, beside what is.
 //!
-//! The goals are absolute times of a Zen 5 core at 4.2 GHz with AVX-512; on other machines they only orient. Those of streaming
-//! are times that the same run has measured.
+//! The goals are absolute times of a Zen 5 core at 4.2 GHz with AVX-512; on other machines they only orient.
+//! Those of streaming are times that the same run has measured.
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
@@ -70,7 +70,8 @@ fn product(effort: Effort, goal: f64, table: &mut String) {
     judged::<f64>(table, "products", goal, lines, Some(points));
 }
 
-/// The better way to store; the goal is [`STREAMING_SLACK`] times the larger of the time in cache and that of moving.
+/// The better way to store; the goal is [`STREAMING_SLACK`] times the larger of the time in cache and that of
+/// moving.
 fn streamed<E: Stages>(effort: Effort, streaming_effort: Effort, task: Task, table: &mut String) {
     let mut arrays = Arrays::<E>::new(task, Layout::Lines, STREAMING);
     for (name, energy) in &materials::<E>() {

@@ -1,7 +1,7 @@
 //! Prints how fast everything is, as Markdown: `cargo bench -p piola-tests --bench speed`.
 //!
-//! With `--quick` less often repeated, and for the best back end only. One core; nothing else should run on the machine, and
-//! where something does, the least of the times is disturbed least.
+//! With `--quick` less often repeated, and for the best back end only. One core; nothing else should run on
+//! the machine, and where something does, the least of the times is disturbed least.
 
 #![expect(clippy::print_stdout, reason = "a command line tool")]
 

@@ -1,6 +1,7 @@
 //! P and dP/dF by the method of the paper, one point after the other: what batches are compared with.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
@@ -30,14 +31,15 @@ impl PointByPoint {
         Self { F, results: vec![Default::default(); IN_CACHE] }
     }
 
-    /// Computes all after the decomposition of this library, compiled for the instructions of a back end: the compiler may use
-    /// them as it likes.
+    /// Computes all after the decomposition of this library, compiled for the instructions of a back end: the
+    /// compiler may use them as it likes.
     pub(crate) fn run(&mut self, material: &impl Material, backend: Backend) {
         backend.run(Compute::<_, false> { material, points: self });
         black_box(&self.results);
     }
 
-    /// The same after the decomposition that a library has ready, nalgebra's. A point where it fails keeps its numbers.
+    /// The same after the decomposition that a library has ready, nalgebra's. A point where it fails keeps
+    /// its numbers.
     pub(crate) fn run_with_library(&mut self, material: &impl Material, backend: Backend) {
         backend.run(Compute::<_, true> { material, points: self });
         black_box(&self.results);

@@ -9,7 +9,8 @@ type Result = std::result::Result<(), Box<dyn std::error::Error>>;
 /// A shear with some stretch.
 const F: [[f64; 3]; 3] = [[1.2, 0.3, 0.0], [0.0, 0.9, 0.1], [0.0, 0.0, 1.1]];
 
-/// Rounding errors that two ways of summing may differ by, as multiples of the largest stress: a few units of rounding.
+/// Rounding errors that two ways of summing may differ by, as multiples of the largest stress: a few units of
+/// rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 fn largest(stress: &[f64]) -> f64 {

@@ -1,10 +1,12 @@
 //! Counts the instructions of every kernel with callgrind, which no other program on the machine disturbs.
 //!
 //! `cargo bench -p piola-speed --bench instructions` prints them; with `-- --check` it compares them with the
-//! committed ones of this compiler's version, `tests/speed/instructions/rustc-*.txt`, and fails where a kernel has grown by more
-//! than 3 %; with `-- --bless` it writes those. Where valgrind or AVX2 is missing it says so and checks nothing.
+//! committed ones of this compiler's version, `tests/speed/instructions/rustc-*.txt`, and fails where a
+//! kernel has grown by more than 3 %; with `-- --bless` it writes those. Where valgrind or AVX2 is missing it
+//! says so and checks nothing.
 //!
-//! Instructions are not time. But where nothing but the code has changed, more of them are a reason to measure.
+//! Instructions are not time. But where nothing but the code has changed, more of them are a reason to
+//! measure.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 

@@ -6,7 +6,8 @@ pub const RESOLUTION: f64 = 0.05;
 /// A time and an error.
 type Pair = (f64, f64);
 
-/// Of each pair, whether none of the others [`beats`] it: the Pareto front. What is not finite is never on it.
+/// Of each pair, whether none of the others [`beats`] it: the Pareto front. What is not finite is never on
+/// it.
 #[must_use]
 pub fn front(pairs: &[Pair], unit: f64) -> Vec<bool> {
     let is_finite = |(time, error): Pair| time.is_finite() && error.is_finite();
@@ -16,8 +17,8 @@ pub fn front(pairs: &[Pair], unit: f64) -> Vec<bool> {
 
 /// Whether the first is faster and its error no larger, or as fast and its error smaller.
 ///
-/// Times within the [`RESOLUTION`] are equal, and so are errors within a `unit`, the unit roundoff: which of two is smaller
-/// is then luck.
+/// Times within the [`RESOLUTION`] are equal, and so are errors within a `unit`, the unit roundoff: which of
+/// two is smaller is then luck.
 #[must_use]
 pub fn beats((time, error): Pair, (other_time, other_error): Pair, unit: f64) -> bool {
     let is_faster = time < (1.0 - RESOLUTION) * other_time;

@@ -1,5 +1,5 @@
-//! What is timed and counted: the kernels of a batch on the same points, for the table of speeds, the bench and the counts of
-//! instructions.
+//! What is timed and counted: the kernels of a batch on the same points, for the table of speeds, the bench
+//! and the counts of instructions.
 //!
 //! * [`Task`]: what a batch is asked for; [`Arrays`]: the numbers that go in and come out;
 //! * [`materials`]: of which energies;
@@ -41,8 +41,8 @@ pub const LAMBDA: f64 = 1.5;
 
 /// A polynomial, a logarithm and three powers of each stretch: the energies that are timed, by name.
 ///
-/// Ogden's shear part has the three terms of his rubber. No energy is faster or slower for its parameters, unless a filter
-/// finds nothing to do.
+/// Ogden's shear part has the three terms of his rubber. No energy is faster or slower for its parameters,
+/// unless a filter finds nothing to do.
 #[must_use]
 pub fn materials<E: Scalar>() -> [(&'static str, Box<dyn TileMaterial<E>>); 3] {
     [

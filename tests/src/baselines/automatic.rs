@@ -1,12 +1,12 @@
-//! Derivatives by second-order dual numbers: an energy is written once, and its gradient and Hessian come from its
-//! evaluation on numbers that carry 1 + N + N² derivatives along (the crate `num-dual`).
+//! Derivatives by second-order dual numbers: an energy is written once, and its gradient and Hessian come
+//! from its evaluation on numbers that carry 1 + N + N² derivatives along (the crate `num-dual`).
 //!
-//! [`through_stretches`] takes three variables: ψi and ψij are exact to rounding, flips and twists remain to be made
-//! of them, as plain quotients. [`through_decomposition`] takes all of F and needs no theory at all, for it sends the
-//! numbers through an eigenvalue iteration on FᵀF. That costs 91 numbers for each one, and is wrong where eigenvalues
-//! meet: the iteration ends when the *values* off the diagonal are zero, whatever their derivatives are, and at rest
-//! it never begins. Close to that point derivatives of the eigenvectors, gap⁻¹ and gap⁻² in size, cancel in the
-//! result.
+//! [`through_stretches`] takes three variables: ψi and ψij are exact to rounding, flips and twists remain to
+//! be made of them, as plain quotients. [`through_decomposition`] takes all of F and needs no theory at all,
+//! for it sends the numbers through an eigenvalue iteration on FᵀF. That costs 91 numbers for each one, and
+//! is wrong where eigenvalues meet: the iteration ends when the *values* off the diagonal are zero, whatever
+//! their derivatives are, and at rest it never begins. Close to that point derivatives of the eigenvectors,
+//! gap⁻¹ and gap⁻² in size, cancel in the result.
 
 #![expect(non_snake_case, reason = "F, P, C as in the literature")]
 
@@ -29,7 +29,8 @@ pub trait Potential {
     fn energy<D: DualNum + Copy>(&self, stretches: [D; 3]) -> D;
 }
 
-/// ψi and ψij by automatic differentiation, flips and twists as (ψi ∓ ψj)/(λi ∓ λj), NaN where stretches are equal.
+/// ψi and ψij by automatic differentiation, flips and twists as (ψi ∓ ψj)/(λi ∓ λj), NaN where stretches are
+/// equal.
 #[must_use]
 pub fn through_stretches<T: Real + DualNumFloat>(potential: &impl Potential, svd: &Svd<T>) -> Blocks<T> {
     let energy = |l: SVector<Dual2SVec<T, 3>, 3>| potential.energy([l[0], l[1], l[2]]);

@@ -1,14 +1,15 @@
 //! Stress and tangent at stretches that are not allowed to become small, nor negative \[ITF04\].
 //!
-//! Every stretch below a limit is replaced by the limit, and the energy sees nothing else: P = U P̂(max(λ, limit)) Vᵀ, and
-//! dP/dF is assembled from the derivatives at the same clamped stretches. So a material with a domain J > 0 gets along with
-//! inverted elements, without being asked what it would do there.
+//! Every stretch below a limit is replaced by the limit, and the energy sees nothing else: P = U P̂(max(λ,
+//! limit)) Vᵀ, and dP/dF is assembled from the derivatives at the same clamped stretches. So a material with
+//! a domain J > 0 gets along with inverted elements, without being asked what it would do there.
 //!
-//! Where the clamp acts, this tangent is no derivative of this P: along the clamped direction P does not change at all, while
-//! the tangent has the whole stiffness that the material has at the limit, and quotients take the clamped stretches for
-//! the true ones. Newton's method then takes another step than Newton's.
+//! Where the clamp acts, this tangent is no derivative of this P: along the clamped direction P does not
+//! change at all, while the tangent has the whole stiffness that the material has at the limit, and quotients
+//! take the clamped stretches for the true ones. Newton's method then takes another step than Newton's.
 //!
-//! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*, 2004.
+//! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*,
+//! 2004.
 
 use piola::material::Blocks;
 use piola::{Material, Real};

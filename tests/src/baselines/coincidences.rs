@@ -1,7 +1,8 @@
 //! dP/dF by differentiating P = F S(C), with a formula of its own for each coincidence of the stretches.
 //!
-//! This is what one arrives at by differentiating P with respect to F on paper \[GKJD09\]; the formulas are those of
-//! \[SPO08\], appendix A, for the derivative D = ∂S/∂C of an isotropic tensor function with principal values
+//! This is what one arrives at by differentiating P with respect to F on paper \[GKJD09\]; the formulas are
+//! those of \[SPO08\], appendix A, for the derivative D = ∂S/∂C of an isotropic tensor function with
+//! principal values
 //!
 //! ```text
 //! xa = λa²,   ya = ψa/λa,   yab = ∂ya/∂xb = (ψab/λa − δab ψa/λa²) / 2λb,   Na = va vaᵀ
@@ -26,21 +27,21 @@
 //!
 //! **All equal**: D = (y11 − y12) 1 + y12 I⊗I.
 //!
-//! Here dC² is the derivative of C² by C, 1 the identity on symmetric matrices, and since yac = yca the sources' two
-//! different coefficients of C⊗I and I⊗C are one. Then, D knowing symmetric increments only,
+//! Here dC² is the derivative of C² by C, 1 the identity on symmetric matrices, and since yac = yca the
+//! sources' two different coefficients of C⊗I and I⊗C are one. Then, D knowing symmetric increments only,
 //!
 //! ```text
 //! ∂Pij/∂Fkl = δik Sjl + 2 Σmp Fim Fkp Dmj,pl
 //! ```
 //!
-//! Which formula is right is a matter of a threshold, and none is accurate near it. Before the switch differences of
-//! close numbers are divided by their gap, and the error is u/gap, or u/gap² where a pair that counts as equal is
-//! close to the third stretch; behind the switch the derivative is that of other stretches. Where two stretches have
-//! opposite signs their squares coincide all the same, and S is no function of C there unless the energy is even. A
-//! stretch of zero divides by zero.
+//! Which formula is right is a matter of a threshold, and none is accurate near it. Before the switch
+//! differences of close numbers are divided by their gap, and the error is u/gap, or u/gap² where a pair that
+//! counts as equal is close to the third stretch; behind the switch the derivative is that of other
+//! stretches. Where two stretches have opposite signs their squares coincide all the same, and S is no
+//! function of C there unless the energy is even. A stretch of zero divides by zero.
 //!
-//! \[GKJD09\] Gao, Kim, James, Desai, as described by Sin et al., *Invertible Isotropic Hyperelasticity using SVD
-//! Gradients*, 2011. \[SPO08\] de Souza Neto, Perić, Owen, *Computational Methods for Plasticity*, 2008.
+//! \[GKJD09\] Gao, Kim, James, Desai, as described by Sin et al., *Invertible Isotropic Hyperelasticity using
+//! SVD Gradients*, 2011. \[SPO08\] de Souza Neto, Perić, Owen, *Computational Methods for Plasticity*, 2008.
 
 #![expect(non_snake_case, reason = "F, C, S, D, N as above")]
 

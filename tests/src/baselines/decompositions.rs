@@ -1,8 +1,8 @@
-//! Other signed singular value decompositions F = U diag(λ) Vᵀ: those of two linear algebra libraries, and Jacobi's
-//! method on FᵀF.
+//! Other signed singular value decompositions F = U diag(λ) Vᵀ: those of two linear algebra libraries, and
+//! Jacobi's method on FᵀF.
 //!
-//! All have the conventions of [`Svd`](piola::point::Svd): det U = det V = 1 and λ1 ≥ λ2 ≥ |λ3|, so that any of them
-//! can stand in for [`piola::point::svd()`].
+//! All have the conventions of [`Svd`](piola::point::Svd): det U = det V = 1 and λ1 ≥ λ2 ≥ |λ3|, so that any
+//! of them can stand in for [`piola::point::svd()`].
 
 mod jacobi;
 mod libraries;
@@ -33,7 +33,8 @@ mod tests {
     use crate::baselines::testing::{IDENTITY, SHEARED, convert, error};
     use piola::random::Random;
 
-    /// Backward error ‖F − U diag(λ) Vᵀ‖/‖F‖ and distance of U and V from rotations, in units of u; the larger one.
+    /// Backward error ‖F − U diag(λ) Vᵀ‖/‖F‖ and distance of U and V from rotations, in units of u; the
+    /// larger one.
     #[track_caller]
     fn defect<R: Real<Mask = bool> + Into<f64>>(F: &Matrix3<R>, svd: &Svd<R>) -> f64 {
         let Svd { U, stretches: [l1, l2, l3], V } = svd;

@@ -4,9 +4,9 @@
 //! ∂P/∂Fkl ≈ (P(F + h ek elᵀ) − P(F − h ek elᵀ)) / 2h
 //! ```
 //!
-//! The formula errs by h²/6 times a third derivative of P, rounding adds u ‖P‖/h: together at least about u^⅔, for h
-//! ≈ u^⅓ ‖F‖, a third of the digits. Where an energy is stiff in one direction and soft in another no single step
-//! serves both.
+//! The formula errs by h²/6 times a third derivative of P, rounding adds u ‖P‖/h: together at least about
+//! u^⅔, for h ≈ u^⅓ ‖F‖, a third of the digits. Where an energy is stiff in one direction and soft in another
+//! no single step serves both.
 
 #![expect(non_snake_case, reason = "F, P as in the formula")]
 
@@ -15,8 +15,9 @@ use piola::{Material, Real};
 
 /// dP/dF, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F, with h = `step` · max |Fij|.
 ///
-/// Of each entry the two values that floating point makes of Fkl ± h are taken, and divided by their own distance.
-/// Symmetric up to the error of the method. NaN where one of the eighteen stresses is, at F = 0 for instance.
+/// Of each entry the two values that floating point makes of Fkl ± h are taken, and divided by their own
+/// distance. Symmetric up to the error of the method. NaN where one of the eighteen stresses is, at F = 0 for
+/// instance.
 #[inline(always)]
 #[must_use]
 pub fn tangent<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<R>, step: f64) -> [[R; 9]; 9] {

@@ -15,12 +15,13 @@
 //! a = 4 (W11 + W2)        b = −2 W2        c = 2 (W1 + W2 I1)
 //! ```
 //!
-//! (∂cof/∂F holds 36 entries of F with signs.) Of the 45 distinct entries only those terms are computed that an
-//! energy has: with about 200 operations for Saint Venant–Kirchhoff, and 120 and a logarithm for neo-Hookean, a fused
-//! one counting once. But nothing is known of the eigenvalues, so that a filter costs a 9×9 eigenproblem.
+//! (∂cof/∂F holds 36 entries of F with signs.) Of the 45 distinct entries only those terms are computed that
+//! an energy has: with about 200 operations for Saint Venant–Kirchhoff, and 120 and a logarithm for
+//! neo-Hookean, a fused one counting once. But nothing is known of the eigenvalues, so that a filter costs a
+//! 9×9 eigenproblem.
 //!
-//! What floating point does here: cofactors are known to u λ1² and J to u λ1³, which may be all of it where λ1 λ2 λ3 is
-//! much smaller.
+//! What floating point does here: cofactors are known to u λ1² and J to u λ1³, which may be all of it where
+//! λ1 λ2 λ3 is much smaller.
 
 #![expect(non_snake_case, reason = "F, P, B, C, W, I1, I2, J as above")]
 

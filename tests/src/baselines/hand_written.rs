@@ -1,4 +1,5 @@
-//! Energies with derivatives by hand, with as few operations as their author could find: what generated code is timed beside.
+//! Energies with derivatives by hand, with as few operations as their author could find: what generated code
+//! is timed beside.
 //!
 //! Each agrees with the energy of the same name in the catalogue, which says the formula and its source.
 

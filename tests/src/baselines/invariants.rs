@@ -1,5 +1,5 @@
-//! P and dP/dF through the invariants I = tr C, II = C:C, III = det C of C = FᵀF, in the frame where F is diagonal
-//! \[TSIF05\].
+//! P and dP/dF through the invariants I = tr C, II = C:C, III = det C of C = FᵀF, in the frame where F is
+//! diagonal \[TSIF05\].
 //!
 //! With F = U Σ Vᵀ and the derivatives of ψ(I, II, III) the stress there is
 //!
@@ -18,15 +18,16 @@
 //!                                          ⎣β α⎦ij
 //! ```
 //!
-//! For each of the nine dF, δP = U (∂P̂/∂F̂ : Uᵀ δF V) Vᵀ. III/σi and III/(σiσj) are products of the stretches, and
-//! nothing divides by one.
+//! For each of the nine dF, δP = U (∂P̂/∂F̂ : Uᵀ δF V) Vᵀ. III/σi and III/(σiσj) are products of the
+//! stretches, and nothing divides by one.
 //!
-//! There is no quotient in it, so no gap is special, and derivatives are by hand for every energy; those that are no
-//! functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of degree six in the
-//! stretches: its square, which the logarithm's second derivative divides by, is the first number to leave the range
-//! of a format. And it has forgotten the sign of det F.
+//! There is no quotient in it, so no gap is special, and derivatives are by hand for every energy; those that
+//! are no functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of
+//! degree six in the stretches: its square, which the logarithm's second derivative divides by, is the first
+//! number to leave the range of a format. And it has forgotten the sign of det F.
 //!
-//! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*, 2005.
+//! \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh simulation*,
+//! 2005.
 
 #![expect(non_snake_case, reason = "U, V, P, dF, A, α, β, γ as in the paper")]
 
@@ -55,7 +56,8 @@ pub struct Derivatives<R> {
     pub hessian: Matrix3<R>,
 }
 
-/// P and dP/dF, Pa; row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F, symmetric up to rounding.
+/// P and dP/dF, Pa; row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F, symmetric up to
+/// rounding.
 #[inline(always)]
 #[must_use]
 pub fn evaluate<R: Real>(energy: &impl InvariantEnergy, svd: &Svd<R>) -> (Matrix3<R>, [[R; 9]; 9]) {

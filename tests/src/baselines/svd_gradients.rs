@@ -1,19 +1,21 @@
 //! dP/dF by differentiating U, λ and V \[SZLSB11\], one entry of F after the other.
 //!
-//! The equations are the paper's with its misprints mended (they are named in [`piola::point::tangent`]), otherwise
-//! literal: for each of the nine entries of F and each pair of stretches a 2×2 system gives the derivatives of U and V,
+//! The equations are the paper's with its misprints mended (they are named in [`piola::point::tangent`]),
+//! otherwise literal: for each of the nine entries of F and each pair of stretches a 2×2 system gives the
+//! derivatives of U and V,
 //!
 //! ```text
 //! ⎡λl λk⎤ ⎡Ωkl⎤   ⎡ u_ik v_jl⎤
 //! ⎣λk λl⎦ ⎣Θkl⎦ = ⎣−u_il v_jk⎦                                              (eq. 6)
 //! ```
 //!
-//! with determinant λl² − λk². Where that is close to zero the paper regularises after Tikhonov: (AᵀA + εI) x = Aᵀb. It
-//! sets the threshold to 10⁻⁶ and is silent about ε; here ε is the square of the threshold, about the smallest that
-//! still does its work. The system is then solved for something else: at equal stretches the part of A that vanishes
-//! takes the shear stiffness with it.
+//! with determinant λl² − λk². Where that is close to zero the paper regularises after Tikhonov: (AᵀA + εI) x
+//! = Aᵀb. It sets the threshold to 10⁻⁶ and is silent about ε; here ε is the square of the threshold, about
+//! the smallest that still does its work. The system is then solved for something else: at equal stretches
+//! the part of A that vanishes takes the shear stiffness with it.
 //!
-//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
 
 #![expect(non_snake_case, reason = "U, V, P, dF as in the paper")]
 

@@ -39,7 +39,8 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
         if self.exponent > 60 {
             return if self.negative { Self::ZERO } else { Self::NOT_A_NUMBER };
         }
-        // y = e^(|self|/2^m) − 1 by its series, then e^(2x) − 1 = y (2 + y): small numbers keep their relative accuracy.
+        // y = e^(|self|/2^m) − 1 by its series, then e^(2x) − 1 = y (2 + y): small numbers keep their
+        // relative accuracy.
         let doublings = (self.exponent + 12).max(0);
         let x = self.abs().scaled(-doublings);
         let mut terms = 2;

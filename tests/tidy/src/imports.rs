@@ -144,7 +144,8 @@ impl<'a> Graph<'a> {
 
     /// Groups of modules that need each other in a circle, each with the needs inside it.
     ///
-    /// Needs between a module and its own child do not count: the parent re-exports, the child is a part of it.
+    /// Needs between a module and its own child do not count: the parent re-exports, the child is a part of
+    /// it.
     #[must_use]
     pub fn circles(&self) -> Vec<Vec<Edge>> {
         let is_child = |a: usize, b: usize| self.modules[a].parent == Some(b);

@@ -46,9 +46,9 @@ fn lines_of_word(tokens: TokenStream, word: &str) -> Vec<usize> {
 /// Traits by which an energy answers.
 const ANSWERS: [&str; 4] = ["Material", "Varying", "Law", "Response"];
 
-/// No shipped code answers for a material but by other ones: a method of such a trait, and any that is called as one, hands
-/// the stretches on to methods of these names and combines what they answer. Who looks at a stretch computes an energy or a
-/// derivative of it by hand.
+/// No shipped code answers for a material but by other ones: a method of such a trait, and any that is called
+/// as one, hands the stretches on to methods of these names and combines what they answer. Who looks at a
+/// stretch computes an energy or a derivative of it by hand.
 #[test]
 fn no_derivative_is_written_by_hand() {
     let crates = crates();
@@ -96,7 +96,8 @@ fn of_three(argument: &FnArg) -> Option<&Pat> {
     }
 }
 
-/// Whether a method with arguments of three numbers does something else with them than hand them on to one of `answers`.
+/// Whether a method with arguments of three numbers does something else with them than hand them on to one of
+/// `answers`.
 fn looks_at_stretches(signature: &Signature, body: &Block, answers: &BTreeSet<String>) -> bool {
     let body: Vec<_> = body.to_token_stream().into_iter().collect();
     signature.inputs.iter().filter_map(of_three).any(|pattern| match pattern {

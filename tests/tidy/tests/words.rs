@@ -33,7 +33,8 @@ fn summaries_make_sense_alone() {
     forbid("summaries that do not stand alone", &found);
 }
 
-/// As wide as rustfmt makes code; what cannot be broken, such as an address or a row of a table, may be wider.
+/// As wide as rustfmt makes code; what cannot be broken, such as an address or a row of a table, may be
+/// wider.
 #[test]
 fn comments_are_as_wide_as_code() {
     let configuration = read(Path::new("rustfmt.toml"));
@@ -41,12 +42,16 @@ fn comments_are_as_wide_as_code() {
     let width: usize = width.and_then(|width| width.parse().ok()).expect("max_width in rustfmt.toml");
     let mut found = Vec::new();
     for (path, text) in sources() {
+        let mut is_displayed = false;
         for (number, line) in text.lines().enumerate() {
             let Some(words) = comment(line).map(|words| words.trim_start_matches(['/', '!']).trim()) else {
                 continue;
             };
+            is_displayed ^= words.starts_with("```");
             let columns = line.chars().count();
-            let can_be_broken = words.contains(' ') && !words.starts_with('|') && !words.starts_with('[');
+            // Lines of a display, such as a formula or a program, are not broken.
+            let can_be_broken =
+                !is_displayed && words.contains(' ') && !words.starts_with('|') && !words.starts_with('[');
             if columns > width && can_be_broken {
                 found.push(format!("{}:{}: {columns} columns", path.display(), number + 1));
             }

@@ -1,5 +1,5 @@
-//! Derivatives with respect to the parameters, for least-squares fits: of the stress, and of the conditions on
-//! parameters.
+//! Derivatives with respect to the parameters, for least-squares fits: of the stress, and of the conditions
+//! on parameters.
 //!
 //! A number is a variable like a stretch. The entry q of a list m occurs in sums T = Σₚ b(mₚ, …), wherever
 //! these stand, and sums may stand in the terms of others. With ∂e/∂T the derivative by the whole sum as one

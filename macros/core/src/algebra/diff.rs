@@ -141,7 +141,7 @@ fn may_vanish(graph: &Graph, base: Id) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::interpret::{Point, Value, evaluate};
+    use crate::algebra::interpret::{Estimate, Point, evaluate};
     use crate::algebra::testing::expressions;
 
     /// Compares with finite differences: their error must fall as h².
@@ -151,7 +151,7 @@ mod tests {
             let derivative = Differentiator::default().by_stretch(&mut graph, e, 1);
             let at = |y: f64| Point { stretches: [1.3, y, 0.6], ..Point::default() };
             let value = |id, y| {
-                let Value { value, .. } = evaluate(&graph, id, &at(y));
+                let Estimate { value, .. } = evaluate(&graph, id, &at(y));
                 value
             };
             let exact = value(derivative, 0.9);

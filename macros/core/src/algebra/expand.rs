@@ -24,7 +24,7 @@ const HIGHEST_POWER: i64 = 8;
 type Term = (Id, Rational);
 
 /// The expression multiplied out, or unchanged if the result is too long or leaves the range of fractions.
-pub fn expand(graph: &mut Graph, e: Id) -> Id {
+pub fn expand_products(graph: &mut Graph, e: Id) -> Id {
     let earlier = graph.overflowed();
     let expanded = terms(graph, e).map(|terms| graph.linear(Rational::ZERO, &terms));
     match expanded {
@@ -62,7 +62,7 @@ fn terms(graph: &mut Graph, e: Id) -> Option<Vec<Term>> {
                 all.push((graph.mul(outside, sum), coefficient.checked_mul(number)?));
             }
         }
-        _ => all.push((graph.map_children(e, &mut expand), Rational::ONE)),
+        _ => all.push((graph.map_children(e, &mut expand_products), Rational::ONE)),
     }
     (all.len() <= MOST_TERMS).then_some(all)
 }
@@ -127,12 +127,12 @@ mod tests {
         let fourfold = g.linear(Rational::ZERO, &[(a, Rational::integer(4)), (b, Rational::integer(4))]);
         let half = g.scale(fourfold, Rational::new(1, 2).unwrap());
         let expected = g.linear(Rational::ZERO, &[(a, Rational::integer(2)), (b, Rational::integer(2))]);
-        assert_eq!(expand(&mut g, half), expected);
+        assert_eq!(expand_products(&mut g, half), expected);
         let (square, product) = (g.powi(sum, 2), g.mul(a, b));
         let [aa, bb] = [a, b].map(|x| g.powi(x, 2));
         let expected =
             g.linear(Rational::ZERO, &[aa, bb, product, product].map(|term| (term, Rational::ONE)));
-        assert_eq!(expand(&mut g, square), expected);
+        assert_eq!(expand_products(&mut g, square), expected);
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
         let [first, second] = [all, length].map(|sum| g.mul(kappa, sum));
         let expected =
             g.linear(Rational::ZERO, &[(first, Rational::integer(-2)), (second, Rational::integer(3))]);
-        assert_eq!(expand(&mut g, sum), expected);
+        assert_eq!(expand_products(&mut g, sum), expected);
     }
 
     #[test]
@@ -164,13 +164,13 @@ mod tests {
         let sum = g.sum_of(&[plain, lowered, raised]);
         let terms = [(plain, Rational::new(4, 3).unwrap()), (half, Rational::integer(9))];
         let expected = g.linear(Rational::ZERO, &terms);
-        assert_eq!(expand(&mut g, sum), expected);
+        assert_eq!(expand_products(&mut g, sum), expected);
     }
 
     #[test]
     fn values_stay_and_too_long_sums_too() {
         for (name, mut graph, e) in expressions() {
-            let expanded = expand(&mut graph, e);
+            let expanded = expand_products(&mut graph, e);
             let point = Point { stretches: [1.3, 0.9, 0.6], ..Point::default() };
             let [before, after] = [e, expanded].map(|id| evaluate(&graph, id, &point));
             // A dozen roundings of each.
@@ -181,6 +181,6 @@ mod tests {
         let stretches = [0, 1, 2].map(|i| g.stretch(i));
         let sum = g.sum_of(&stretches);
         let power = g.powi(sum, HIGHEST_POWER);
-        assert_eq!(expand(&mut g, power), power);
+        assert_eq!(expand_products(&mut g, power), power);
     }
 }

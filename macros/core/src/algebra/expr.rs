@@ -22,7 +22,7 @@ mod traversal;
 pub struct Id(u32);
 
 /// Index of a parameter in the order of the declaration.
-pub type Parameter = usize;
+pub type ParameterIndex = usize;
 
 /// Index of a stretch: 0, 1, 2 for λ1, λ2, λ3.
 pub type Stretch = usize;
@@ -35,9 +35,9 @@ pub enum Node {
     /// A principal strain λk − 1, known more accurately than the stretch.
     Strain(Stretch),
     /// A scalar parameter.
-    Parameter(Parameter),
+    Parameter(ParameterIndex),
     /// The current entry of a list, inside a [`Node::Sum`].
-    Entry(Parameter),
+    Entry(ParameterIndex),
     /// A literal that has no exact fraction in 128 bits; the bits of an `f64`.
     Float(u64),
     /// constant + Σ coefficient · term. No term is itself such a sum with coefficient ±1.
@@ -54,7 +54,7 @@ pub enum Node {
     /// Exponential function.
     Exp(Id),
     /// Derivative of the given order, 0 … 2, of a function that is a parameter.
-    Function(Parameter, u8, Id),
+    Function(ParameterIndex, u8, Id),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),
     /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
@@ -77,7 +77,7 @@ pub enum Node {
     /// (eᵃ − eᵇ) / (a − b).
     ExpQuotient(Id, Id),
     /// Divided difference of the derivative of the given order of a function that is a parameter.
-    FunctionQuotient(Parameter, u8, Id, Id),
+    FunctionQuotient(ParameterIndex, u8, Id, Id),
     /// (a^r − b^r) / (a − b) for a real exponent.
     PowerQuotient(Id, Id, Exponent),
     /// a / max(b, floor), where b may vanish and the quotient then has a pole.

@@ -100,7 +100,7 @@ pub fn substitute_rest(graph: &mut Graph, e: Id) -> Id {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::interpret::{Point, Value, evaluate};
+    use crate::algebra::interpret::{Estimate, Point, evaluate};
     use crate::algebra::testing::expressions;
 
     /// Compares with e(λ) − e(1, 1, 1) where nothing cancels.
@@ -110,7 +110,7 @@ mod tests {
             let increment = Increments::default().increment(&mut graph, e);
             let point = Point { stretches: [1.7, 1.1, 0.6], ..Point::default() };
             let rest = Point { stretches: [1.0; 3], ..Point::default() };
-            let Value { value: here, magnitude } = evaluate(&graph, e, &point);
+            let Estimate { value: here, magnitude } = evaluate(&graph, e, &point);
             let expected = here - evaluate(&graph, e, &rest).value;
             let found = evaluate(&graph, increment, &point).value;
             assert!((found - expected).abs() <= 1e-13 * magnitude, "{name}: {found} for {expected}");

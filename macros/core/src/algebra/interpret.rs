@@ -24,7 +24,7 @@ pub struct Point {
 
 /// A value with the magnitude that bounds its rounding error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Value {
+pub struct Estimate {
     /// The value.
     pub value: f64,
     /// The value with every subtraction replaced by an addition of magnitudes: rounding errors are a few u of
@@ -34,15 +34,15 @@ pub struct Value {
 
 /// Evaluates a node at a point.
 #[must_use]
-pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Value {
+pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Estimate {
     evaluate_with(graph, id, point, &mut Memo::default())
 }
 
 /// Values of nodes at one point.
-pub type Memo = FxHashMap<Id, Value>;
+pub type Memo = FxHashMap<Id, Estimate>;
 
 /// Evaluates one of several nodes at a point: `memo` keeps the values of all nodes evaluated there.
-pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut Memo) -> Value {
+pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut Memo) -> Estimate {
     Interpreter { graph, point, entry: 0, memo }.value(id)
 }
 
@@ -54,7 +54,7 @@ struct Interpreter<'a> {
 }
 
 impl Interpreter<'_> {
-    fn value(&mut self, id: Id) -> Value {
+    fn value(&mut self, id: Id) -> Estimate {
         if let Some(&done) = self.memo.get(&id) {
             return done;
         }
@@ -63,8 +63,8 @@ impl Interpreter<'_> {
         result
     }
 
-    fn rule(&mut self, id: Id) -> Value {
-        let exact = |value: f64| Value { value, magnitude: value.abs() };
+    fn rule(&mut self, id: Id) -> Estimate {
+        let exact = |value: f64| Estimate { value, magnitude: value.abs() };
         let epsilon = self.point.epsilon;
         match self.graph.node(id) {
             Node::Stretch(i) => exact(self.point.stretches[*i]),
@@ -76,7 +76,7 @@ impl Interpreter<'_> {
             Node::Linear { constant, terms } => {
                 let mut sum = exact(constant.to_f64());
                 for &(term, coefficient) in terms {
-                    let Value { value, magnitude } = self.value(term);
+                    let Estimate { value, magnitude } = self.value(term);
                     sum.value += coefficient.to_f64() * value;
                     sum.magnitude += coefficient.to_f64().abs() * magnitude;
                 }
@@ -85,23 +85,23 @@ impl Interpreter<'_> {
             Node::Product(factors) => {
                 let mut product = exact(1.0);
                 for &(base, exponent) in factors {
-                    let Value { value, magnitude } = self.power(base, exponent);
+                    let Estimate { value, magnitude } = self.power(base, exponent);
                     product.value *= value;
                     product.magnitude *= magnitude;
                 }
                 product
             }
             Node::Ln(a) => {
-                let Value { value, magnitude } = self.value(*a);
-                Value { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
+                let Estimate { value, magnitude } = self.value(*a);
+                Estimate { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
             }
             Node::Exp(a) => {
-                let Value { value, magnitude } = self.value(*a);
-                Value { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
+                let Estimate { value, magnitude } = self.value(*a);
+                Estimate { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
             }
             Node::Function(k, order, a) => {
-                let Value { value, magnitude } = self.value(*a);
-                Value { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
+                let Estimate { value, magnitude } = self.value(*a);
+                Estimate { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
             }
             Node::FunctionQuotient(k, order, a, b) => {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
@@ -111,7 +111,8 @@ impl Interpreter<'_> {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
                     let (graph, point, memo) = (self.graph, self.point, &mut Memo::default());
-                    let Value { value, magnitude } = Interpreter { graph, point, entry, memo }.value(*body);
+                    let Estimate { value, magnitude } =
+                        Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;
                     sum.magnitude += magnitude;
                 }
@@ -155,9 +156,9 @@ impl Interpreter<'_> {
                 exact(power_quotient(a, b, r))
             }
             Node::PoleQuotient(a, b) => {
-                let Value { value, magnitude } = self.value(*a);
+                let Estimate { value, magnitude } = self.value(*a);
                 let denominator = self.value(*b).value;
-                Value { value: value / denominator, magnitude: (magnitude / denominator).abs() }
+                Estimate { value: value / denominator, magnitude: (magnitude / denominator).abs() }
             }
         }
     }
@@ -166,12 +167,12 @@ impl Interpreter<'_> {
         exponent.rational.to_f64() + exponent.real.map_or(0.0, |real| self.value(real).value)
     }
 
-    fn power(&mut self, base: Id, exponent: Exponent) -> Value {
-        let Value { value, magnitude } = self.value(base);
+    fn power(&mut self, base: Id, exponent: Exponent) -> Estimate {
+        let Estimate { value, magnitude } = self.value(base);
         // Whole positive powers are products of bases that may have cancelled; for others, a relative error
         // of the base is multiplied by the exponent.
         if let Some(n @ 0..) = exponent.as_integer() {
-            return Value { value: value.powi(n as i32), magnitude: magnitude.powi(n as i32) };
+            return Estimate { value: value.powi(n as i32), magnitude: magnitude.powi(n as i32) };
         }
         let r = self.exponent(exponent);
         let power = match exponent {
@@ -182,9 +183,12 @@ impl Interpreter<'_> {
         };
         // A base that has cancelled altogether has no relative error.
         if value == 0.0 {
-            return Value { value: power, magnitude: magnitude.powf(r) };
+            return Estimate { value: power, magnitude: magnitude.powf(r) };
         }
-        Value { value: power, magnitude: power.abs() * (1.0 + (r * (magnitude / value.abs() - 1.0)).abs()) }
+        Estimate {
+            value: power,
+            magnitude: power.abs() * (1.0 + (r * (magnitude / value.abs() - 1.0)).abs()),
+        }
     }
 
     fn plain_derivative(&mut self, function: &Extended, order: u8, x: f64) -> f64 {
@@ -225,8 +229,8 @@ fn stand_in_phase(parameter: usize, order: u8) -> f64 {
     0.7 + parameter as f64 + f64::from(order) * std::f64::consts::FRAC_PI_2
 }
 
-// Divided differences to a few u at every gap, by the functions of the standard library that are made for small arguments,
-// and not by the series of the runtime, which are judged with them.
+// Divided differences to a few u at every gap, by the functions of the standard library that are made for
+// small arguments, and not by the series of the runtime, which are judged with them.
 
 /// (ln a − ln b)/(a − b).
 fn ln_quotient(a: f64, b: f64) -> f64 {

@@ -7,7 +7,7 @@
 //! μ = a₁ p₁ + a₂ p₂ + a₀,   λ = b₁ p₁ + b₂ p₂ + b₀
 //! ```
 
-use crate::algebra::expr::{Graph, Id, Node, Parameter};
+use crate::algebra::expr::{Graph, Id, Node, ParameterIndex};
 use crate::algebra::rational::Rational;
 
 /// The two parameters, in the order of the declaration.
@@ -18,7 +18,7 @@ pub struct YoungPoisson(pub [Determined; 2]);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Determined {
     /// The index of the parameter.
-    pub parameter: Parameter,
+    pub parameter: ParameterIndex,
     /// The coefficient of the shear modulus.
     pub mu: Rational,
     /// The coefficient of the first Lamé parameter.
@@ -30,14 +30,14 @@ pub struct Determined {
 impl YoungPoisson {
     /// The parameter, if it is one of the two.
     #[must_use]
-    pub fn of(&self, parameter: Parameter) -> Option<&Determined> {
+    pub fn of(&self, parameter: ParameterIndex) -> Option<&Determined> {
         self.0.iter().find(|determined| determined.parameter == parameter)
     }
 }
 
 /// The parameters that follow from the small-strain moduli μ and λ, if exactly two do.
 pub fn young_poisson(graph: &Graph, moduli: [Id; 2]) -> Option<YoungPoisson> {
-    let [p, q] = <[Parameter; 2]>::try_from(entering(graph, moduli)?).ok()?;
+    let [p, q] = <[ParameterIndex; 2]>::try_from(entering(graph, moduli)?).ok()?;
     let [shear, lame] = moduli.map(|modulus| affine(graph, modulus, [p, q]));
     let ((a, shear), (b, lame)) = (shear?, lame?);
     // Cramer's rule for a₁ p₁ + a₂ p₂ = μ − a₀, b₁ p₁ + b₂ p₂ = λ − b₀.
@@ -54,7 +54,7 @@ pub fn young_poisson(graph: &Graph, moduli: [Id; 2]) -> Option<YoungPoisson> {
 }
 
 /// The parameters that enter the moduli in the order of the declaration; `None` if one is a list.
-fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<Parameter>> {
+fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<ParameterIndex>> {
     let mut found = Vec::new();
     for id in graph.reachable(&moduli) {
         match graph.node(id) {
@@ -68,7 +68,7 @@ fn entering(graph: &Graph, moduli: [Id; 2]) -> Option<Vec<Parameter>> {
 }
 
 /// The coefficients of both parameters and the constant, if the modulus is affine in them.
-fn affine(graph: &Graph, modulus: Id, [p, q]: [Parameter; 2]) -> Option<([Rational; 2], Rational)> {
+fn affine(graph: &Graph, modulus: Id, [p, q]: [ParameterIndex; 2]) -> Option<([Rational; 2], Rational)> {
     match graph.node(modulus) {
         Node::Parameter(k) => {
             let coefficient = |of| if of == *k { Rational::ONE } else { Rational::ZERO };

@@ -106,7 +106,7 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
     let names = declaration.parameters.iter().map(|parameter| &parameter.name);
     let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(DoesNotRestore)));
     quote! {
-        /// The same material with another way to meet what lies outside its domain.
+        /// Replaces what the material does outside its domain.
         ///
         /// # Errors
         /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.

@@ -1,4 +1,5 @@
-//! The implementation of `Declared`: the description of a material, its construction from plain values and its moduli.
+//! The implementation of `Declared`: the description of a material, its construction from plain values and
+//! its moduli.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

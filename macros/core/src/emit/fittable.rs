@@ -1,5 +1,5 @@
-//! The implementation of `Fittable`: the values of the parameters, the derivatives of the gradient with respect to them, and
-//! what keeps them admissible.
+//! The implementation of `Fittable`: the values of the parameters, the derivatives of the gradient with
+//! respect to them, and what keeps them admissible.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

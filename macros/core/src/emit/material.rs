@@ -66,8 +66,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     }
 }
 
-/// What a material says of itself without a point: whether it has a pole, where its domain ends and what it does there, and its
-/// moduli.
+/// Properties of a material that no deformation decides: its pole, the end of its domain, its moduli.
 fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let program = model.program(&model.moduli.clone());
     let (statements, outputs) = Writer::new(declaration).program(&program);
@@ -229,8 +228,8 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     }
 }
 
-/// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the other bounds are
-/// positive expressions.
+/// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the
+/// other bounds are positive expressions.
 fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
     let program = model.program(&model.bounds.clone());
     let (statements, outputs) = writer.program(&program);

@@ -1,4 +1,4 @@
-//! What a mistaken declaration expands to: its mistakes, and a type with inert implementations.
+//! The expansion of a mistaken declaration: its mistakes, and a type with inert implementations.
 //!
 //! So that one mistake gives one message, and not another one for each place that uses the material.
 
@@ -32,7 +32,7 @@ fn lengths(signature: &Signature) -> Vec<Ident> {
     names
 }
 
-/// What the constructor takes, and the parameters with their methods' results.
+/// Types of the constructor's arguments, and the parameters with the results of their methods.
 fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Ident, Type)>) {
     let (mut types, mut methods): (_, Vec<(Ident, Type)>) = (Vec::new(), Vec::new());
     for input in signature.inputs.iter().skip(1) {

@@ -11,7 +11,7 @@ use crate::schedule::{Op, Program, Statement, Value};
 #[derive(Clone)]
 pub(super) struct Writer<'a> {
     declaration: &'a Declaration,
-    /// What the three stretches of the graph are called.
+    /// Names of the three stretches of the graph.
     variables: [Ident; 3],
     /// Before the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
@@ -47,7 +47,7 @@ impl<'a> Writer<'a> {
         Self { declaration, variables, prefix, index, threshold, strains }
     }
 
-    /// The same for programs in which stretches stand for other variables.
+    /// A writer for programs in which stretches stand for other variables.
     pub(super) fn with_variables(&self, variables: [Ident; 3]) -> Self {
         Self { variables, ..self.clone() }
     }
@@ -230,8 +230,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A call of a function that is a parameter. No expression needs a higher derivative than there is; NaN would not go
-    /// unnoticed.
+    /// A call of a function that is a parameter. No expression needs a higher derivative than there is; NaN
+    /// would not go unnoticed.
     fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[impl ToTokens]) -> TokenStream {
         let Some(method) = method else { return literal(f64::NAN) };
         let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));

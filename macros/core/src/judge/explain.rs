@@ -278,7 +278,7 @@ impl Explainer<'_, '_> {
 /// The isochoric invariants in place of the plain ones: `I1b` for `I1`, or both.
 /// How to state units, and how not to.
 const UNITS: &str = "correct the energy, or the units that end the documentation of its parameters, as in \
-    `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number written into the energy has a unit, \
+    `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a unit, \
     make it a parameter, or leave the units out";
 
 /// A unit with its preposition.

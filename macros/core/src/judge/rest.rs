@@ -6,10 +6,10 @@ use super::source::at_rest;
 use super::vanishing::vanishing;
 use super::volume::has_value;
 use crate::algebra::diff::Differentiator;
-use crate::algebra::expand::expand;
+use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::increment::substitute_rest;
-use crate::algebra::interpret::{Point, Value, evaluate};
+use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::algebra::simplify::simplify;
 use crate::printer::rust;
 use crate::read::parse::Declaration;
@@ -40,7 +40,7 @@ pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings:
             let rest = at_rest(point);
             let magnitude = evaluate(graph, gradient, &rest).magnitude;
             // NaN is a mistake too.
-            !is_zero(Value { value: evaluate(graph, stress, &rest).value, magnitude })
+            !is_zero(Estimate { value: evaluate(graph, stress, &rest).value, magnitude })
         })
     };
     // Only the constructor knows the slopes of functions.
@@ -72,7 +72,7 @@ pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings:
 /// The shorter one of a sum of products and the form that differentiation leaves.
 fn legible(graph: &mut Graph, declaration: &Declaration, e: Id) -> Id {
     let left = simplify(graph, e);
-    let expanded = expand(graph, left);
+    let expanded = expand_products(graph, left);
     let expanded = simplify(graph, expanded);
     let [length, expanded_length] = [left, expanded].map(|e| rust(graph, declaration, e).len());
     if expanded_length < length { expanded } else { left }

@@ -6,7 +6,7 @@ use super::finding::{Finding, Violation};
 use super::source::{Source, at_rest};
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
-use crate::algebra::interpret::{Point, Value, evaluate};
+use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::domain::Volume;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
@@ -101,12 +101,12 @@ pub(crate) fn candidates(
 }
 
 /// Whether a value is zero but for rounding.
-pub(crate) fn is_zero(Value { value, magnitude }: Value) -> bool {
+pub(crate) fn is_zero(Estimate { value, magnitude }: Estimate) -> bool {
     value.abs() <= NOISE * magnitude
 }
 
 /// Whether a value is below zero by more than rounding.
-pub(crate) fn is_negative(Value { value, magnitude }: Value) -> bool {
+pub(crate) fn is_negative(Estimate { value, magnitude }: Estimate) -> bool {
     value < -NOISE * magnitude
 }
 

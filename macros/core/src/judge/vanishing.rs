@@ -7,7 +7,7 @@ use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, is_zero};
 use super::source::{Source, at_rest};
 use super::volume::has_value;
 use crate::algebra::expr::{Graph, Id, Node};
-use crate::algebra::interpret::{Memo, Point, Value, evaluate, evaluate_with};
+use crate::algebra::interpret::{Estimate, Memo, Point, evaluate, evaluate_with};
 use crate::read::resolve::isochoric;
 
 /// Paths away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and one,
@@ -128,11 +128,11 @@ fn changes_sign(graph: &Graph, source: &Source<'_>, id: Id, point: &Point) -> bo
             let mut memo = Memo::default();
             let mut value = |id| evaluate_with(graph, id, &point, &mut memo);
             let is_inside = source.bounds.iter().all(|&bound| value(bound).value > 0.0);
-            let Value { value, magnitude } = value(id);
+            let Estimate { value, magnitude } = value(id);
             if !is_inside || !value.is_finite() {
                 return false;
             }
-            if is_negative(Value { value: sign * value, magnitude }) {
+            if is_negative(Estimate { value: sign * value, magnitude }) {
                 return true;
             }
         }

@@ -119,13 +119,17 @@ pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
 /// All mistakes of form, each at its token.
 pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declaration> {
     let mut diagnostics = Diagnostics::default();
-    let declaration = read(arguments, item, &mut diagnostics);
+    let declaration = parse_declaration(arguments, item, &mut diagnostics);
     diagnostics.finish(declaration)
 }
 
 /// Reads the attribute's arguments and its item, and adds mistakes to the diagnostics: the rest of the
 /// declaration may have further ones in its meaning.
-pub fn read(arguments: TokenStream, item: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
+pub fn parse_declaration(
+    arguments: TokenStream,
+    item: TokenStream,
+    diagnostics: &mut Diagnostics,
+) -> Option<Declaration> {
     let mut options = Options::read(arguments, diagnostics);
     let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
     plain(&signature, diagnostics);

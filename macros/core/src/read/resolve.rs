@@ -47,7 +47,7 @@ const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts 
 
 /// The energy and the bounds of its domain with I1, I2, J in the places of the three stretches, unless a
 /// stretch is named. The declaration must be free of mistakes.
-pub fn by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>)> {
+pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>)> {
     let mut diagnostics = Diagnostics::default();
     let mut resolver =
         Resolver { scope: Scope::Invariants, ..Resolver::new(declaration, graph, &mut diagnostics) };

@@ -23,7 +23,7 @@ pub fn table(declaration: &Declaration, counts: &[(&str, Count)]) -> String {
 
 /// Operations of about the same cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum OperationKind {
     /// Addition, subtraction, change of sign, maximum or selection.
     Addition,
     /// Multiplication of two values.
@@ -45,14 +45,14 @@ pub enum Kind {
 }
 
 /// Operations that cost more than an addition, with their signs in a summary.
-const COSTLY: [(Kind, &str); 7] = [
-    (Kind::Division, "÷"),
-    (Kind::Root, "√"),
-    (Kind::Logarithm, "ln"),
-    (Kind::Exponential, "exp"),
-    (Kind::Power, "pow"),
-    (Kind::Quotient, "Δ"),
-    (Kind::Function, "f"),
+const COSTLY: [(OperationKind, &str); 7] = [
+    (OperationKind::Division, "÷"),
+    (OperationKind::Root, "√"),
+    (OperationKind::Logarithm, "ln"),
+    (OperationKind::Exponential, "exp"),
+    (OperationKind::Power, "pow"),
+    (OperationKind::Quotient, "Δ"),
+    (OperationKind::Function, "f"),
 ];
 
 /// An explanation of the counts for their readers.
@@ -62,7 +62,7 @@ pub const LEGEND: &str = "A fused multiplication and addition counts as two oper
 
 /// The operations of a program: those done once, and those done for each entry of lists of one length.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Count(Sorted<(Kind, Option<Length>), usize>);
+pub struct Count(Sorted<(OperationKind, Option<Length>), usize>);
 
 impl Count {
     /// The count of a whole program.
@@ -75,7 +75,7 @@ impl Count {
                 Statement::Loop { length, body, totals } => {
                     body.iter().for_each(|(_, op)| count.add(op, Some(*length)));
                     if !totals.is_empty() {
-                        *entry(&mut count.0, (Kind::Addition, Some(*length))) += totals.len();
+                        *entry(&mut count.0, (OperationKind::Addition, Some(*length))) += totals.len();
                     }
                 }
             }
@@ -91,7 +91,7 @@ impl Count {
 
     /// The number of operations of the given kinds, for lists of the given lengths.
     #[must_use]
-    pub fn number(&self, lengths: &[usize], is_asked: impl Fn(Kind) -> bool) -> usize {
+    pub fn number(&self, lengths: &[usize], is_asked: impl Fn(OperationKind) -> bool) -> usize {
         let times = |length: Option<Length>| length.map_or(1, |length| lengths[length]);
         self.0.iter().filter(|((kind, _), _)| is_asked(*kind)).map(|((_, l), n)| n * times(*l)).sum()
     }
@@ -108,7 +108,7 @@ impl Count {
     }
 
     /// The number of operations of the given kinds, such as `12 + 31 N`.
-    fn text(&self, declaration: &Declaration, is_asked: impl Fn(Kind) -> bool) -> String {
+    fn text(&self, declaration: &Declaration, is_asked: impl Fn(OperationKind) -> bool) -> String {
         let mut once = 0;
         let mut each: Sorted<Length, usize> = Sorted::new();
         for &((kind, length), number) in &self.0 {
@@ -133,7 +133,7 @@ fn term(number: usize, length: &Expr) -> String {
 }
 
 /// The kinds that an operation counts as.
-fn kinds(op: &Op) -> &'static [Kind] {
+fn kinds(op: &Op) -> &'static [OperationKind] {
     match op {
         Op::Literal(_) | Op::Stretch(_) | Op::Strain(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => {
             &[]
@@ -144,21 +144,23 @@ fn kinds(op: &Op) -> &'static [Kind] {
         | Op::Max(..)
         | Op::Below(..)
         | Op::WhereNegative(..)
-        | Op::PoleFloor => &[Kind::Addition],
-        Op::Mul(..) => &[Kind::Multiplication],
-        Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => &[Kind::Addition, Kind::Multiplication],
-        Op::Div(..) => &[Kind::Division],
-        Op::Sqrt(_) | Op::Cbrt(_) => &[Kind::Root],
-        Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[Kind::Logarithm],
-        Op::Exp(_) => &[Kind::Exponential],
-        Op::Power(..) => &[Kind::Power],
+        | Op::PoleFloor => &[OperationKind::Addition],
+        Op::Mul(..) => &[OperationKind::Multiplication],
+        Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => {
+            &[OperationKind::Addition, OperationKind::Multiplication]
+        }
+        Op::Div(..) => &[OperationKind::Division],
+        Op::Sqrt(_) | Op::Cbrt(_) => &[OperationKind::Root],
+        Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[OperationKind::Logarithm],
+        Op::Exp(_) => &[OperationKind::Exponential],
+        Op::Power(..) => &[OperationKind::Power],
         Op::Pair { .. }
         | Op::LnQuotient(_)
         | Op::PowerQuotient { .. }
         | Op::ExpQuotient { .. }
         | Op::FunctionQuotient(..)
         | Op::ShareAbove(..)
-        | Op::ShareBelow(..) => &[Kind::Quotient],
-        Op::Function(..) => &[Kind::Function],
+        | Op::ShareBelow(..) => &[OperationKind::Quotient],
+        Op::Function(..) => &[OperationKind::Function],
     }
 }

@@ -1,6 +1,6 @@
 //! Programs: operations in order, and loops over lists.
 
-use crate::algebra::expr::{Length, Parameter, Stretch};
+use crate::algebra::expr::{Length, ParameterIndex, Stretch};
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,9 +16,9 @@ pub enum Op {
     /// The strain λ − 1 of one of them.
     Strain(Stretch),
     /// A scalar parameter.
-    Parameter(Parameter),
+    Parameter(ParameterIndex),
     /// The current entry of a list.
-    Entry(Parameter),
+    Entry(ParameterIndex),
     /// The threshold ε of the extension.
     Epsilon,
     /// Smallest denominator of a quotient at a pole.
@@ -54,9 +54,9 @@ pub enum Op {
     /// The logarithm of a product of three values.
     LnProduct([Value; 3]),
     /// Derivative of the given order of a function that is a parameter.
-    Function(Parameter, u8, Value),
+    Function(ParameterIndex, u8, Value),
     /// Divided difference of such a derivative.
-    FunctionQuotient(Parameter, u8, Value, Value),
+    FunctionQuotient(ParameterIndex, u8, Value, Value),
     /// The larger of two values.
     Max(Value, Value),
     /// min(first − second, 0).

@@ -1,12 +1,13 @@
 //! Voigt's notation: symmetric tensors as six numbers, tangents between them as 6×6 matrices.
 //!
-//! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction that they
-//! lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22, 33, 12, 13, 23: its
-//! number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and columns of a tangent too.
+//! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction
+//! that they lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22,
+//! 33, 12, 13, 23: its number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and
+//! columns of a tangent too.
 //!
-//! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components: 11, 22,
-//! 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work, and a tangent
-//! that is stored by its components takes strains to stresses.
+//! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components:
+//! 11, 22, 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work,
+//! and a tangent that is stored by its components takes strains to stresses.
 //!
 //! This module knows no stretches and no blocks.
 
@@ -22,7 +23,8 @@ pub type Matrix6<R> = [[R; 6]; 6];
 /// Row and column, counted from zero, of each of the six numbers: 11, 22, 33, 23, 13, 12.
 pub const ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
-/// The place of entry (i, j) in the [`ORDER`]: component ijkl of a tangent C is `C[INDEX[i][j]][INDEX[k][l]]`.
+/// The place of entry (i, j) in the [`ORDER`]: component ijkl of a tangent C is
+/// `C[INDEX[i][j]][INDEX[k][l]]`.
 pub const INDEX: [[usize; 3]; 3] = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
 
 /// The six numbers of a stress; where the matrix is not quite symmetric, of its symmetric part.
@@ -39,7 +41,8 @@ pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
     INDEX.map(|row| row.map(|index| numbers[index]))
 }
 
-/// The six numbers of a strain, shears doubled; where the matrix is not quite symmetric, of its symmetric part.
+/// The six numbers of a strain, shears doubled; where the matrix is not quite symmetric, of its symmetric
+/// part.
 #[inline(always)]
 #[must_use]
 pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {

@@ -1,5 +1,5 @@
-//! The oracle is the definition: residuals of F − U diag(λ) Vᵀ, UᵀU − I, VᵀV − I in about 106 bits, sharing no code
-//! with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
+//! The oracle is the definition: residuals of F − U diag(λ) Vᵀ, UᵀU − I, VᵀV − I in about 106 bits, sharing
+//! no code with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
 
 use super::*;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
@@ -274,7 +274,8 @@ fn bounds_hold_for_small_integers() {
     check::<f32>();
 }
 
-/// Lanes without instructions of their own do what a number does alone, and no lane knows what the others hold.
+/// Lanes without instructions of their own do what a number does alone, and no lane knows what the others
+/// hold.
 #[test]
 fn portable_lanes_give_the_bits_of_a_scalar() {
     let mut random = Random::new(7);
@@ -402,15 +403,15 @@ fn the_determinant_gives_tiny_stretches_with_sign_and_digits() {
     let mut random = Random::new(6);
     let mut plain_is_wrong = 0;
     for _ in 0..2_000 {
-        // The third row is the sum of the others plus (0, 0, d), so that det F = d (a1 b2 − a2 b1); integers of 20
-        // bits and a third column (1, −1, d) keep every entry exact.
+        // The third row is the sum of the others plus (0, 0, d), so that det F = d (a1 b2 − a2 b1); integers
+        // of 20 bits and a third column (1, −1, d) keep every entry exact.
         let [a1, a2, b1, b2] = std::array::from_fn(|_| random.uniform(-1e6, 1e6).round());
         let d = random.uniform(-1.0, 1.0) * 2f64.powi(-70);
         let F = [[a1, a2, 1.0], [b1, b2, -1.0], [a1 + b1, a2 + b2, d]];
         let expected = d * (a1 * b2 - a2 * b1);
         let [s1, s2, s3] = svd_signed_by_determinant::<f64>(&F).stretches;
-        // d is far below the entries, so its products are rounded to u each before they cancel; λ1 λ2 λ3 undoes a
-        // quotient in three more roundings.
+        // d is far below the entries, so its products are rounded to u each before they cancel; λ1 λ2 λ3
+        // undoes a quotient in three more roundings.
         let scale = d.abs() * ((a1 * b2).abs() + (a2 * b1).abs());
         let error = (s1 * s2 * s3 - expected).abs();
         assert!(error <= 8.0 * f64::EPSILON * scale, "{:e} for {expected:e}", s1 * s2 * s3);

@@ -3,8 +3,8 @@
 use super::*;
 use crate::material::Material;
 
-/// Checks that (f(h) − f(−h))/2h tends to `derivative` as h² does, with a floor of `rounding`/h from the rounding
-/// of f.
+/// Checks that (f(h) − f(−h))/2h tends to `derivative` as h² does, with a floor of `rounding`/h from the
+/// rounding of f.
 #[track_caller]
 pub(super) fn check_slope<const N: usize>(
     f: impl Fn(f64) -> [f64; N],
@@ -17,8 +17,8 @@ pub(super) fn check_slope<const N: usize>(
         let errors: [f64; N] = std::array::from_fn(|k| (ahead[k] - behind[k]) / (2.0 * h) - derivative[k]);
         norm(&errors)
     };
-    // The third derivative bounds the error at the first step; each step is a quarter of the last one, so 1/16 is
-    // due.
+    // The third derivative bounds the error at the first step; each step is a quarter of the last one, so
+    // 1/16 is due.
     let mut bound = error(2f64.powi(-7));
     for step in 0..8 {
         let h = 2f64.powi(-9 - 2 * step);

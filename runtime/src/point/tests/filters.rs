@@ -53,8 +53,8 @@ fn spectra() -> Vec<[f64; 3]> {
     spectra
 }
 
-/// Hessian blocks that hurt: the spectra in random frames and along the axes, graded by 10^±8 on top of that, and of
-/// one or two independent rows.
+/// Hessian blocks that hurt: the spectra in random frames and along the axes, graded by 10^±8 on top of that,
+/// and of one or two independent rows.
 fn hessians(random: &mut Random) -> Vec<[f64; 6]> {
     let graded = |[h11, h22, h33, h12, h13, h23]: [f64; 6], [a, b, c]: [f64; 3]| {
         [a * a * h11, b * b * h22, c * c * h33, a * b * h12, a * c * h13, b * c * h23]
@@ -102,8 +102,8 @@ fn convert<A: Real, B: Real>(blocks: &Blocks<A>, number: impl Fn(A) -> B) -> Blo
     }
 }
 
-/// A filter in precision E, on every back end, against the eigensolver in doubles; magnitudes are multiplied by a power of two
-/// on the way in and divided by it on the way out, which is exact.
+/// A filter in precision E, on every back end, against the eigensolver in doubles; magnitudes are multiplied
+/// by a power of two on the way in and divided by it on the way out, which is exact.
 #[track_caller]
 fn check<E: Scalar>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
     let given = convert(&tangent.blocks, |x| E::splat(x * magnitude));
@@ -119,8 +119,8 @@ fn check<E: Scalar>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
         Filter::Absolute => by_eigensolver(&plain, f64::abs),
     };
     let norm = norm(plain.iter().flatten());
-    // Backward errors of some 10 u ‖A‖ by us, and of some 60 by the sums of 81 products and the solver in doubles;
-    // neither function amplifies these by more than ln 9 ≈ 2.
+    // Backward errors of some 10 u ‖A‖ by us, and of some 60 by the sums of 81 products and the solver in
+    // doubles; neither function amplifies these by more than ln 9 ≈ 2.
     let bound = (25.0 * <E as Real>::UNIT_ROUNDOFF + 75.0 * <f64 as Real>::UNIT_ROUNDOFF) * norm;
     for backend in Backend::available() {
         let error = difference(&matrix(&backend.run(Project { blocks: &given, filter })), &expected);

@@ -29,15 +29,16 @@ const EXTREME: [[f64; 3]; 3] = [[3.0, 0.5, 0.01], [1.0, 0.02, 0.02 - 1e-12], [1.
 
 /// Error of a stress in units of u M times the stretches that a test names.
 ///
-/// The decomposition is exact for an F that differs by 20 u λ1, and three principal values up to M have the norm √3 M;
-/// the definition rounds a few times in addition.
+/// The decomposition is exact for an F that differs by 20 u λ1, and three principal values up to M have the
+/// norm √3 M; the definition rounds a few times in addition.
 const STRESS: f64 = 40.0;
 
-/// The same of a tangent: four factors from U or V, which are orthogonal to 20 u, and sums of 9 and 81 products.
+/// The same of a tangent: four factors from U or V, which are orthogonal to 20 u, and sums of 9 and 81
+/// products.
 const TANGENT: f64 = 100.0;
 
-/// The same of a tangent known on paper: half a dozen roundings for each principal component, ten for the sums of
-/// them, and what a frame really lacks in orthogonality, a few u.
+/// The same of a tangent known on paper: half a dozen roundings for each principal component, ten for the
+/// sums of them, and what a frame really lacks in orthogonality, a few u.
 const ISOTROPY: f64 = 20.0;
 
 /// All measures of a point.
@@ -320,7 +321,8 @@ fn two_energies_have_tangents_by_Hooke() {
             let Sample { measures, uM, smallest, .. } = Sample::new::<R>(&SaintVenantKirchhoff, F);
             let limit = ISOTROPY * uM / (smallest * smallest);
             check(&measures.dS_dE, &isotropic(LAMBDA, MU), limit, "StVK", &F);
-            // From the decomposition on in R: where the stretches are wrong, so are both sides of the division.
+            // From the decomposition on in R: where the stretches are wrong, so are both sides of the
+            // division.
             let narrow: Matrix3<R> = F.map(|row| row.map(R::splat));
             let point = evaluate(&SaintVenantKirchhoff, &narrow, Filter::None);
             let dS_dE = Measures::of(&point).dS_dE.map(|row| row.map(Into::into));
@@ -392,7 +394,8 @@ fn without_volume_only_the_Kirchhoff_stress_is_finite() {
     assert!(numbers.into_iter().all(f64::is_nan));
 }
 
-/// What the essay says of filters: behind a filtered dP/dF there is no dS/dE, behind an unfiltered one there is.
+/// What the essay says of filters: behind a filtered dP/dF there is no dS/dE, behind an unfiltered one there
+/// is.
 #[test]
 fn a_filtered_tangent_has_no_material_part() {
     let mut random = Random::new(75);

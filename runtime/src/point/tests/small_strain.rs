@@ -1,7 +1,7 @@
 //! Stress from the displacement gradient, against higher precision that shares no formula with it.
 //!
-//! Saint Venant–Kirchhoff's P = F (2μ E + λ tr E) is a polynomial in H and judged in about 106 bits. The other energies
-//! are judged in single precision by closed forms in double.
+//! Saint Venant–Kirchhoff's P = F (2μ E + λ tr E) is a polynomial in H and judged in about 106 bits. The
+//! other energies are judged in single precision by closed forms in double.
 
 use super::*;
 use crate::convert::{from_nalgebra, to_nalgebra};
@@ -61,8 +61,8 @@ fn rotation_from_rest(random: &mut Random, angle: f64) -> Matrix3<f64> {
     moved(&K.map(|row| row.map(|x| x * angle.sin())), versine, &product(&K, &K))
 }
 
-/// Displacement gradients with strains of a given size: none, as much, and much more rotation; full, uniaxial,
-/// equal and nearly equal strains.
+/// Displacement gradients with strains of a given size: none, as much, and much more rotation; full,
+/// uniaxial, equal and nearly equal strains.
 fn displacement_gradients(random: &mut Random, strain: f64) -> Vec<Matrix3<f64>> {
     let frame = random.rotation();
     let mut all = vec![random.matrix().map(|row| row.map(|x| x * strain))];

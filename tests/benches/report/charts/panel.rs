@@ -220,7 +220,8 @@ impl Label<'_> {
     }
 }
 
-/// Spots for the labels, none over another or over a mark: each as near to its mark as those before it leave room.
+/// Spots for the labels, none over another or over a mark: each as near to its mark as those before it leave
+/// room.
 fn spread<'a>(
     labels: &'a mut [Label<'a>],
     marks: &[(i32, i32)],
@@ -253,8 +254,8 @@ fn spread<'a>(
     placed
 }
 
-/// From below the least finite number to above the greatest, by these shares of the decades between them; two decades at
-/// least, so that the axis has numbers.
+/// From below the least finite number to above the greatest, by these shares of the decades between them; two
+/// decades at least, so that the axis has numbers.
 fn range(numbers: impl Iterator<Item = f64>, below: f64, above: f64) -> Range<f64> {
     let finite = numbers.filter(|x| x.is_finite() && *x > 0.0);
     let (least, greatest) = finite.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));

@@ -1,7 +1,9 @@
-//! The free flight once more, by a loop around batches: what single precision of the point kernels saves and costs.
+//! The free flight once more, by a loop around batches: what single precision of the point kernels saves and
+//! costs.
 //!
-//! F, stresses and stiffnesses are computed in `f32` or `f64`; positions, sums, factor and solution stay in `f64`. Newton's method
-//! without a line search, until the gradient has fallen to 10⁻⁶ of its first norm or does not fall any more.
+//! F, stresses and stiffnesses are computed in `f32` or `f64`; positions, sums, factor and solution stay in
+//! `f64`. Newton's method without a line search, until the gradient has fallen to 10⁻⁶ of its first norm or
+//! does not fall any more.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

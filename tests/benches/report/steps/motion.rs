@@ -154,8 +154,8 @@ pub(super) fn free_material() -> Result<StableNeoHookean, Inadmissible> {
     StableNeoHookean::new(moduli.mu, moduli.lambda)
 }
 
-/// v = ω × x + A x about the centre of the box, m/s: a turn in two seconds, and a stretching along x that the body's own
-/// stiffness turns back.
+/// v = ω × x + A x about the centre of the box, m/s: a turn in two seconds, and a stretching along x that the
+/// body's own stiffness turns back.
 pub(super) fn turning_and_stretching(mesh: &TetMesh) -> Vec<[f64; 3]> {
     const SPIN: f64 = std::f64::consts::PI;
     const STRETCHING: f64 = 6.0;

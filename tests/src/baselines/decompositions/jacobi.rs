@@ -1,21 +1,22 @@
 //! Jacobi's method on FᵀF, without a branch on a value, so that it runs on lanes \[MSTTS11\].
 //!
 //! 1. S = FᵀF is made diagonal by cyclic Jacobi, a fixed number of sweeps. V is accumulated as a quaternion.
-//! 2. Columns of B = F V and of V are sorted by length, an exchange changing the sign of one, so that V remains a
-//!    rotation.
-//! 3. B = U R by Givens rotations. R is diagonal up to what is left of VᵀS V, and holds the stretches; only the third
-//!    can become negative.
+//! 2. Columns of B = F V and of V are sorted by length, an exchange changing the sign of one, so that V
+//!    remains a rotation.
+//! 3. B = U R by Givens rotations. R is diagonal up to what is left of VᵀS V, and holds the stretches; only
+//!    the third can become negative.
 //!
-//! The half angles of Jacobi are the paper's approximate ones: tan θ/2 = ¼ tan 2θ where that stays below tan π/8, and
-//! π/8 elsewhere. Each rotation so leaves a part of the entry that it should have made zero; near the end the part is
-//! of third order. Two things differ from the paper. F is scaled by a power of two first, because its squares leave
-//! the range of numbers long before F does. And quaternions are normalised once, when they become a matrix.
+//! The half angles of Jacobi are the paper's approximate ones: tan θ/2 = ¼ tan 2θ where that stays below tan
+//! π/8, and π/8 elsewhere. Each rotation so leaves a part of the entry that it should have made zero; near
+//! the end the part is of third order. Two things differ from the paper. F is scaled by a power of two first,
+//! because its squares leave the range of numbers long before F does. And quaternions are normalised once,
+//! when they become a matrix.
 //!
-//! What floating point does here: S is known to u λ1², hence the directions of stretches below √u λ1 are not known at
-//! all, R keeps off-diagonal entries up to √u λ1 which are dropped, and half of the digits are gone.
+//! What floating point does here: S is known to u λ1², hence the directions of stretches below √u λ1 are not
+//! known at all, R keeps off-diagonal entries up to √u λ1 which are dropped, and half of the digits are gone.
 //!
-//! \[MSTTS11\] McAdams, Selle, Tamstorf, Teran, Sifakis, *Computing the singular value decomposition of 3×3 matrices
-//! with minimal branching and elementary floating point operations*, 2011.
+//! \[MSTTS11\] McAdams, Selle, Tamstorf, Teran, Sifakis, *Computing the singular value decomposition of 3×3
+//! matrices with minimal branching and elementary floating point operations*, 2011.
 
 #![expect(non_snake_case, reason = "F, S, B, U, V, R as in the paper")]
 
@@ -172,8 +173,8 @@ fn exchange<R: Real>(mask: R::Mask, A: &mut Matrix3<R>, p: usize, q: usize) {
     }
 }
 
-/// Rotates two rows of B about an axis so that the entry of the later row in the column of the earlier one becomes zero
-/// (\[MSTTS11\], algorithm 4); U follows.
+/// Rotates two rows of B about an axis so that the entry of the later row in the column of the earlier one
+/// becomes zero (\[MSTTS11\], algorithm 4); U follows.
 #[inline(always)]
 fn eliminate<R: Real, const AXIS: usize>(B: &mut Matrix3<R>, left: &mut Quaternion<R>) {
     let (p, q) = others(AXIS);

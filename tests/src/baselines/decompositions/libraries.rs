@@ -17,8 +17,8 @@ use piola::point::{Matrix3, Svd};
 use super::descending;
 use crate::baselines::matrix::{cofactor, dot, transpose};
 
-/// By nalgebra, which takes V from the eigenvectors of FᵀF (tridiagonal QR iteration) and U from a QR decomposition
-/// of F V.
+/// By nalgebra, which takes V from the eigenvectors of FᵀF (tridiagonal QR iteration) and U from a QR
+/// decomposition of F V.
 ///
 /// `None` where the iteration does not converge or F is not finite.
 #[must_use]

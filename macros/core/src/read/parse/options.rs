@@ -23,7 +23,8 @@ pub struct Options {
     pub refuse: Option<LitStr>,
     /// Parameters of some real material.
     pub typical: Option<Typical>,
-    /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a sum.
+    /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a
+    /// sum.
     pub prestressed: bool,
     /// Derivatives by the parameters are asked for.
     pub fit: bool,
@@ -88,7 +89,7 @@ impl Options {
     }
 }
 
-/// What to say of a name that is none, or is written in another form.
+/// The message about an unknown argument, or one that is written in another form.
 fn unknown(name: &str) -> String {
     let form = |name: &str| FORMS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form);
     if let Some(form) = form(name) {

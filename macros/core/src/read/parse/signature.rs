@@ -1,4 +1,4 @@
-//! What an energy is a function of: the generics, stretches and parameters of its signature.
+//! The signature of an energy: its generics, stretches and parameters.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -8,7 +8,7 @@ use super::{Kind, Parameter, WORDS, documentation, identifiers};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
-/// What every material has by name, which a parameter's own method would hide.
+/// Members of every material, which the method of a parameter of that name would hide.
 const MEMBERS: [&str; 27] = [
     // Of the type and of the traits of the language.
     "new",
@@ -259,7 +259,7 @@ impl Lists {
     }
 }
 
-/// What is wrong with a type; without a message, that it is none of those there are.
+/// A mistaken type of a parameter; without a message, it is not one of those that parameters can have.
 struct Mistake {
     tokens: TokenStream,
     message: Option<&'static str>,
@@ -271,7 +271,8 @@ impl Mistake {
     }
 }
 
-/// Whether a parameter's type may be a function: any path but Rust's primitive types and likely typos of `f64`.
+/// Whether a parameter's type may be a function: any path but Rust's primitive types and likely typos of
+/// `f64`.
 pub(crate) fn may_be_function(ty: &Type) -> bool {
     const NEVER: [&str; 16] = [
         "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize", "bool",
