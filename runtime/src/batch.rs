@@ -90,7 +90,7 @@ use workspace::{Line, Workspace};
 pub struct Batch<'a, E> {
     /// The material of the points: a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
     pub material: &'a dyn TileMaterial<E>,
-    /// What happens to negative eigenvalues of dP/dF.
+    /// Treatment of negative eigenvalues of dP/dF.
     pub filter: Filter,
     /// The instructions to compute with.
     pub backend: Backend,
@@ -439,7 +439,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 }
 
-/// What the tiles of a call share.
+/// Material and settings that all tiles of a call share.
 #[derive(Clone, Copy)]
 struct Call<'a, E> {
     material: &'a dyn TileMaterial<E>,

@@ -1,4 +1,4 @@
-//! What every [`Material`] promises, as tests that a crate declaring one has in one line.
+//! Rules that every [`Material`] must keep, as tests that a crate declaring one has in one line.
 //!
 //! ```
 //! use piola::{Inversion, material};
@@ -129,7 +129,7 @@ impl Default for Settings {
     }
 }
 
-/// What a kept rule was judged on.
+/// Points and comparisons that a rule was judged on and kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The rule.
@@ -220,7 +220,7 @@ fn stiffness(blocks: &Blocks<f64>) -> f64 {
     entries.fold(0.0, |largest, entry| largest.max(entry.abs()))
 }
 
-/// What a stress may be wrong by, in units of u: the tangent times the stretches, and its own size.
+/// Tolerable error of a stress in units of u, Pa: the tangent times the stretches, and its own size.
 fn stress_scale(blocks: &Blocks<f64>, stretches: [f64; 3]) -> f64 {
     stiffness(blocks) * stretches[0] + blocks.gradient.into_iter().map(f64::abs).sum::<f64>()
 }

@@ -128,7 +128,7 @@ pub trait Material: Send + Sync {
     /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact determinant.
     fn ends_at_zero_volume(&self) -> bool;
 
-    /// What the material does beyond J > 0, where its domain ends there.
+    /// Treatment of deformations beyond the end of the domain at J = 0, as chosen for this material.
     fn inversion(&self) -> Inversion {
         Inversion::Refuse
     }
@@ -140,7 +140,7 @@ pub trait Material: Send + Sync {
     }
 }
 
-/// What a material does beyond J > 0, or J ≠ 0, where its domain ends there.
+/// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.
 ///
 /// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a point is refused
 /// whatever is chosen.

@@ -1,4 +1,4 @@
-//! What can go wrong at a point, and how often it did at many.
+//! Status of the evaluation of a point, and counts of the statuses of many.
 
 use std::iter::Sum;
 use std::ops::{Add, BitAnd, BitOr};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::lanes::Mask;
 
-/// What the evaluation of a point met: one truth value of each kind, or one for each of several points.
+/// Status of an evaluation: a truth value of each kind for one point, or a mask of each for several points.
 ///
 /// A `Status` is that of one point; `Status<R::Mask>` is that of the points on the lanes of a real type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

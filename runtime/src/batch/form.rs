@@ -1,4 +1,4 @@
-//! What is made of a point's frames and blocks: the forms of a tangent and of an element's stiffness.
+//! Forms of a tangent and of an element's stiffness, made from a point's frames and blocks.
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
@@ -134,7 +134,7 @@ impl Form<0, 30> for Factored {
     }
 }
 
-/// What [`Factored::restore`] takes, with W in the place of V.
+/// Writes U, W and the blocks of a point, 30 entries in the order of [`Factored::restore`], W in the place of V.
 #[inline(always)]
 fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Scalar]) {
     let line = <R::Scalar as Scalar>::LINE;
@@ -213,7 +213,7 @@ pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -
     (largest(to_numbers(inverse)) * volume * R::splat(16.0) * largest(to_numbers(*stress))).is_finite()
 }
 
-/// What every form of a stiffness asks of the blocks.
+/// Bounds the twists of the blocks for any form of a stiffness, and reports whether it overflows.
 #[inline(always)]
 fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
     let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };

@@ -58,7 +58,7 @@ pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, 
     })
 }
 
-/// What to do about an energy or derivative that is no finite number.
+/// Advice for an energy or derivative that is infinite or NaN.
 fn remedy(material: &impl Material, [_, _, l3]: [f64; 3], found: f64) -> String {
     const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
                         something negative?): add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; \

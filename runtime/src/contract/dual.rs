@@ -29,7 +29,7 @@ pub(super) struct Dual {
     pub(super) slope: f64,
 }
 
-/// What all powers of a dual number are made from.
+/// A dual number with its logarithm, from which all its powers are made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DualLogarithm {
     of: Dual,

@@ -5,7 +5,7 @@ use super::samples::at_samples;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
 
-/// Of a material with [`HAS_INVARIANTS`](Material::HAS_INVARIANTS), where it admits the invariants:
+/// Agreement of the methods by invariants with those by stretches, where the material admits the invariants:
 ///
 /// * the stretches are admitted too;
 /// * the energies agree;

@@ -2,7 +2,7 @@
 
 use super::{Finding, Rule, Violation};
 
-/// What a number is that is neither infinite nor NaN.
+/// Words for the demand that a value be neither infinite nor NaN.
 pub(super) const FINITE: &str = "a finite number";
 
 /// The state of one rule.
@@ -64,7 +64,7 @@ impl Judge {
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
-    /// The same bits; all NaN are the same.
+    /// Demands that two values have the same bits; all NaN are equal.
     pub(super) fn same(
         &mut self,
         component: impl FnOnce() -> String,

@@ -14,7 +14,7 @@ pub(super) fn numbers<R: Real>(material: &impl Material, stretches: [R; 3]) -> [
     in_a_row(material.energy(stretches), material.gradient(stretches), material.blocks(stretches))
 }
 
-/// The same of one point.
+/// Energy, gradient and blocks at a single point, a row in the order of [`numbers`].
 pub(super) fn numbers_alone<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
     in_a_row(energy_at(material, stretches), gradient_at(material, stretches), blocks_at(material, stretches))
 }
@@ -27,7 +27,7 @@ fn in_a_row<R: Real>(energy: R, [g1, g2, g3]: [R; 3], blocks: Blocks<R>) -> [R; 
     [energy, g1, g2, g3, p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23]
 }
 
-/// What a number is.
+/// Name of an entry by its place in the row.
 pub(super) fn name(number: usize) -> String {
     match number {
         0 => "energy".into(),

@@ -43,7 +43,7 @@ fn compare(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> 
     Ok(())
 }
 
-/// What to do about a number that only `f64` has.
+/// Advice for a result that is finite in `f64` only.
 const OUT_OF_RANGE: &str = "in `f64` this is a number, but `f32` ends at 3.4e38, which it or something on the way to it exceeds, or a \
                             denominator of parameters vanishes in `f32`: choose parameters farther from there, narrow the \
                             stretches of the test, as in `range: (0.7, 1.4)`, or extend from a greater `epsilon`";

@@ -25,7 +25,7 @@ pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Vi
     judge.finding()
 }
 
-/// What to do about stress at rest, be it a mistake or meant.
+/// Advice for stress at rest, be it a mistake or meant.
 const STRESSED: &str = "append to the energy what cancels this stress, such as `- mu * J.ln()`; or, where the rest state carries it \
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";

@@ -87,18 +87,18 @@ pub(super) struct Approach {
 }
 
 impl Approach {
-    /// As h², within the distance to det F = 0 and to the pole at λ2 + λ3 = 0.
+    /// Error proportional to h², within the distance to det F = 0 and to the pole at λ2 + λ3 = 0.
     pub(super) fn smooth(stretches: [f64; 3]) -> Self {
         Self { order: 2, reach: stretches[2].abs().min(stretches[1] + stretches[2]) }
     }
 
-    /// As h², on one side of a threshold of each stretch.
+    /// Error proportional to h², on one side of a threshold of each stretch.
     pub(super) fn beside(epsilon: f64, stretches: [f64; 3]) -> Self {
         let Self { order, reach } = Self::smooth(stretches);
         Self { order, reach: stretches.into_iter().map(|l| (l - epsilon).abs()).fold(reach, f64::min) }
     }
 
-    /// As h, where the second derivative of what is differenced jumps.
+    /// Error proportional to h, where the second derivative of the differenced function jumps.
     pub(super) fn across(stretches: [f64; 3]) -> Self {
         Self { order: 1, ..Self::smooth(stretches) }
     }

@@ -63,14 +63,14 @@ pub enum Inadmissible {
     },
     /// A Poisson's ratio is asked for that is below what an energy has by itself.
     BelowOwnPoisson {
-        /// As asked for.
+        /// Poisson's ratio as asked for.
         poisson: f64,
         /// The energy's own, which is the lowest that it can be normalised to.
         lowest: f64,
     },
     /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
     Shape {
-        /// What was expected.
+        /// The expected shape in words.
         expected: String,
     },
 }
