@@ -31,7 +31,7 @@ impl Status {
 }
 
 impl<M: Mask> Status<M> {
-    /// Nothing to report of any point.
+    /// A status with nothing to report of any point.
     #[inline(always)]
     #[must_use]
     pub fn clean() -> Self {
@@ -40,7 +40,7 @@ impl<M: Mask> Status<M> {
     }
 }
 
-/// Both statuses together: whatever one of them reports.
+/// Union of two statuses: whatever one of them reports.
 impl<M: BitOr<Output = M>> BitOr for Status<M> {
     type Output = Self;
 
@@ -114,13 +114,13 @@ impl StatusCell {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Survey {
-    /// How many points lie outside the domain of the energy.
+    /// Number of points outside the domain of the energy.
     pub refused: usize,
-    /// How many points are at a pole of the tangent, which got a bounded value.
+    /// Number of points at a pole of the tangent, which got a bounded value.
     pub bounded: usize,
-    /// How many points have an infinite or NaN deformation or result, or one within a factor 16 of it.
+    /// Number of points with an infinite or NaN deformation or result, or one within a factor 16 of it.
     pub nonfinite: usize,
-    /// At how many points the filter changed the tangent.
+    /// Number of points where the filter changed the tangent.
     pub filtered: usize,
     /// Index of the first point that is refused or not finite.
     pub first: Option<usize>,

@@ -1,4 +1,4 @@
-//! The rule on invariants: what a material says by I1, I2 and J against what it says by stretches.
+//! The rule on invariants: energy and gradient by I1, I2 and J against those by stretches.
 
 use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::samples::at_samples;
@@ -12,7 +12,7 @@ use crate::material::Material;
 /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
 ///
 /// # Errors
-/// The first violation; [`Violation::DoesNotApply`] without invariants.
+/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] without invariants.
 pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Invariants;
     if !M::HAS_INVARIANTS {

@@ -7,11 +7,12 @@ use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
 use crate::material::Material;
 
-/// Energy, gradient, Hessian and quotients in `f32` are those in `f64`, but for roundings of `f32`: at the samples, and
-/// where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is so in `f32`.
+/// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
+/// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is
+/// so in `f32`.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn single_precision(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
         compare(judge, material, stretches)?;

@@ -16,12 +16,13 @@ use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 use crate::random::Random;
 
-/// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h²; and between one sample and the next, ψ grows by the work of its gradient.
+/// Stress as the slope of the energy: (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h², and from one
+/// sample to the next ψ grows by the work of its gradient.
 ///
 /// Near a sample, an energy that jumps elsewhere looks as it should.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut last = None;
     at_samples(Rule::StressSlope, material, settings, |judge, stretches, random| {
@@ -68,10 +69,10 @@ fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3
     judge.compare(name, to, found, expected, inexact + 100.0 * UNIT * rounding)
 }
 
-/// (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
+/// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::TangentSlope, material, settings, |judge, stretches, random| {
         stress_along(judge, material, stretches, &Approach::smooth(stretches), random)
@@ -80,9 +81,9 @@ pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Fi
 
 /// How difference quotients approach a derivative.
 pub(super) struct Approach {
-    /// At the rate h^order.
+    /// Exponent of h in the error.
     order: i32,
-    /// Over this distance in F for h = 1.
+    /// Distance in F of a step h = 1.
     reach: f64,
 }
 

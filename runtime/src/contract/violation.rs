@@ -13,7 +13,7 @@ const DIGITS: &str = "so small a difference is likelier digits lost than a mista
                       as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters; where an \
                       exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
 
-/// A broken promise.
+/// A broken rule of the contract, with the values that break it.
 ///
 /// As text it has a line for the rule, one for each of the facts and, where one is known, one for the remedy:
 ///
@@ -47,7 +47,7 @@ pub enum Violation {
         rule: Rule,
         /// Name of the quantity that was compared, such as `flip of stretches 1 and 2`.
         component: String,
-        /// Where.
+        /// Stretches λ1, λ2, λ3 at which the rule was judged.
         stretches: [f64; 3],
         /// The material's value.
         found: f64,
@@ -55,7 +55,7 @@ pub enum Violation {
         expected: f64,
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
-        /// Advice on what to write instead, if the rule has any and the difference is too large to be lost digits.
+        /// Advice on what to write instead, if any; shown if the difference is too large to be lost digits.
         remedy: Option<String>,
     },
     /// A value that must be positive, negative or finite isn't.
@@ -64,7 +64,7 @@ pub enum Violation {
         rule: Rule,
         /// Name of the quantity that was judged.
         component: String,
-        /// Where.
+        /// Stretches λ1, λ2, λ3 at which the rule was judged.
         stretches: [f64; 3],
         /// The material's value.
         found: f64,
@@ -157,7 +157,7 @@ impl fmt::Display for Violation {
 
 impl Error for Violation {}
 
-/// All broken promises, at most one for each rule: the first that was found.
+/// All broken rules, each with the first violation that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violations(pub Vec<Violation>);
 
