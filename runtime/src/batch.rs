@@ -1,10 +1,10 @@
 //! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
 //!
 //! This is the interface for finite-element codes that have their own elements: it knows points, not meshes.
-//! A [`Batch`] says of which material, with which filter, instructions and layout of the slices; its methods
-//! are the kernels. They allocate nothing, but for some 80 kB of room on the first call in each thread.
-//! Points go through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by
-//! side as the registers hold, and what lies between the stages stays in the inner caches.
+//! A [`Batch`] holds the material, the filter, the instructions and the layout of the slices; its methods are
+//! the kernels. They allocate nothing, but for some 80 kB of room on the first call in each thread. Points go
+//! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
+//! registers hold, and what lies between the stages stays in the inner caches.
 //!
 //! ```
 //! use piola::batch::Batch;
@@ -30,10 +30,10 @@
 //! # }
 //! ```
 //!
-//! **Bits.** Within a back end a point's numbers are the same whatever the other points, its place, the
+//! **Bits.** Within a back end a point's results are the same whatever the other points, its place, the
 //! number of points and of threads. Two back ends differ by rounding.
 //!
-//! **Status.** A point that cannot be computed is no error of a call: its numbers mean nothing, and a
+//! **Status.** A point that cannot be computed is no error of a call: its results mean nothing, and a
 //! [`Survey`] counts such points and names the first.
 //!
 //! **Parameters.** A material is the same for all points; with [`Each`](crate::material::Each) every point
@@ -87,18 +87,18 @@ use stage::{
 use tile::first_bits;
 use workspace::Workspace;
 
-/// A material and how to compute with it.
+/// A material with the settings to evaluate it at many points at once.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Batch<'a, E> {
     /// The material of the points: a [`Material`](crate::Material), or a
     /// [`PerPoint`](crate::material::PerPoint).
     pub material: &'a dyn TileMaterial<E>,
-    /// What happens to negative eigenvalues of dP/dF.
+    /// Treatment of negative eigenvalues of dP/dF.
     pub filter: Filter,
-    /// The instructions to compute with.
+    /// Vector instructions of the kernels.
     pub backend: Backend,
-    /// How the components of the points are arranged in every slice of a call.
+    /// Order of the points' components in every slice of a call.
     pub layout: Layout,
     /// Whether tangents are written past the caches: about twice as fast where they are larger than the last
     /// one, and slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes,
@@ -110,7 +110,7 @@ pub struct Batch<'a, E> {
 }
 
 impl<'a, E: Stages> Batch<'a, E> {
-    /// Unfiltered, with the best instructions of this processor, point by point, on one thread.
+    /// A batch without filter, with the best instructions of this processor, point by point, on one thread.
     #[must_use]
     pub fn new(material: &'a dyn TileMaterial<E>) -> Self {
         Self {
@@ -180,7 +180,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         Self { statuses, ..self }
     }
 
-    /// ψ, Pa, of each F. Computes no derivative.
+    /// Energy density ψ, Pa, of each F. Computes no derivative.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -211,7 +211,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         })
     }
 
-    /// P, Pa: nine components of each F. Computes no second derivative.
+    /// First Piola stress P, Pa: nine components of each F. Computes no second derivative.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -249,8 +249,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         })
     }
 
-    /// P, Pa, and all entries of dP/dF, Pa, filtered: 81 components of each F, row 3i+j for entry (i, j) of P
-    /// and column 3k+l for entry (k, l) of F.
+    /// Stresses P and all 81 entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P,
+    /// column 3k+l for entry (k, l) of F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -258,7 +258,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond(TangentForm::Full, F, P, ("dP_dF", dP_dF, 81))
     }
 
-    /// P, Pa, and the 45 entries of dP/dF, Pa, on and above the diagonal, row by row, filtered.
+    /// Stresses P and the 45 entries of the filtered dP/dF on and above the diagonal, row by row, Pa.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -266,7 +266,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
     }
 
-    /// P, Pa, and dP/dF, filtered, as the [`FACTORS`] components that [`Batch::products`] starts from.
+    /// Stresses P, Pa, and the filtered dP/dF as the [`FACTORS`] components that [`Batch::products`] takes.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -274,8 +274,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
     }
 
-    /// ψ, P and all entries of dP/dF, Pa, the latter filtered: [`Batch::energies`] and [`Batch::tangents`]
-    /// with one decomposition of each F.
+    /// Energies ψ, stresses P and filtered dP/dF, Pa: [`Batch::energies`] and [`Batch::tangents`] with one
+    /// decomposition of each F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -301,7 +301,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         )
     }
 
-    /// dP = (dP/dF) dF of each point, from what [`Batch::factored_tangents`] has written.
+    /// Products dP = (dP/dF) dF of each point, Pa, from the factors of [`Batch::factored_tangents`].
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -345,8 +345,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond_elements(StiffnessForm::Full, F, rest, gradients, (stiffnesses, 144))
     }
 
-    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], of each stiffness the 78 entries on and above
-    /// the diagonal, row by row.
+    /// Gradients as of [`Batch::stiffnesses`] and packed stiffnesses: the 78 entries on and above the
+    /// diagonal, row by row.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -445,7 +445,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     }
 }
 
-/// What the tiles of a call share.
+/// Material and settings that all tiles of a call share.
 #[derive(Clone, Copy)]
 struct Call<'a, E> {
     material: &'a dyn TileMaterial<E>,
@@ -511,11 +511,10 @@ impl<E: Stages> Call<'_, E> {
     }
 }
 
-/// Numbers of a point that [`Batch::factored_tangents`] writes: U, V, the Hessian in the stretches, flips,
-/// twists.
+/// Components per point that [`Batch::factored_tangents`] writes: U, V, ψij, flips, twists.
 pub const FACTORS: usize = 30;
 
-/// Numbers of an element's rest shape: Dm⁻¹ row by row, the volume.
+/// Components of an element's rest shape: Dm⁻¹ row by row, 1/m, then the volume, m³.
 pub const REST: usize = 10;
 
 /// Slices whose lengths do not fit together.
@@ -527,9 +526,9 @@ pub struct LengthError {
     pub found: usize,
     /// Components that it holds for each point.
     pub components: usize,
-    /// How many points there are.
+    /// Number of points.
     pub points: usize,
-    /// The layout wants a multiple of this many points.
+    /// Divisor that the layout demands of the number of points.
     pub group: usize,
 }
 

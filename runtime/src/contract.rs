@@ -1,4 +1,4 @@
-//! What every [`Material`] promises, as tests that a crate declaring one has in one line.
+//! Rules that every [`Material`] must keep, as tests that a crate declaring one has in one line.
 //!
 //! ```
 //! use piola::{Inversion, material};
@@ -17,13 +17,13 @@
 //! # fn main() {}
 //! ```
 //!
-//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`. The
-//! same as a function is [`check`], and each rule is one of its own:
+//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`.
+//! [`check`] judges them all in one call, and each rule is a function of its own:
 //!
 //! | rule | what must hold |
 //! |---|---|
 //! | [`rest`] | no stress, no twist at F = I, [unless they are meant](Settings::stress_free_at_rest), and a positive shear modulus |
-//! | [`domain`] | numbers are finite where they are admitted, and [`Material::ends_at_zero_volume`] tells the truth |
+//! | [`domain`] | results are finite where admitted, and [`Material::ends_at_zero_volume`] is right |
 //! | [`objectivity`] | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
 //! | [`isotropy`] | rotating the rest shape does likewise, and equal stretches are interchangeable |
 //! | [`symmetric_tangent`] | A : (dP/dF) B = B : (dP/dF) A |
@@ -38,11 +38,11 @@
 //! | [`single_precision`] | `f32` gives what `f64` does, to the rounding of `f32` |
 //! | [`lanes`] | every lane of every back end gives what a scalar does, whatever its neighbours |
 //!
-//! A material is anything that implements [`Material`], by the macro or by hand; of what it has not, an
-//! extension or invariants, nothing is asked. A check returns what it found or the first [`Violation`];
+//! A material is anything that implements [`Material`], by the macro or by hand; the rules on an extension or
+//! invariants apply to materials that have them. A check returns what it found or the first [`Violation`];
 //! nothing is printed, nothing panics but the tests of [`contract!`](crate::contract!). Samples are
 //! reproducible: they follow from [`Settings::seed`]. Points that the material does not admit are left out,
-//! and a check that could not compare anything says so.
+//! and a check without any comparison is a violation, [`Violation::NothingToCheck`].
 //!
 //! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the
 //! tangent times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign
@@ -94,14 +94,14 @@ use judge::Judge;
 /// optimisation may need.
 pub const STACK: usize = 1 << 26;
 
-/// Which points are checked.
+/// Choice of the points that are checked, and of the demands on the rest state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Points per rule.
     pub points: usize,
-    /// Determines all samples.
+    /// Seed of all random samples.
     pub seed: u64,
-    /// Stretches are drawn between these, 0 < smallest < 1 < largest.
+    /// Smallest and largest stretch to draw, 0 < smallest < 1 < largest.
     pub range: (f64, f64),
     /// Whether the material claims that F = I is free of stress: `false` for one that is declared
     /// `prestressed`.
@@ -131,7 +131,7 @@ impl Default for Settings {
     }
 }
 
-/// What a kept rule was judged on.
+/// Points and comparisons that a rule was judged on and kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The rule.
@@ -152,7 +152,7 @@ impl fmt::Display for Finding {
 /// Findings, one for each rule that applies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// In the order of the table above.
+    /// The findings, in the order of the table above.
     pub findings: Vec<Finding>,
 }
 
@@ -169,7 +169,7 @@ pub struct Report {
 /// ```
 ///
 /// # Errors
-/// The first violation of each rule that is broken.
+/// [`Violations`]: the first violation of each rule that is broken.
 pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Violations> {
     let mut findings = Vec::new();
     let mut violations = Vec::new();
@@ -182,8 +182,7 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
     if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
 }
 
-/// Checks one rule; nothing where the material has not what the rule is about: an extension, invariants,
-/// stated moduli.
+/// Checks one rule; `None` if the material lacks its subject: an extension, invariants or stated moduli.
 pub fn check_rule<M: Material>(
     rule: Rule,
     material: &M,
@@ -223,7 +222,7 @@ fn stiffness(blocks: &Blocks<f64>) -> f64 {
     entries.fold(0.0, |largest, entry| largest.max(entry.abs()))
 }
 
-/// What a stress may be wrong by, in units of u: the tangent times the stretches, and its own size.
+/// Tolerable error of a stress in units of u, Pa: the tangent times the stretches, and its own size.
 fn stress_scale(blocks: &Blocks<f64>, stretches: [f64; 3]) -> f64 {
     stiffness(blocks) * stretches[0] + blocks.gradient.into_iter().map(f64::abs).sum::<f64>()
 }

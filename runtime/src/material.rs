@@ -41,13 +41,13 @@ pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 /// Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocks<R> {
-    /// ψ1, ψ2, ψ3.
+    /// First derivatives ψ1, ψ2, ψ3.
     pub gradient: [R; 3],
-    /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23.
+    /// Second derivatives ψ11, ψ22, ψ33, ψ12, ψ13, ψ23.
     pub hessian: [R; 6],
-    /// D⁻ of the [`PAIRS`].
+    /// Flips D⁻ of the [`PAIRS`].
     pub flip: [R; 3],
-    /// D⁺ of the [`PAIRS`].
+    /// Twists D⁺ of the [`PAIRS`].
     pub twist: [R; 3],
 }
 
@@ -59,13 +59,13 @@ pub struct Blocks<R> {
 /// Methods that compute should be `#[inline(always)]`, and what they call: see
 /// [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
-    /// ψ, J/m³ of rest volume.
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial
+    /// Energy density ψ, J/m³ of rest volume.
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::material::DynMaterial
 
-    /// ψ1, ψ2, ψ3, Pa.
+    /// Gradient ψ1, ψ2, ψ3, Pa.
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
 
-    /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
+    /// Gradient ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
     ///
     /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate
     /// relative to the strains, however small. As given here it is as accurate as 1 + si.
@@ -78,7 +78,7 @@ pub trait Material: Send + Sync {
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
 
-    /// ψ, J/m³ of rest volume, together with the blocks, Pa: what both have in common is computed once.
+    /// Energy density ψ, J/m³ of rest volume, and blocks, Pa, with their common terms computed once.
     ///
     /// `#[piola::material]` overrides it; as given here it is [`Material::energy`] and [`Material::blocks`].
     #[inline(always)]
@@ -86,7 +86,7 @@ pub trait Material: Send + Sync {
         (self.energy(stretches), self.blocks(stretches))
     }
 
-    /// Where the energy in use is defined.
+    /// Whether the energy in use is defined at these stretches.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
 
     /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no
@@ -104,19 +104,20 @@ pub trait Material: Send + Sync {
     /// root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
-    /// ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// Energy density ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without
+    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     #[inline(always)]
     fn energy_by_invariants<R: Real>(&self, _: [R; 3]) -> R {
         R::splat(f64::NAN)
     }
 
-    /// W1, W2, WJ, Pa, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// Derivatives W1, W2, WJ, Pa, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     #[inline(always)]
     fn gradient_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 3] {
         [R::splat(f64::NAN); 3]
     }
 
-    /// Where \[I1, I2, J\] give the energy in use; nowhere without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// Whether \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     ///
     /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1.
     /// Elsewhere [`Material::admits`] decides.
@@ -127,15 +128,15 @@ pub trait Material: Send + Sync {
 
     /// Whether some twist has a true pole at λi + λj = 0, where the stress itself jumps.
     ///
-    /// The denominator is then bounded from below by [`pole_floor`](crate::quotient::pole_floor), and the
-    /// point says so.
+    /// Its denominator has the lower bound [`pole_floor`](crate::quotient::pole_floor); a point there is
+    /// `bounded`.
     fn has_pole(&self) -> bool;
 
     /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact
     /// determinant.
     fn ends_at_zero_volume(&self) -> bool;
 
-    /// What the material does beyond J > 0, where its domain ends there.
+    /// Treatment of deformations beyond the end of the domain at J = 0, as chosen for this material.
     fn inversion(&self) -> Inversion {
         Inversion::Refuse
     }
@@ -147,7 +148,7 @@ pub trait Material: Send + Sync {
     }
 }
 
-/// What a material does beyond J > 0, or J ≠ 0, where its domain ends there.
+/// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.
 ///
 /// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a
 /// point is refused whatever is chosen.
@@ -158,7 +159,7 @@ pub trait Material: Send + Sync {
     serde(rename_all = "snake_case", deny_unknown_fields)
 )]
 pub enum Inversion {
-    /// The point's status says so, and a line search takes a shorter step.
+    /// Refuses such points by their status, so that a line search takes a shorter step.
     #[default]
     Refuse,
     /// ln λ and real or negative powers of a stretch continue below `epsilon` as their quadratic Taylor
@@ -183,14 +184,15 @@ pub struct Moduli {
 }
 
 impl Moduli {
-    /// Those of the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
+    /// Small-strain moduli from the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
     #[must_use]
     pub fn at_rest(material: &impl Material) -> Self {
         let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
         Self { mu: 0.5 * (h11 - h12), lambda: h12 }
     }
 
-    /// From Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)).
+    /// Moduli from Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and
+    /// λ = E ν/((1 + ν) (1 − 2 ν)).
     ///
     /// ```
     /// use piola::material::Moduli;
@@ -204,7 +206,7 @@ impl Moduli {
     /// ```
     ///
     /// # Errors
-    /// Unless E > 0 and −1 < ν < 1/2, both finite.
+    /// [`Inadmissible::YoungPoisson`] unless E > 0 and −1 < ν < 1/2, both finite.
     pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, Inadmissible> {
         let is_elastic = young > 0.0 && young.is_finite() && poisson > -1.0 && poisson < 0.5;
         if !is_elastic {
@@ -237,13 +239,13 @@ impl Moduli {
 
 /// A material declared by `#[piola::material]`, buildable from values found at run time.
 pub trait Declared: Material + Sized {
-    /// Names, formula, domain.
+    /// Names, formula, parameters and domain of the declaration.
     const DESCRIPTION: Description;
 
     /// The material with these values, one slice for each entry of [`Description::parameters`].
     ///
     /// # Errors
-    /// Where the constructor of the type would refuse, or the lengths do not fit.
+    /// [`Inadmissible::Shape`] if the lengths do not fit; the others as the constructor of the type.
     fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, Inadmissible>;
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
@@ -255,7 +257,8 @@ pub trait Declared: Material + Sized {
     /// (J − 1)²; see [`Normalised`].
     ///
     /// # Errors
-    /// As [`Normalised::with_young_poisson`]: E or ν out of bounds, or ν below that of the energy itself.
+    /// Those of [`Normalised::with_young_poisson`]: [`Inadmissible::YoungPoisson`],
+    /// [`Inadmissible::UnstableRest`], [`Inadmissible::BelowOwnPoisson`].
     fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, Inadmissible> {
         Normalised::with_young_poisson(self, young, poisson)
     }

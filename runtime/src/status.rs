@@ -1,4 +1,4 @@
-//! What can go wrong at a point, and how often it did at many.
+//! Status of the evaluation of a point, and counts of the statuses of many.
 
 use std::iter::Sum;
 use std::ops::{Add, BitAnd, BitOr};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 use crate::lanes::Mask;
 
-/// What the evaluation of a point met: one truth value of each kind, or one for each of several points.
+/// Status of an evaluation: a truth value of each kind for one point, or a mask of each for several points.
 ///
 /// A `Status` is that of one point; `Status<R::Mask>` is that of the points on the lanes of a real type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +32,7 @@ impl Status {
 }
 
 impl<M: Mask> Status<M> {
-    /// Nothing to report of any point.
+    /// A status with nothing to report of any point.
     #[inline(always)]
     #[must_use]
     pub fn clean() -> Self {
@@ -41,7 +41,7 @@ impl<M: Mask> Status<M> {
     }
 }
 
-/// Both statuses together: whatever one of them reports.
+/// Union of two statuses: whatever one of them reports.
 impl<M: BitOr<Output = M>> BitOr for Status<M> {
     type Output = Self;
 
@@ -115,13 +115,13 @@ impl StatusCell {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Survey {
-    /// How many points lie outside the domain of the energy.
+    /// Number of points outside the domain of the energy.
     pub refused: usize,
-    /// How many points are at a pole of the tangent, which got a bounded value.
+    /// Number of points at a pole of the tangent, which got a bounded value.
     pub bounded: usize,
-    /// How many points have an infinite or NaN deformation or result, or one within a factor 16 of it.
+    /// Number of points with an infinite or NaN deformation or result, or one within a factor 16 of it.
     pub nonfinite: usize,
-    /// At how many points the filter changed the tangent.
+    /// Number of points where the filter changed the tangent.
     pub filtered: usize,
     /// Index of the first point that is refused or not finite.
     pub first: Option<usize>,

@@ -23,7 +23,7 @@ pub trait Precision: Real<Mask = bool> + PartialOrd {
     /// The number of these bits; of the lower half of them where it has only 32.
     fn from_bits(bits: u64) -> Self;
 
-    /// The same number as a double.
+    /// The number as a double, exactly.
     fn widen(self) -> f64;
 }
 

@@ -59,7 +59,7 @@ enum Value {
     List(Vec<f64>),
 }
 
-/// What is judged.
+/// A quantity that the reference cases judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quantity {
     /// ψ.

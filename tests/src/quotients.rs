@@ -1,4 +1,4 @@
-//! What a quotient of stresses must be, and where the question is hard.
+//! Reference values of quotients of stresses, and how hard they are to compute.
 //!
 //! The oracle is the definition, (ψi ∓ ψj)/(λi ∓ λj), from the gradient in so many digits that no gap takes
 //! all of them. It shares the gradient with its subject, which the reference cases judge, and nothing of the
@@ -39,15 +39,14 @@ impl Quotient {
         Error { flat: units(self.scale), conditioned: units(self.scale + self.sensitivity) }
     }
 
-    /// The same quotient with |ε ∂D/∂ε| in its sensitivity, from its value where ε is larger by this
-    /// fraction.
+    /// Adds |ε ∂D/∂ε| to the sensitivity, from the value `moved` of D where ε is larger by this fraction.
     #[must_use]
     pub fn with_threshold(self, moved: Number, fraction: f64) -> Self {
         let change = (moved - self.value).abs() / Number::splat(fraction);
         Self { sensitivity: self.sensitivity + change, ..self }
     }
 
-    /// The same quotient with Σ|terms| in the maximum that is its scale.
+    /// Raises the scale to Σ|terms|, Pa, if that is larger.
     #[must_use]
     pub fn with_terms(self, terms: f64) -> Self {
         Self { scale: self.scale.max(Number::splat(terms)), ..self }
@@ -57,9 +56,9 @@ impl Quotient {
 /// An error in units of u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Error {
-    /// Of the scale.
+    /// Error over u times the scale.
     pub flat: f64,
-    /// Of scale + sensitivity, that is of (1 + κ) times the scale.
+    /// Error over u times scale + sensitivity, that is, (1 + κ) times the scale.
     pub conditioned: f64,
 }
 

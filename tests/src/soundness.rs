@@ -1,5 +1,5 @@
-//! What must hold at every deformation gradient of finite entries: numbers that mean nothing are flagged, and
-//! numbers that mean something are not.
+//! Checks of the status at any finite deformation gradient: results that mean nothing are flagged, and those
+//! that mean something are not.
 //!
 //! One half needs no oracle ([`check`], [`check_element`]): where a status is clean, ψ, P, dP/dF, forces and
 //! stiffness are finite, and all evaluations of one deformation agree on whether it is refused. The other
@@ -55,7 +55,7 @@ pub enum Quantity {
     Stiffness,
 }
 
-/// What is wrong at a deformation.
+/// A fault of a result at a deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
     /// An infinite or NaN entry under a clean status.
@@ -172,8 +172,8 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
     H.symmetric_eigenvalues().min() >= -64.0 * R::UNIT_ROUNDOFF - 64.0 * underflow
 }
 
-/// The same of a batch of one: a tetrahedron with the corner shape as rest shape. Where no count of its
-/// surveys is other than zero, energy, stress, forces and stiffness are finite.
+/// Checks a batch of one tetrahedron with the corner shape at rest: where all counts of its surveys are zero,
+/// energy, stress, forces and stiffness are finite.
 ///
 /// The material is dynamic, since that of [`Entry::elements`](piola_materials::Entry::elements) is compiled
 /// already.
@@ -308,8 +308,7 @@ fn agreed(material: &impl Material, stretches: [f64; 3]) -> Option<bool> {
     others.all(|there| material.admits(there) == here).then_some(here)
 }
 
-/// What fits `f32`, in `f64`, at all deformations that an `f32` decomposition cannot tell from these
-/// stretches.
+/// Results that fit `f32` at all deformations that an `f32` decomposition cannot tell from given stretches.
 struct Neighbourhood {
     energy_fits: bool,
     stress_fits: bool,

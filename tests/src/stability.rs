@@ -21,10 +21,10 @@ use crate::compiled;
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
 pub const BOUND: f64 = 30.0;
 
-/// Of the switch to the limits, relative to the stretches.
+/// Gap, relative to the stretches, below which the quotients switch to their limits.
 const SWITCH: f64 = 1e-6;
 
-/// What is in a column: a method's error in a quantity.
+/// A column of the table: a method's error in a quantity.
 type Column = (Method, Quantity);
 
 const COLUMNS: [Column; 9] = [
@@ -301,7 +301,7 @@ fn by_svd_gradients<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<
     svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
 }
 
-/// As [`point::evaluate`] does.
+/// The decomposition of F that [`point::evaluate`] would use for the material.
 fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }

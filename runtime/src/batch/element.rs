@@ -69,7 +69,7 @@ impl ElementTile {
         })
     }
 
-    /// Gradients of the energies evaluated last, N, 12 numbers each.
+    /// Gradients of the energies evaluated last, N, 12 components each.
     pub(crate) fn gradients(&self, material: &dyn TileMaterial<f64>, gradients: &mut [f64]) -> Status<u64> {
         f64::with_workspace(|Workspace { gradients: principal, line, .. }| {
             let refused = material.tile_gradients(self.stretched(), principal);
@@ -85,7 +85,7 @@ impl ElementTile {
         })
     }
 
-    /// Gradients, and filtered stiffnesses as the blocks of node pairs, N/m, 90 numbers each.
+    /// Gradients, N, and filtered stiffnesses as the blocks of node pairs, N/m, 90 entries each.
     pub(crate) fn stiffnesses(
         &self,
         material: &dyn TileMaterial<f64>,
@@ -96,7 +96,7 @@ impl ElementTile {
         self.respond(material, filter, gradients, StiffnessForm::Blocks, by_elements(stiffnesses))
     }
 
-    /// Gradients, and filtered stiffnesses as what they are made of.
+    /// Gradients, N, and filtered stiffnesses as their factors U, W, ψij, flips, twists.
     pub(crate) fn factored_stiffnesses(
         &self,
         material: &dyn TileMaterial<f64>,

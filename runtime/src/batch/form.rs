@@ -1,4 +1,4 @@
-//! What is made of a point's frames and blocks: the forms of a tangent and of an element's stiffness.
+//! Forms of a tangent and of an element's stiffness, made from a point's frames and blocks.
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
@@ -8,7 +8,7 @@ use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, contract};
 use crate::status::Status;
 
-/// N numbers from a point's judged tangent and REST numbers of its rest shape.
+/// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
 pub(super) trait Form<const REST: usize, const N: usize> {
     /// Changes blocks where the form asks for more than the filter does.
     #[inline(always)]
@@ -34,7 +34,7 @@ pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Sc
     }
 }
 
-/// A place that takes the blocks of [`contract`]; F says where.
+/// Output for the blocks of [`contract`], placed as the form F prescribes.
 struct Blocks3<'a, F, E>(F, &'a mut [E]);
 
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
@@ -103,11 +103,11 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
 pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
 pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
-/// dP/dF as what it is made of: U, V, ψij, flips, twists.
+/// dP/dF in factors: U, V, ψij, flips, twists.
 pub(super) struct Factored;
 
 impl Factored {
-    /// The tangent from its numbers.
+    /// The tangent restored from its factors.
     #[inline(always)]
     pub(super) fn restore<R: Real>(numbers: [R; 30]) -> Tangent<R> {
         let [u1, u2, u3, u4, u5, u6, u7, u8, u9, v1, v2, v3, v4, v5, v6, v7, v8, v9, rest @ ..] = numbers;
@@ -133,7 +133,7 @@ impl Form<0, 30> for Factored {
     }
 }
 
-/// What [`Factored::restore`] takes, with W in the place of V.
+/// Writes U, W and the blocks of a point: 30 entries as [`Factored::restore`] takes, W in the place of V.
 #[inline(always)]
 fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Scalar]) {
     let line = <R::Scalar as Scalar>::LINE;
@@ -181,7 +181,7 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
 /// ordinary, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
 pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
-/// Cuts off what a factorisation cannot resolve, and says so.
+/// Bounds twists that a factorisation could not resolve; true where one was bounded.
 ///
 /// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
 /// 2μ, the energy has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the
@@ -213,7 +213,7 @@ pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -
     (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
 }
 
-/// What every form of a stiffness asks of the blocks.
+/// Bounds the twists of the blocks for any form of a stiffness, and reports whether it overflows.
 #[inline(always)]
 fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
     let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };
@@ -242,7 +242,7 @@ pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R
     put(to, 9 + a, g3);
 }
 
-/// Where the entries of an element's stiffness go.
+/// Places of the entries of an element's stiffness in an output.
 trait Places {
     /// The place of the entry between coordinate a of node i and c of node j, i ≥ j, and that of its mirror
     /// image.
@@ -339,7 +339,7 @@ stiffness_form! {
     }
 }
 
-/// The stiffness as what it is made of: U, W, ψij, flips, twists.
+/// An element's stiffness in factors: U, W, ψij, flips, twists.
 #[cfg(feature = "bodies")]
 pub(super) struct FactoredStiffness;
 

@@ -9,7 +9,7 @@ use crate::status::{Status, StatusCell, Survey};
 /// Tiles that one thread takes without a further division: enough to pay for handing them over.
 const GRAIN: usize = 8;
 
-/// Slices of a call, each with how many numbers it holds for a point.
+/// Slices of a call, each with its number of components per point.
 pub(super) struct Work<'a, E, const I: usize, const O: usize> {
     pub(super) inputs: [(&'a [E], usize); I],
     pub(super) outputs: [(&'a mut [E], usize); O],
@@ -57,7 +57,7 @@ pub(super) struct Tile<'a, E, const I: usize, const O: usize> {
     pub(super) outputs: [&'a mut [E]; O],
 }
 
-/// Runs `body` for each tile of `count` points and adds up what it says, in the order of the points.
+/// Runs `body` for each tile of the points and adds up its statuses, in the order of the points.
 pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,

@@ -160,11 +160,11 @@ tile_responses! {
 /// Properties of a batch's materials that no deformation decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Properties {
-    /// As [`Material::HAS_INVARIANTS`].
+    /// Whether ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
     pub(crate) has_invariants: bool,
-    /// As [`Material::has_pole`], of one of the materials.
+    /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].
     pub(crate) has_pole: bool,
-    /// As [`Material::ends_at_zero_volume`], of one of the materials.
+    /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
     pub(crate) ends_at_zero_volume: bool,
     /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
     #[cfg(feature = "bodies")]

@@ -96,8 +96,8 @@ impl StiffnessFactors {
         });
     }
 
-    /// Of the stiffness of each node with itself the column of this coordinate, 12 numbers of each element:
-    /// coordinate a of node n at 3n+a.
+    /// Column of this coordinate in the 3×3 stiffness of each node with itself, 12 entries for each element:
+    /// row a of node n at 3n+a.
     pub(crate) fn diagonal_columns(&self, coordinate: usize, columns: &mut [f64]) {
         f64::with_workspace(|Workspace { line, .. }| {
             let (factors, count) = (self.factors.source(), self.count);

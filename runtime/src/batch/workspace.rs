@@ -1,5 +1,4 @@
-//! What lies between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear
-//! memory.
+//! Memory between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear it.
 
 use super::sink::{Line, Lines};
 use super::svd_tile::SvdTile;

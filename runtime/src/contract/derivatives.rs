@@ -9,13 +9,13 @@ use crate::material::Material;
 /// The entries ψ11, ψ22, ψ33, ψ12, ψ13, ψ23 as pairs of stretches.
 pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// `energy` of dual numbers gives ψi, as `gradient` and `blocks` do; `gradient` of dual numbers gives ψij,
+/// Derivatives by dual numbers: `energy` gives the ψi of `gradient` and `blocks`, and `gradient` the ψij,
 /// either way round.
 ///
 /// Both the energy and its derivatives are sums of terms no larger than the tangent, with tens of roundings.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn dual_numbers(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::DualNumbers, material, settings, |judge, stretches, _| {
         let blocks = blocks_at(material, stretches);

@@ -1,4 +1,4 @@
-//! The rule on what a material says of its own domain, which decides how exactly a sign is found.
+//! The rule on a material's domain as it states it, which decides how exactly the sign of λ3 is found.
 
 use super::evaluation::{energy_at, gradient_at, is_admitted};
 use super::numbers::{name, numbers_alone};
@@ -6,19 +6,18 @@ use super::samples::at_samples;
 use super::{Finding, Rule, Settings, Violation, gradient_name};
 use crate::material::{Inversion, Material};
 
-/// Where the material is defined, its numbers are, and it says truly whether the sign of λ3 decides:
+/// Finite results wherever the material is defined, and a true [`Material::ends_at_zero_volume`]:
 ///
-/// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is only
-///   2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
-/// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the range
-///   of numbers ends and not the domain. The status of a point says so, and a solver takes a shorter step.
-///   Where ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and are not looked
-///   at. NaN and −∞ are violations;
-/// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not,
-///   [`ends_at_zero_volume`](Material::ends_at_zero_volume) holds.
+/// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is only 2⁻¹⁰, 2⁻²⁰ and
+///   2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
+/// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the range of numbers ends and not
+///   the domain. Such a point is `nonfinite`, and a solver takes a shorter step. Where ψ > 2⁵¹² Pa, the root
+///   of the largest number, derivatives overflow before ψ does and are not looked at. NaN and −∞ are
+///   violations;
+/// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not, [`ends_at_zero_volume`](Material::ends_at_zero_volume) holds.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
         for (k, number) in numbers_alone(material, stretches).into_iter().enumerate() {
@@ -60,7 +59,7 @@ pub fn domain(material: &impl Material, settings: &Settings) -> Result<Finding, 
     })
 }
 
-/// What to do about an energy or derivative that is no finite number.
+/// Advice for an energy or derivative that is infinite or NaN.
 fn remedy(material: &impl Material, [_, _, l3]: [f64; 3], found: f64) -> String {
     const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
                         something negative?): add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; \

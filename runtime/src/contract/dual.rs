@@ -32,7 +32,7 @@ pub(super) struct Dual {
     pub(super) slope: f64,
 }
 
-/// What all powers of a dual number are made from.
+/// A dual number with its logarithm, from which all its powers are made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DualLogarithm {
     of: Dual,
@@ -40,7 +40,7 @@ pub(super) struct DualLogarithm {
 }
 
 impl Dual {
-    /// The stretches, where stretch k changes at the rate 1.
+    /// Stretches as dual numbers, of which stretch k changes at the rate 1.
     pub(super) fn along(stretches: [f64; 3], k: usize) -> [Self; 3] {
         std::array::from_fn(|i| Self { value: stretches[i], slope: if i == k { 1.0 } else { 0.0 } })
     }

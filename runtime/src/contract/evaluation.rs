@@ -9,19 +9,19 @@ use crate::lanes::Real;
 use crate::material::{Blocks, Material};
 use crate::point::{self, Filter, Matrix3, Tangent};
 
-/// ψ(F).
+/// Energy density ψ(F), Pa.
 #[inline(never)]
 pub(super) fn energy(material: &impl Material, F: &Matrix3<f64>) -> f64 {
     point::evaluate_energy(material, F).0
 }
 
-/// P(F).
+/// First Piola stress P(F), Pa.
 #[inline(never)]
 pub(super) fn stress(material: &impl Material, F: &Matrix3<f64>) -> Matrix3<f64> {
     point::evaluate_stress(material, F).0
 }
 
-/// dP/dF, not filtered.
+/// Unfiltered tangent dP/dF, Pa.
 #[inline(never)]
 pub(super) fn tangent(material: &impl Material, F: &Matrix3<f64>) -> Tangent<f64> {
     point::evaluate(material, F, Filter::None).tangent

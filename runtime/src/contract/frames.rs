@@ -9,14 +9,13 @@ use crate::material::{Material, PAIRS};
 use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 
-/// ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
+/// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
 ///
-/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is
-/// enough to change its numbers beyond their tolerance, or where they are none. Else what is judged is how
-/// [`point`](crate::point) rotates.
+/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is enough to change
+/// its results beyond their tolerance, or makes them NaN. Else the rule judges how [`point`](crate::point) rotates.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Objectivity, material, settings, |judge, stretches, random| {
         let Q = random.rotation();
@@ -24,10 +23,11 @@ pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Find
     })
 }
 
-/// ψ(F W) = ψ(F) and P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj, ψi = ψj and ψii = ψjj.
+/// Isotropy: ψ(F W) = ψ(F), P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj,
+/// ψi = ψj and ψii = ψjj.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
         let W = random.rotation();
@@ -42,13 +42,13 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
     })
 }
 
-/// A : (dP/dF) B = B : (dP/dF) A for random A, B.
+/// Symmetry of the tangent: A : (dP/dF) B = B : (dP/dF) A for random A, B.
 ///
-/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by blocks
-/// that are no finite numbers. Else what is judged is the tangent that [`point`](crate::point) makes of them.
+/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by infinite
+/// or NaN entries. Else the rule judges the tangent that [`point`](crate::point) makes of them.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SymmetricTangent, material, settings, |judge, stretches, random| {
         let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());

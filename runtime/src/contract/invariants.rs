@@ -1,18 +1,18 @@
-//! The rule on invariants: what a material says by I1, I2 and J against what it says by stretches.
+//! The rule on invariants: energy and gradient by I1, I2 and J against those by stretches.
 
 use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::samples::at_samples;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
 
-/// Of a material with [`HAS_INVARIANTS`](Material::HAS_INVARIANTS), where it admits the invariants:
+/// Agreement of the methods by invariants with those by stretches, where the material admits the invariants:
 ///
 /// * the stretches are admitted too;
 /// * the energies agree;
 /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
 ///
 /// # Errors
-/// The first violation; [`Violation::DoesNotApply`] without invariants.
+/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] without invariants.
 pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Invariants;
     if !M::HAS_INVARIANTS {

@@ -6,10 +6,11 @@ use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
 use crate::material::{Blocks, Inversion, Material};
 use crate::random::Random;
 
-/// How far beyond det F = 0 the extension is looked at: λ3 is minus this.
+/// Values of −λ3 at which the extension is judged beyond det F = 0.
 const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 
-/// For a material whose [`inversion`](Material::inversion) is `Inversion::Extend { epsilon }`:
+/// Smooth, restoring extension of a material whose [`inversion`](Material::inversion) is
+/// `Inversion::Extend { epsilon }`:
 ///
 /// * it admits an inverted point where it admits its mirror image;
 /// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the
@@ -21,7 +22,7 @@ const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 /// Depths beyond the [`range`](Settings::range) are left out.
 ///
 /// # Errors
-/// The first violation; [`Violation::DoesNotApply`] of a material that refuses.
+/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] if the material refuses inversion.
 pub fn extension(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Extension;
     let Inversion::Extend { epsilon } = material.inversion() else {

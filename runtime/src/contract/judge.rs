@@ -1,9 +1,11 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
-use super::violation::{FINITE, Violation};
-use super::{Finding, Rule};
+use super::{Finding, Rule, Violation};
 
-/// The state of one rule.
+/// Words for the demand that a value be neither infinite nor NaN.
+pub(super) const FINITE: &str = "a finite number";
+
+/// Progress of one rule: its comparisons so far and the worst of them.
 pub(super) struct Judge {
     rule: Rule,
     comparisons: usize,
@@ -15,7 +17,7 @@ impl Judge {
         Self { rule, comparisons: 0, worst: 0.0 }
     }
 
-    /// |found − expected| ≤ tolerance.
+    /// Demands |found − expected| ≤ tolerance.
     pub(super) fn compare(
         &mut self,
         component: impl FnOnce() -> String,
@@ -27,7 +29,7 @@ impl Judge {
         self.compare_or(component, stretches, found, expected, tolerance, None)
     }
 
-    /// |found| ≤ tolerance.
+    /// Demands |found| ≤ tolerance.
     pub(super) fn vanishes(
         &mut self,
         component: impl FnOnce() -> String,
@@ -39,7 +41,7 @@ impl Judge {
         self.compare_or(component, stretches, found, 0.0, tolerance, Some(remedy))
     }
 
-    /// |found − expected| ≤ tolerance, or a remedy.
+    /// Demands |found − expected| ≤ tolerance, with advice for where it fails.
     fn compare_or(
         &mut self,
         component: impl FnOnce() -> String,
@@ -62,7 +64,7 @@ impl Judge {
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
-    /// The same bits; all NaN are the same.
+    /// Demands that two values have the same bits; all NaN are equal.
     pub(super) fn same(
         &mut self,
         component: impl FnOnce() -> String,
@@ -79,7 +81,7 @@ impl Judge {
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
-    /// found > 0.
+    /// Demands found > 0.
     pub(super) fn positive(
         &mut self,
         component: impl FnOnce() -> String,
@@ -89,7 +91,7 @@ impl Judge {
         self.demand(found > 0.0, "a positive number", || (component(), None), stretches, found)
     }
 
-    /// Whether something holds, as 1 or 0.
+    /// Demands that a statement hold; the report gives it as 1 or 0.
     pub(super) fn holds(
         &mut self,
         component: impl FnOnce() -> String,
@@ -101,7 +103,7 @@ impl Judge {
         self.demand(found, "1", words, stretches, if found { 1.0 } else { 0.0 })
     }
 
-    /// found < 0.
+    /// Demands found < 0.
     pub(super) fn negative(
         &mut self,
         component: impl FnOnce() -> String,
@@ -113,7 +115,7 @@ impl Judge {
         self.demand(found < 0.0, "a negative number", words, stretches, found)
     }
 
-    /// Neither infinite nor NaN.
+    /// Demands a value that is neither infinite nor NaN.
     pub(super) fn finite(
         &mut self,
         component: impl FnOnce() -> String,
@@ -125,7 +127,7 @@ impl Judge {
         self.demand(found.is_finite(), FINITE, words, stretches, found)
     }
 
-    /// That a value is what is expected of it; component and remedy are put into words where it isn't.
+    /// Demands that a condition be met; component and remedy are put into words only where it isn't.
     fn demand(
         &mut self,
         is_met: bool,

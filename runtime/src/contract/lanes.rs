@@ -8,7 +8,7 @@ use crate::lanes::{Backend, Kernel, Lanes, Real};
 use crate::material::Material;
 use crate::random::Random;
 
-/// On lanes, every number is what it is by itself:
+/// Agreement of every result on lanes with that of its point alone:
 ///
 /// * on the portable back end, with the bits of a scalar;
 /// * on any, with the same bits whatever its lane and its neighbours;
@@ -19,7 +19,7 @@ use crate::random::Random;
 /// 1.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Lanes);
     let mut random = Random::new(settings.seed);
@@ -64,7 +64,7 @@ pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, V
     judge.finding()
 }
 
-/// The numbers, those by strains and by invariants, and whether stretches and invariants are admitted.
+/// Length of a row with results by strains and invariants, and whether stretches and invariants are admitted.
 const ALL: usize = COUNT + 9;
 
 #[inline(always)]
@@ -79,7 +79,7 @@ fn alone_at(material: &impl Material, stretches: [f64; 3]) -> [f64; ALL] {
     in_a_row(material, stretches, numbers_alone(material, stretches), by_strains)
 }
 
-/// Those of the mirror image, since strains are above −1.
+/// Strains λi − 1 of the stretches or their mirror image, since strains are above −1.
 #[inline(always)]
 fn strains<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
     [l1, l2, l3.abs()].map(|l| l - R::splat(1.0))
@@ -125,14 +125,13 @@ fn everything_name(number: usize) -> String {
     if number < COUNT { name(number) } else { OTHERS[number - COUNT].into() }
 }
 
-/// One place for all calls: what a back end runs is compiled wherever it is asked for.
+/// Rows of all points from a back end: one function, since its kernel would be compiled again at every call.
 #[inline(never)]
 fn side_by_side_on(backend: Backend, material: &impl Material, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
     backend.run(SideBySide(material, points))
 }
 
-/// Everything at these stretches, as many points at once as there are lanes; the last point fills up what is
-/// left.
+/// Kernel for the rows of points, as many at once as there are lanes; copies of the last fill the rest.
 struct SideBySide<'a, M>(&'a M, &'a [[f64; 3]]);
 
 impl<M: Material> Kernel<f64> for SideBySide<'_, M> {

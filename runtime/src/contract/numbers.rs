@@ -1,21 +1,20 @@
-//! All numbers of a point in a row, and how well a format can know them: what the rules on formats and lanes
-//! compare.
+//! All results of a point in a row, with their tolerances, for the rules on formats and lanes.
 
 use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::{gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::lanes::Real;
 use crate::material::{Blocks, Material};
 
-/// How many numbers there are.
+/// Number of entries in a row.
 pub(super) const COUNT: usize = 19;
 
-/// ψ; ψ1 … ψ3 from `gradient`; gradient, Hessian, flips and twists from `blocks`: of many points at once.
+/// Row of results: ψ; ψ1 … ψ3 from `gradient`; gradient, Hessian, flips, twists from `blocks`. Inlined.
 #[inline(always)]
 pub(super) fn numbers<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
     in_a_row(material.energy(stretches), material.gradient(stretches), material.blocks(stretches))
 }
 
-/// The same of one point.
+/// Row of results as of [`numbers`], from functions that are compiled once, for single points.
 pub(super) fn numbers_alone<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
     in_a_row(energy_at(material, stretches), gradient_at(material, stretches), blocks_at(material, stretches))
 }
@@ -28,7 +27,7 @@ fn in_a_row<R: Real>(energy: R, [g1, g2, g3]: [R; 3], blocks: Blocks<R>) -> [R; 
     [energy, g1, g2, g3, p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23]
 }
 
-/// What a number is.
+/// Name of an entry by its place in the row.
 pub(super) fn name(number: usize) -> String {
     match number {
         0 => "energy".into(),
@@ -40,7 +39,7 @@ pub(super) fn name(number: usize) -> String {
     }
 }
 
-/// By how many u each number may err, and the numbers themselves; nothing where the material ends too near.
+/// Entries of a row and the tolerance of each in units of u; `None` if the domain ends too near.
 ///
 /// A hundred times the sum of two parts. One is the size of the terms that a number is a sum of: the tangent
 /// for second derivatives, what it makes of the stretches for first ones and the energy. The other is how it

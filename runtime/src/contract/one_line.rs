@@ -29,7 +29,7 @@
 /// # fn main() {}
 /// ```
 ///
-/// A material declared `prestressed` carries stress at rest, which the rule `rest` is told by
+/// A material declared `prestressed` carries stress at rest, which the rule `rest` admits by
 /// [`stress_free_at_rest: false`](crate::contract::Settings::stress_free_at_rest):
 ///
 /// ```

@@ -19,10 +19,10 @@ use super::samples::at_samples;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
 use crate::material::{Blocks, Material, PAIRS};
 
-/// Flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all other samples.
+/// Accuracy of flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all samples.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Quotients, material, settings, |judge, stretches, _| {
         by_definition(judge, material, stretches)?;

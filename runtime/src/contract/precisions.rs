@@ -7,12 +7,12 @@ use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
 use crate::material::Material;
 
-/// Energy, gradient, Hessian and quotients in `f32` are those in `f64`, but for roundings of `f32`: at the
+/// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
 /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is
 /// so in `f32`.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn single_precision(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
         compare(judge, material, stretches)?;
@@ -44,7 +44,7 @@ fn compare(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> 
     Ok(())
 }
 
-/// What to do about a number that only `f64` has.
+/// Advice for a result that is finite in `f64` only.
 const OUT_OF_RANGE: &str = "in `f64` this is a number, but `f32` ends at 3.4e38, which it or something on the way to it exceeds, or a \
                             denominator of parameters vanishes in `f32`: choose parameters farther from there, narrow the \
                             stretches of the test, as in `range: (0.7, 1.4)`, or extend from a greater `epsilon`";

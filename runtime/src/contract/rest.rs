@@ -4,11 +4,11 @@ use super::evaluation::blocks_at;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
 use crate::material::{Material, Moduli};
 
-/// At F = I: no stress and twists of zero, unless [`Settings::stress_free_at_rest`] is `false`; flips of ψ11
-/// − ψ12 = 2μ > 0.
+/// Rest state F = I: no stress and zero twists, unless [`Settings::stress_free_at_rest`] is `false`; flips of
+/// ψ11 − ψ12 = 2μ > 0.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Rest);
     let stretches = [1.0; 3];
@@ -26,16 +26,15 @@ pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Vi
     judge.finding()
 }
 
-/// What to do about stress at rest, be it a mistake or meant.
+/// Advice for stress at rest, be it a mistake or meant.
 const STRESSED: &str = "append to the energy what cancels this stress, such as `- mu * J.ln()`; or, where the rest state carries it \
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
-/// The moduli that the material states, [`Material::stated_moduli`], are μ = (ψ11 − ψ12)/2 and λ = ψ12 at F =
-/// I.
+/// Agreement of the moduli of [`Material::stated_moduli`] with μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
 ///
 /// # Errors
-/// The first violation; [`Violation::DoesNotApply`] where it states none.
+/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] without stated moduli.
 pub fn moduli(material: &impl Material) -> Result<Finding, Violation> {
     let rule = Rule::Moduli;
     let Some(stated) = material.stated_moduli() else {

@@ -58,7 +58,7 @@ impl Rule {
         Self::Lanes,
     ];
 
-    /// What a material promises by it, in a line.
+    /// The promise of a material that keeps the rule, in one line.
     #[must_use]
     pub const fn promise(self) -> &'static str {
         match self {

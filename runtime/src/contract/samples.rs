@@ -44,7 +44,7 @@ pub(super) fn samples(material: &impl Material, settings: &Settings, random: &mu
         .collect()
 }
 
-/// The same stretches with λ1, and with λ3, a fraction of λ2 away from it: in descending order as well.
+/// Two triples of stretches with λ1, or λ3, moved to a fraction `gap` of λ2 away from λ2; still descending.
 pub(super) fn together([l1, l2, l3]: [f64; 3], gap: f64) -> [[f64; 3]; 2] {
     [[l2 * (1.0 + gap), l2, l3], [l1, l2, l2 * (1.0 - gap)]]
 }

@@ -16,13 +16,13 @@ use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 use crate::random::Random;
 
-/// (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h²; and between one sample and the next, ψ grows by the
-/// work of its gradient.
+/// Stress as the slope of the energy: (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h², and from one
+/// sample to the next ψ grows by the work of its gradient.
 ///
 /// Near a sample, an energy that jumps elsewhere looks as it should.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     let mut last = None;
     at_samples(Rule::StressSlope, material, settings, |judge, stretches, random| {
@@ -71,10 +71,10 @@ fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3
     judge.compare(name, to, found, expected, inexact + 100.0 * UNIT * rounding)
 }
 
-/// (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
+/// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::TangentSlope, material, settings, |judge, stretches, random| {
         stress_along(judge, material, stretches, &Approach::smooth(stretches), random)
@@ -83,25 +83,25 @@ pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Fi
 
 /// How difference quotients approach a derivative.
 pub(super) struct Approach {
-    /// At the rate h^order.
+    /// Exponent of h in the error.
     order: i32,
-    /// Over this distance in F for h = 1.
+    /// Distance in F of a step h = 1.
     reach: f64,
 }
 
 impl Approach {
-    /// As h², within the distance to det F = 0 and to the pole at λ2 + λ3 = 0.
+    /// Error proportional to h², within the distance to det F = 0 and to the pole at λ2 + λ3 = 0.
     pub(super) fn smooth(stretches: [f64; 3]) -> Self {
         Self { order: 2, reach: stretches[2].abs().min(stretches[1] + stretches[2]) }
     }
 
-    /// As h², on one side of a threshold of each stretch.
+    /// Error proportional to h², on one side of a threshold of each stretch.
     pub(super) fn beside(epsilon: f64, stretches: [f64; 3]) -> Self {
         let Self { order, reach } = Self::smooth(stretches);
         Self { order, reach: stretches.into_iter().map(|l| (l - epsilon).abs()).fold(reach, f64::min) }
     }
 
-    /// As h, where the second derivative of what is differenced jumps.
+    /// Error proportional to h, where the second derivative of the differenced function jumps.
     pub(super) fn across(stretches: [f64; 3]) -> Self {
         Self { order: 1, ..Self::smooth(stretches) }
     }

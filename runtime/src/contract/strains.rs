@@ -5,11 +5,11 @@ use super::samples::at_samples;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
 use crate::material::Material;
 
-/// `gradient_at_strains` at s is `gradient` at 1 + s, but for the rounding of 1 + s: for the strains of the
+/// Agreement of `gradient_at_strains` at s with `gradient` at 1 + s, to the rounding of 1 + s: for strains of
 /// samples with λ3 > 0, and these times 10⁻¹ … 10⁻¹⁵ and 0.
 ///
 /// # Errors
-/// The first violation.
+/// [`Violation`]: the first that is found.
 pub fn strains(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Strains, material, settings, |judge, stretches, _| {
         if stretches[2] <= 0.0 {

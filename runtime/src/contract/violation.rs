@@ -1,21 +1,18 @@
-//! What a broken rule says: rule, component, stretches, both values.
+//! Report of a broken rule: rule, component, stretches, both values.
 
 use std::error::Error;
 use std::fmt;
 
 use super::Rule;
 
-/// Expectation of a violation where a value is infinite or NaN.
-pub(super) const FINITE: &str = "a finite number";
-/// What rounding explains is exceeded by more than this where a formula is wrong: by ten orders of magnitude,
-/// mostly.
+/// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
-/// What else it is.
+/// Advice for a difference below [`MISTAKE`], which is likelier lost digits.
 const DIGITS: &str = "so small a difference is likelier digits lost than a mistake in the formula: where something nearly cancels, such \
                       as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters; where an \
                       exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
 
-/// A broken promise.
+/// A broken rule of the contract, with the values that break it.
 ///
 /// As text it has a line for the rule, one for each of the facts and, where one is known, one for the remedy:
 ///
@@ -47,33 +44,32 @@ pub enum Violation {
     Differs {
         /// The rule.
         rule: Rule,
-        /// What was compared, such as `flip of stretches 1 and 2`.
+        /// Name of the quantity that was compared, such as `flip of stretches 1 and 2`.
         component: String,
-        /// Where.
+        /// Stretches λ1, λ2, λ3 at which the rule was judged.
         stretches: [f64; 3],
         /// The material's value.
         found: f64,
-        /// What the rule demands.
+        /// The value that the rule demands.
         expected: f64,
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
-        /// What to write instead, where the rule knows; told where the difference is too large to be digits
-        /// lost.
+        /// Advice on what to write instead, if any; shown if the difference is too large to be lost digits.
         remedy: Option<String>,
     },
     /// A value that must be positive, negative or finite isn't.
     WrongKind {
         /// The rule.
         rule: Rule,
-        /// What was looked at.
+        /// Name of the quantity that was judged.
         component: String,
-        /// Where.
+        /// Stretches λ1, λ2, λ3 at which the rule was judged.
         stretches: [f64; 3],
         /// The material's value.
         found: f64,
-        /// What the rule demands, such as `a positive number`.
+        /// The kind of value that the rule demands, such as `a positive number`.
         expected: &'static str,
-        /// What to write instead, where the rule knows.
+        /// Advice on what to write instead, if the rule has any.
         remedy: Option<String>,
     },
     /// The material admits none of the points at which the rule looks.
@@ -86,7 +82,7 @@ pub enum Violation {
     DoesNotApply {
         /// The rule.
         rule: Rule,
-        /// What the material has not, such as `stated moduli`.
+        /// The feature that the material lacks, such as `stated moduli`.
         lacks: &'static str,
     },
 }
@@ -161,7 +157,7 @@ impl fmt::Display for Violation {
 
 impl Error for Violation {}
 
-/// All broken promises, at most one for each rule: the first that was found.
+/// All broken rules, each with the first violation that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violations(pub Vec<Violation>);
 

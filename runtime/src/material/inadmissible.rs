@@ -1,16 +1,16 @@
-//! Why parameters make no material.
+//! Reasons why parameters make no material.
 
 use std::fmt;
 
 use super::Moduli;
 
-/// Why a material cannot be built from these parameters.
+/// Reason why a material cannot be built from given parameters.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Inadmissible {
     /// A parameter is infinite or NaN.
     NotFinite {
-        /// Which, and what it is.
+        /// The parameter with its value.
         given: Given,
     },
     /// A condition of the declaration does not hold.
@@ -46,7 +46,7 @@ pub enum Inadmissible {
     NoExtension {
         /// Name of the material.
         material: &'static str,
-        /// Why, as its declaration says.
+        /// Reason that its declaration states.
         reason: Option<&'static str>,
     },
     /// The material does not know the derivatives of its stress by its parameters.
@@ -61,16 +61,16 @@ pub enum Inadmissible {
         /// The parameters that it names, as given.
         given: Vec<Given>,
     },
-    /// A Poisson's ratio is asked for that is below what an energy has by itself.
+    /// The wanted Poisson's ratio is below that of the energy itself.
     BelowOwnPoisson {
-        /// As asked for.
+        /// Poisson's ratio as asked for.
         poisson: f64,
-        /// The energy's own, which is the lowest that it can be normalised to.
+        /// Poisson's ratio of the energy itself, the lowest that it can be normalised to.
         lowest: f64,
     },
     /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
     Shape {
-        /// What was expected.
+        /// The expected shape in words.
         expected: String,
     },
 }
@@ -167,7 +167,7 @@ impl Given {
         Self { parameter, index: Some(index), value }
     }
 
-    /// `mu` or `alpha[2]`.
+    /// Name of the parameter, such as `mu`, with its index if it is an entry, such as `alpha[2]`.
     #[must_use]
     pub fn name(&self) -> String {
         let Self { parameter, index, .. } = self;

@@ -62,8 +62,11 @@ impl<M: Material> Normalised<M> {
     /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½, both of small strain.
     ///
     /// # Errors
-    /// E or ν outside these bounds; a material that is unstable at rest; and ν below that of the material
-    /// itself, since c < 0 would take away resistance to changes of volume, the more the larger they are.
+    /// * [`Inadmissible::YoungPoisson`] if E or ν is outside these bounds;
+    /// * [`Inadmissible::UnstableRest`] if the material is unstable at rest, or s or c leaves the range of
+    ///   numbers;
+    /// * [`Inadmissible::BelowOwnPoisson`] if ν is below that of the material itself, since c < 0 would take
+    ///   away resistance to changes of volume, the more the larger they are.
     pub fn with_young_poisson(material: M, young: f64, poisson: f64) -> Result<Self, Inadmissible> {
         let moduli = Moduli::from_young_poisson(young, poisson)?;
         let own = Moduli::at_rest(&material);

@@ -117,7 +117,7 @@ impl<'a, M: Graded> PerPoint<'a, M> {
     }
 }
 
-/// Why materials cannot be evaluated together.
+/// Reason why materials cannot be evaluated together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PerPointError {
     /// The list of materials is empty.

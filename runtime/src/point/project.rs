@@ -52,7 +52,7 @@ use super::svd::completed;
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, PAIRS};
 
-/// What becomes of the negative eigenvalues of dP/dF.
+/// Treatment of the negative eigenvalues of dP/dF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Filter {
@@ -77,7 +77,7 @@ impl Filter {
     }
 }
 
-/// What becomes of an eigenvalue by a filter of this slope.
+/// An eigenvalue after a filter of this slope, which multiplies the negative ones.
 #[inline(always)]
 fn filtered<R: Real>(eigenvalue: R, slope: R) -> R {
     // Not `max`, which would turn NaN into a plausible zero; and no zero is negative.

@@ -108,7 +108,7 @@ pub fn evaluate_stress_from_displacement<R: Real>(
 /// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent
 /// filtered.
 ///
-/// The tangent is that of [`evaluate`] at I + H. The status says what either says.
+/// The tangent is that of [`evaluate`] at I + H. The status is the union of both statuses.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_from_displacement<R: Real>(

@@ -11,7 +11,7 @@ use piola::lanes::{Backend, Kernel, Lanes, Real, Scalar};
 use super::task::Task;
 use piola::random::Random;
 
-/// What a task reads and writes, for a number of points that is a multiple of 64.
+/// Inputs and outputs of a task, for a multiple of 64 points.
 #[derive(Debug)]
 pub struct Arrays<E> {
     task: Task,
@@ -25,7 +25,7 @@ pub struct Arrays<E> {
 const CHUNK: usize = 64;
 
 impl<E: Stages> Arrays<E> {
-    /// The same points for every task, format and layout.
+    /// Arrays of random points, which are equal for every task, format and layout.
     #[must_use]
     pub fn new(task: Task, layout: Layout, points: usize) -> Self {
         let inputs = task.inputs().map(|input| {

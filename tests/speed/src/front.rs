@@ -1,4 +1,4 @@
-//! Who is not beaten.
+//! Pareto front of times and errors.
 
 /// Times closer than this share are taken for equal: what repeated runs differ by.
 pub const RESOLUTION: f64 = 0.05;
@@ -6,8 +6,7 @@ pub const RESOLUTION: f64 = 0.05;
 /// A time and an error.
 type Pair = (f64, f64);
 
-/// Of each pair, whether none of the others [`beats`] it: the Pareto front. What is not finite is never on
-/// it.
+/// Membership of each pair in the Pareto front: whether it is finite and no other pair [`beats`] it.
 #[must_use]
 pub fn front(pairs: &[Pair], unit: f64) -> Vec<bool> {
     let is_finite = |(time, error): Pair| time.is_finite() && error.is_finite();

@@ -1,4 +1,4 @@
-//! What is timed and counted: the kernels of a batch on the same points, for the table of speeds, the bench
+//! Work to be timed and counted: the kernels of a batch on fixed points, for the table of speeds, the bench
 //! and the counts of instructions.
 //!
 //! * [`Task`]: what a batch is asked for; [`Arrays`]: the numbers that go in and come out;

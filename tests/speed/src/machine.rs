@@ -1,4 +1,4 @@
-//! What it was measured on.
+//! Description of the machine that measures.
 
 /// The processor's name, where the system says it.
 #[must_use]

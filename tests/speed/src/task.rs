@@ -5,7 +5,7 @@ use piola::point::Filter;
 
 use piola::random::Random;
 
-/// What a batch is asked for: one of the methods of [`Batch`](piola::batch::Batch).
+/// A method of [`Batch`](piola::batch::Batch) to be timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
     /// ψ.
@@ -22,7 +22,7 @@ pub enum Task {
     Products,
     /// Gradients and stiffnesses of elements, 144 entries.
     Stiffnesses,
-    /// The same, 78 entries.
+    /// Gradients and packed symmetric stiffnesses of elements, 78 entries.
     PackedStiffnesses,
 }
 
@@ -80,7 +80,7 @@ impl Task {
         if self == Self::Products { &all[..1] } else { all }
     }
 
-    /// What it reads of each point.
+    /// The quantities that the task reads at each point.
     pub(super) fn inputs(self) -> [Input; 2] {
         match self {
             Self::Products => [Input::Factors, Input::Increment],
@@ -103,13 +103,13 @@ impl Task {
     }
 }
 
-/// What is known of a point.
+/// A quantity that is given at each point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Input {
     Nothing,
     /// F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0, so that every energy is defined.
     Deformation,
-    /// As F, and a volume.
+    /// Dm⁻¹, drawn like F, and a volume.
     RestShape,
     /// Any numbers: nothing depends on them.
     Factors,

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 /// How often something is timed.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Of how many repeats the least and the median are taken.
+    /// Number of repeats of which the least and the median are taken.
     pub repeats: usize,
     /// How long a repeat lasts at least; it consists of as many calls.
     pub at_least: Duration,
@@ -16,7 +16,7 @@ pub struct Effort {
 /// Nanoseconds per point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// Of the fastest repeat, which was disturbed the least.
+    /// Time in the fastest repeat, which was disturbed the least.
     pub least: f64,
     /// Half of the repeats took longer.
     pub median: f64,
@@ -39,7 +39,7 @@ pub fn time_in_turns<const N: usize>(
     [const { Times { least: f64::NAN, median: f64::NAN } }; N].map(|none| times.next().unwrap_or(none))
 }
 
-/// As [`time_in_turns`], for as many calls as there are.
+/// Times any number of calls in turns, as [`time_in_turns`] does for an array of them.
 pub fn time_all_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn FnMut()]) -> Vec<Times> {
     let counts: Vec<u128> = calls
         .iter_mut()
@@ -74,7 +74,7 @@ pub fn time_all_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn Fn
 }
 
 impl Times {
-    /// Of at least one repeat.
+    /// Least and median of the times of repeats, at least one.
     fn of(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         Self { least: times[0], median: times[times.len() / 2] }

@@ -17,7 +17,7 @@ use piola::{Material, Real};
 /// A material that sees no stretch below a limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Clamped<M> {
-    /// What it is where no stretch is that small.
+    /// The material where no stretch is below the limit.
     pub material: M,
     /// The smallest stretch that it is shown.
     pub limit: f64,

@@ -71,13 +71,13 @@ pub fn naive<R: Real>(material: &impl Material, stretches: [R; 3]) -> Blocks<R> 
     plain(stretches, gradient, hessian)
 }
 
-/// The same from derivatives that are known already.
+/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), whatever the gap, from given derivatives.
 #[inline(always)]
 pub(super) fn plain<R: Real>(stretches: [R; 3], gradient: [R; 3], hessian: [R; 6]) -> Blocks<R> {
     with_quotients(stretches, gradient, hessian, |numerator, gap, _, _| numerator / gap)
 }
 
-/// The same, but the limits ψii ∓ ψij of l'Hôpital's rule where the gap is below `threshold`·max(|λi|, |λj|).
+/// Flips and twists as quotients, or l'Hôpital's limits ψii ∓ ψij at gaps below `threshold`·max(|λi|, |λj|).
 ///
 /// The limit of the twist is that of an energy which is even in the two stretches; at a pole there is none.
 #[inline(always)]

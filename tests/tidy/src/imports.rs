@@ -153,7 +153,7 @@ impl<'a> Graph<'a> {
         circles(self.edges().into_iter().filter(counts).collect())
     }
 
-    /// As [`Self::circles`] of whole folders: modules of the root, each with all that is below it.
+    /// Circles among the modules of the root, each with all that is below it; see [`Self::circles`].
     #[must_use]
     pub fn circles_of_folders(&self) -> Vec<Vec<Edge>> {
         circles(self.edges_of_folders())

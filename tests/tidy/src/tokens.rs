@@ -1,4 +1,4 @@
-//! What can be read from tokens, inside of macros as well.
+//! Paths and documentation read from tokens, inside of macros as well.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
