@@ -82,3 +82,13 @@ fn each_point_gets_what_it_would_get_alone() -> Result<(), Inadmissible> {
     check([gent(0.5)?, gent(30.0)?, gent(1.0)?, gent(2.0)?]);
     Ok(())
 }
+
+#[test]
+fn a_parameter_can_be_replaced_and_is_checked() -> Result<(), Inadmissible> {
+    let extend = Inversion::Extend { epsilon: 0.25 };
+    let rubber = NeoHookean::new(1.0, 3.0)?.with_inversion(extend)?;
+    assert_eq!(rubber.with_lambda(5.0)?, NeoHookean::new(1.0, 5.0)?.with_inversion(extend)?);
+    assert!(matches!(rubber.with_mu(-1.0), Err(Inadmissible::Violated { .. })));
+    assert!(matches!(rubber.with_lambda(f64::NAN), Err(Inadmissible::NotFinite { .. })));
+    Ok(())
+}

@@ -5,6 +5,8 @@ use std::fmt;
 
 use super::Rule;
 
+/// Expectation of a violation where a value is infinite or NaN.
+pub(super) const FINITE: &str = "a finite number";
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
 /// Advice for a difference below [`MISTAKE`], which is likelier lost digits.

@@ -2,7 +2,7 @@
 //! the choice of an extension, and getters of the parameters.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
@@ -22,6 +22,7 @@ pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStre
     let conditions = declaration.options.extend.as_ref();
     let with_inversion = conditions.map(|conditions| with_inversion(declaration, conditions));
     let getters = declaration.parameters.iter().map(|parameter| getter(declaration, parameter));
+    let replacements = declaration.parameters.iter().map(|parameter| replacement(declaration, parameter));
     quote! {
         #naming
         impl #bounds #name #arguments {
@@ -32,6 +33,8 @@ pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStre
             #with_inversion
 
             #(#getters)*
+
+            #(#replacements)*
         }
     }
 }
@@ -124,6 +127,29 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
             }
             self.inversion = inversion;
             Ok(self)
+        }
+    }
+}
+
+/// The material with another value of one parameter.
+fn replacement(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
+    let visibility = &declaration.visibility;
+    let ty = declaration.parameter_type(parameter);
+    let name = &parameter.name;
+    let method = format_ident!("with_{name}");
+    let values = declaration.parameters.iter().map(|other| {
+        let other = &other.name;
+        if other == name { quote!(#name) } else { quote!(self.#other) }
+    });
+    let inversion = declaration.options.extend.is_some().then(|| quote!(?.with_inversion(self.inversion)));
+    let documentation = doc(&format!(
+        "Replaces `{name}`.\n\n# Errors\nIf the parameters are not admissible together, as of `new`."
+    ));
+    quote! {
+        #documentation
+        #[allow(dead_code)]
+        #visibility fn #method(self, #name: #ty) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            Self::new(#(#values),*)#inversion
         }
     }
 }

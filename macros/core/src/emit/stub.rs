@@ -3,7 +3,7 @@
 //! So that one mistake gives one message, and not another one for each place that uses the material.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
 
 use crate::read::parse::{Function, identifiers, is_f64, is_reserved, may_be_function};
@@ -99,6 +99,7 @@ fn inert_type(function: &Function) -> TokenStream {
         }
     });
     let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
+    let replacements: Vec<_> = methods.iter().map(|name| format_ident!("with_{name}")).collect();
     let unreachable = quote!(::core::unreachable!("this material does not compile"));
     quote! {
         #(#attributes)*
@@ -118,6 +119,12 @@ fn inert_type(function: &Function) -> TokenStream {
             ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
                 #unreachable
             }
+            #(#visibility fn #replacements<AnyValue>(
+                self,
+                _: AnyValue,
+            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+                #unreachable
+            })*
             #(#visibility fn #methods(&self) -> #results {
                 #unreachable
             })*

@@ -124,7 +124,7 @@ impl Gent {
         }
         Ok(material)
     }
-    /// The same material with another way to meet what lies outside its domain.
+    /// Replaces what the material does outside its domain.
     ///
     /// # Errors
     /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
@@ -165,6 +165,39 @@ impl Gent {
     #[must_use]
     pub fn kappa(&self) -> f64 {
         self.kappa
+    }
+    /// Replaces `mu`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_mu(
+        self,
+        mu: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(mu, self.jm, self.kappa)?.with_inversion(self.inversion)
+    }
+    /// Replaces `jm`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_jm(
+        self,
+        jm: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(self.mu, jm, self.kappa)?.with_inversion(self.inversion)
+    }
+    /// Replaces `kappa`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_kappa(
+        self,
+        kappa: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(self.mu, self.jm, kappa)?.with_inversion(self.inversion)
     }
 }
 const _: () = {

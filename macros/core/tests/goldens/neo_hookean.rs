@@ -125,7 +125,7 @@ impl NeoHookean {
         let lambda = moduli.lambda;
         Self::new(mu, lambda)
     }
-    /// The same material with another way to meet what lies outside its domain.
+    /// Replaces what the material does outside its domain.
     ///
     /// # Errors
     /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
@@ -163,6 +163,28 @@ impl NeoHookean {
     #[must_use]
     pub fn lambda(&self) -> f64 {
         self.lambda
+    }
+    /// Replaces `mu`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_mu(
+        self,
+        mu: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(mu, self.lambda)?.with_inversion(self.inversion)
+    }
+    /// Replaces `lambda`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_lambda(
+        self,
+        lambda: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(self.mu, lambda)?.with_inversion(self.inversion)
     }
 }
 const _: () = {

@@ -119,7 +119,7 @@ impl<const N: usize> Ogden<N> {
         }
         Ok(material)
     }
-    /// The same material with another way to meet what lies outside its domain.
+    /// Replaces what the material does outside its domain.
     ///
     /// # Errors
     /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
@@ -172,6 +172,39 @@ impl<const N: usize> Ogden<N> {
     #[must_use]
     pub fn kappa(&self) -> f64 {
         self.kappa
+    }
+    /// Replaces `mu`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_mu(
+        self,
+        mu: [f64; N],
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(mu, self.alpha, self.kappa)?.with_inversion(self.inversion)
+    }
+    /// Replaces `alpha`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_alpha(
+        self,
+        alpha: [f64; N],
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(self.mu, alpha, self.kappa)?.with_inversion(self.inversion)
+    }
+    /// Replaces `kappa`.
+    ///
+    /// # Errors
+    /// If the parameters are not admissible together, as of `new`.
+    #[allow(dead_code)]
+    pub fn with_kappa(
+        self,
+        kappa: f64,
+    ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        Self::new(self.mu, self.alpha, kappa)?.with_inversion(self.inversion)
     }
 }
 const _: () = {
