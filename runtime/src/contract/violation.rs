@@ -5,6 +5,9 @@ use std::fmt;
 
 use super::Rule;
 
+/// Words for the demand that a value be neither infinite nor NaN.
+pub(super) const FINITE: &str = "a finite number";
+
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
 /// Advice for a difference below [`MISTAKE`], which is likelier lost digits.
