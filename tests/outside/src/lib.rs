@@ -1,6 +1,7 @@
 //! A material of a user's own crate, and its sum with one of the catalogue.
 
-use piola::material::{DynMaterial, Inadmissible, Scaled, Sum};
+use piola::DynMaterial;
+use piola::material::{Inadmissible, Scaled, Sum};
 use piola_materials::NeoHookean;
 
 /// Rubber that stiffens: the first two terms of Yeoh's energy.
