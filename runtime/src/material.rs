@@ -60,7 +60,7 @@ pub struct Blocks<R> {
 /// [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
     /// Energy density ψ, J/m³ of rest volume.
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::material::DynMaterial
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial
 
     /// Gradient ψ1, ψ2, ψ3, Pa.
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
