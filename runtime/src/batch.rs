@@ -36,8 +36,8 @@
 //! **Status.** A point that cannot be computed is no error of a call: its results mean nothing, and a
 //! [`Survey`] counts such points and names the first.
 //!
-//! **Parameters.** A material is the same for all points; with [`Each`](crate::material::Each) every point
-//! has its own.
+//! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
+//! point has its own.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
 //! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or

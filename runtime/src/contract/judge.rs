@@ -1,9 +1,7 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
-use super::{Finding, Rule, Violation};
-
-/// Words for the demand that a value be neither infinite nor NaN.
-pub(super) const FINITE: &str = "a finite number";
+use super::violation::{FINITE, Violation};
+use super::{Finding, Rule};
 
 /// Progress of one rule: its comparisons so far and the worst of them.
 pub(super) struct Judge {

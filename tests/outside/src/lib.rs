@@ -1,10 +1,11 @@
 //! A material of a user's own crate, and its sum with one of the catalogue.
 
-use piola::material::{Inadmissible, Sum};
+use piola::DynMaterial;
+use piola::material::{Inadmissible, Scaled, Sum};
 use piola_materials::NeoHookean;
 
 /// Rubber that stiffens: the first two terms of Yeoh's energy.
-#[piola::material(domain(J > 0.0))]
+#[piola::material(domain(J > 0.0), serde)]
 pub fn Stiffening(
     [l1, l2, l3]: [f64; 3],
     /// Coefficient of Ī1 − 3, Pa.
@@ -25,10 +26,29 @@ pub fn stiffening() -> Result<Stiffening, Inadmissible> {
     Stiffening::new(1e5, 1e4, 2e6)
 }
 
-/// The declared energy and a neo-Hookean solid, deformed alike.
+/// A neo-Hookean solid of the catalogue.
 ///
 /// # Errors
 /// `Inadmissible` if a parameter is.
-pub fn sum() -> Result<Sum<NeoHookean, Stiffening>, Inadmissible> {
-    Ok(Sum(NeoHookean::new(3.8e5, 2e7)?, stiffening()?))
+pub fn matrix() -> Result<NeoHookean, Inadmissible> {
+    NeoHookean::new(3.8e5, 2e7)
+}
+
+/// How many times the declared energy is in the sum.
+pub const FACTOR: f64 = 0.25;
+
+/// The neo-Hookean solid and a multiple of the declared energy, deformed alike.
+///
+/// # Errors
+/// `Inadmissible` if a parameter is.
+pub fn sum() -> Result<Sum<NeoHookean, Scaled<Stiffening>>, Inadmissible> {
+    Ok(Sum::new(matrix()?, Scaled::new(FACTOR, stiffening()?)?))
+}
+
+/// Materials that are told apart at run time only.
+///
+/// # Errors
+/// `Inadmissible` if a parameter is.
+pub fn boxed() -> Result<[Box<dyn DynMaterial<f64>>; 2], Inadmissible> {
+    Ok([Box::new(stiffening()?), Box::new(sum()?)])
 }
