@@ -242,7 +242,7 @@ pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
     principal.to_world(&svd.U)
 }
 
-/// λj λk: what a unit area normal to direction i becomes.
+/// λj λk, the deformed size of a unit area normal to direction i.
 #[inline(always)]
 fn areas<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
     [l2 * l3, l1 * l3, l1 * l2]
