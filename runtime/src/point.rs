@@ -1,11 +1,12 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
-//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the frames
-//! carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the frames
-//! ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly deform start
-//! from the displacement gradient F − I instead ([`small_strain`]), and codes that have their own elements find other
-//! [`measures`] of stress here, with their tangents. Everything is generic over the real type, and what cannot be
-//! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ ([`Material`]); the
+//! frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as a block-diagonal map between the
+//! frames ([`tangent`], which derives it), made semidefinite on request ([`mod@project`]). Bodies that hardly
+//! deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that have their
+//! own elements find other [`measures`] of stress here, with their tangents. Everything is generic over the
+//! real type, and what cannot be computed is reported in a [`Status`] instead of an error, because a point
+//! may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
@@ -101,8 +102,8 @@ pub fn evaluate_stress<R: Real>(
 /// Stress and tangent at F, the tangent filtered.
 ///
 /// Outside the domain of the energy the status is `refused` and the results mean nothing. Where it is not
-/// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to any dF with
-/// ‖dF‖ ≤ 1.
+/// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to
+/// any dF with ‖dF‖ ≤ 1.
 #[inline(always)]
 #[must_use]
 pub fn evaluate<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>, filter: Filter) -> Point<R> {

@@ -16,7 +16,7 @@ trait Points: Send + Sync {
     /// All the materials: one, or one for each point.
     fn materials(&self) -> &[Self::Material];
 
-    /// How many points have a material of their own; `None` if one serves any number of points.
+    /// Number of points with a material of their own; `None` if one serves any number of points.
     fn count(&self) -> Option<usize>;
 }
 
@@ -57,11 +57,11 @@ impl<M: Graded> Points for PerPoint<'_, M> {
 /// Principal stretches of a tile, or its invariants where a method takes these, and how to compute with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a, E> {
-    /// The instructions to use.
+    /// Vector instructions of the kernels.
     pub(crate) backend: Backend,
     /// Index of the tile's first point in the batch.
     pub(crate) start: usize,
-    /// How many points the tile has.
+    /// Number of points in the tile.
     pub(crate) count: usize,
     pub(crate) rows: &'a Rows<E, 3>,
 }
@@ -169,7 +169,7 @@ pub struct Properties {
     /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
     #[cfg(feature = "bodies")]
     pub(crate) rest_stiffness: f64,
-    /// How many points have a material of their own; `None` if one serves any number of points.
+    /// Number of points with a material of their own; `None` if one serves any number of points.
     pub(crate) points: Option<usize>,
 }
 

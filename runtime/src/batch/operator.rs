@@ -42,7 +42,7 @@ impl StiffnessFactors {
         Self { backend, count, factors: Lines::zero() }
     }
 
-    /// Where [`StiffnessForm::Factored`] goes.
+    /// Output for [`StiffnessForm::Factored`].
     pub(super) fn sink(&mut self) -> Sink<'_, f64> {
         self.factors.sink()
     }
@@ -84,7 +84,7 @@ impl StiffnessFactors {
         f64::stiffness(backend, StiffnessForm::Factored, kernel) | judged | refused
     }
 
-    /// Stiffness times displacement, 12 numbers of each element; `corners` are the displacements of its
+    /// Stiffness times displacement, N, 12 components of each element; `corners` are the displacements of its
     /// nodes.
     pub(crate) fn multiply(&self, corners: impl Iterator<Item = [[f64; 3]; 4]>, products: &mut [f64]) {
         f64::with_workspace(|Workspace { F: edges, line, .. }| {
@@ -106,7 +106,7 @@ impl StiffnessFactors {
     }
 }
 
-/// Factors and edges of displacements into products at the nodes.
+/// Kernel from factors and edges of displacements to products at the nodes.
 struct Multiply<'a> {
     factors: Source<'a, f64, 30>,
     edges: Source<'a, f64, 9>,
@@ -131,10 +131,10 @@ impl Kernel<f64> for Multiply<'_> {
     }
 }
 
-/// How far apart two numbers of a point are put.
+/// Distance between two components of a point in an output.
 const LINE: usize = <f64 as Scalar>::LINE;
 
-/// Factors into a column of the blocks on the diagonal.
+/// Kernel from factors to a column of the blocks on the diagonal.
 struct DiagonalColumns<'a> {
     factors: Source<'a, f64, 30>,
     coordinate: usize,

@@ -1,12 +1,12 @@
-//! How the numbers of many points lie in a slice, and how lanes get into it and out of it.
+//! Layouts of the components of many points in a slice, and the ways of lanes into it and out of it.
 
 use super::tile::TILE;
 use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
 
-/// How N numbers of each of many points lie in a slice.
+/// Layout of the N components of each of many points in a slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layout {
-    /// Point by point: number k of point p at p N + k. Lanes are transposed in registers.
+    /// Point by point: component k of point p at p N + k. Lanes are transposed in registers.
     #[default]
     Points,
     /// In lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number
@@ -16,7 +16,7 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// Where number k of a point is.
+    /// Index of component k of a point in the slice.
     #[must_use]
     pub fn index<E: Scalar>(self, point: usize, numbers: usize, k: usize) -> usize {
         match self {
@@ -26,7 +26,7 @@ impl Layout {
     }
 }
 
-/// N numbers of each point of a tile in [`Layout::Lines`], where lanes can load them.
+/// Components of each point of a tile, N of them, in [`Layout::Lines`], where lanes can load them.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a, E, const N: usize>(&'a [E]);
 
@@ -68,7 +68,7 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     }
 }
 
-/// Room for the points of a tile in [`Layout::Lines`].
+/// Memory for the points of a tile in [`Layout::Lines`].
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Lines<E, const N: usize>(pub(super) [[E; N]; TILE]);
@@ -135,18 +135,18 @@ impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
     }
 }
 
-/// Where the numbers of a tile go.
+/// Output of a tile's components to its part of a slice.
 pub(super) struct Sink<'a, E> {
     /// The part of the slice that belongs to the tile.
     pub(super) to: &'a mut [E],
     pub(super) layout: Layout,
-    /// Past the caches, with non-temporal stores, if given what keeps them in order.
+    /// Fence for non-temporal stores past the caches; ordinary stores without one.
     pub(super) non_temporal: Option<&'a NonTemporal>,
 }
 
 impl<E: Scalar> Sink<'_, E> {
-    /// The place for the N numbers of the points from `at` on: number k belongs at k LINE. [`Sink::finish`]
-    /// must follow.
+    /// The place for the N components of the points from `at` on: component k belongs at k LINE.
+    /// [`Sink::finish`] must follow.
     #[inline(always)]
     pub(super) fn place<'a, R: Lanes<Scalar = E>, const N: usize>(
         &'a mut self,

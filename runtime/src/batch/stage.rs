@@ -35,7 +35,7 @@ type InTurns<R> = <R as Lanes>::Interleaved;
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 
-/// The deformation gradients of a tile into frames and stretches.
+/// Kernel from the deformation gradients of a tile to frames and stretches.
 pub(super) struct Decompose<'a, E> {
     pub(super) F: Source<'a, E, 9>,
     pub(super) count: usize,
@@ -62,7 +62,7 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
     }
 }
 
-/// The deformation gradients of a tile into I1, I2, J.
+/// Kernel from the deformation gradients of a tile to I1, I2, J.
 pub(super) struct Invariants<'a, E> {
     pub(super) F: Source<'a, E, 9>,
     pub(super) count: usize,
@@ -86,7 +86,7 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
     }
 }
 
-/// F, I1 and W1, W2, WJ into P.
+/// Kernel from F, I1 and W1, W2, WJ to P.
 pub(super) struct StressByInvariants<'a, E> {
     pub(super) F: Source<'a, E, 9>,
     pub(super) invariants: &'a Rows<E, 3>,
@@ -115,7 +115,7 @@ impl<E: Scalar> Kernel<E> for StressByInvariants<'_, E> {
     }
 }
 
-/// Edges of a tile's tetrahedra into their deformation gradients, in place: F = Ds Dm⁻¹.
+/// Kernel from the edges of a tile's tetrahedra to their deformation gradients, in place: F = Ds Dm⁻¹.
 pub(super) struct Deform<'a, E> {
     /// Ds: row a, column k is coordinate a of node k + 1 less that of node 0.
     pub(super) edges: &'a mut Lines<E, 9>,
@@ -137,7 +137,7 @@ impl<E: Scalar> Kernel<E> for Deform<'_, E> {
     }
 }
 
-/// Frames and ψi into the gradients of elements.
+/// Kernel from frames and ψi to the gradients of elements, N.
 pub(super) struct Forces<'a, E> {
     pub(super) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
@@ -168,7 +168,7 @@ impl<E: Scalar> Kernel<E> for Forces<'_, E> {
     }
 }
 
-/// Frames and ψi into P.
+/// Kernel from frames and ψi to P, Pa.
 pub(super) struct Stress<'a, E> {
     pub(super) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
@@ -196,7 +196,7 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E> {
     }
 }
 
-/// Filters the blocks of a tile in place, and says what is wrong with them.
+/// Kernel that filters the blocks of a tile in place, and returns the status of its points.
 pub(super) struct Judge<'a, E> {
     pub(super) points: &'a SvdTile<E>,
     pub(super) blocks: &'a mut Rows<E, 15>,
@@ -226,7 +226,7 @@ impl<E: Scalar> Kernel<E> for Judge<'_, E> {
     }
 }
 
-/// Frames and judged blocks into tangents or stiffnesses.
+/// Frames and judged blocks of a tile, with the output for its tangents or stiffnesses.
 pub(super) struct Respond<'a, E, const REST: usize> {
     pub(super) points: &'a SvdTile<E>,
     pub(super) blocks: &'a Rows<E, 15>,
@@ -265,7 +265,7 @@ where
     }
 }
 
-/// dP = (dP/dF) dF from what [`Factored`] has stored.
+/// Kernel of products dP = (dP/dF) dF from what [`Factored`] has stored.
 pub(super) struct Product<'a, E> {
     pub(super) stored: Source<'a, E, 30>,
     pub(super) dF: Source<'a, E, 9>,

@@ -1,4 +1,4 @@
-//! Tiles: the numbers of 64 points, number by number, small enough to stay in the innermost cache.
+//! Tiles: 64 points, component by component, small enough to stay in the innermost cache.
 //!
 //! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as
 //! it is. A tile that is not full is padded with copies of nothing in particular: no lane looks at another.
@@ -12,10 +12,10 @@ pub(crate) const TILE: usize = 64;
 /// of the innermost cache, and loads would wait for stores to addresses that only look the same.
 pub(super) const ROW: usize = 80;
 
-/// A number of each point of a tile.
+/// One component of each point of a tile.
 pub(super) type Row<E> = [E; ROW];
 
-/// N numbers of each point of a tile.
+/// Rows of a tile: N components of each of its points.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Rows<E, const N: usize>(pub(crate) [Row<E>; N]);
@@ -25,13 +25,13 @@ impl<E: Scalar, const N: usize> Rows<E, N> {
         Self([[E::default(); ROW]; N])
     }
 
-    /// Number k of the points from `at` on.
+    /// Component k of the points from `at` on.
     #[inline(always)]
     pub(crate) fn get<R: Lanes<Scalar = E>>(&self, k: usize, at: usize) -> R {
         R::load(&self.0[k][at..])
     }
 
-    /// All numbers of the points from `at` on.
+    /// All components of the points from `at` on.
     #[inline(always)]
     pub(crate) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];

@@ -8,13 +8,14 @@ use crate::material::{Inversion, Material};
 
 /// Finite results wherever the material is defined, and a true [`Material::ends_at_zero_volume`]:
 ///
-/// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is only 2⁻¹⁰, 2⁻²⁰ and
-///   2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
-/// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the range of numbers ends and not
-///   the domain. Such a point is `nonfinite`, and a solver takes a shorter step. Where ψ > 2⁵¹² Pa, the root
-///   of the largest number, derivatives overflow before ψ does and are not looked at. NaN and −∞ are
-///   violations;
-/// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not, [`ends_at_zero_volume`](Material::ends_at_zero_volume) holds.
+/// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is only
+///   2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
+/// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the range
+///   of numbers ends and not the domain. Such a point is `nonfinite`, and a solver takes a shorter step.
+///   Where ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and are not looked
+///   at. NaN and −∞ are violations;
+/// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not,
+///   [`ends_at_zero_volume`](Material::ends_at_zero_volume) holds.
 ///
 /// # Errors
 /// [`Violation`]: the first that is found.

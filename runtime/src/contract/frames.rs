@@ -11,8 +11,9 @@ use crate::point::matrix::multiply;
 
 /// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
 ///
-/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is enough to change
-/// its results beyond their tolerance, or makes them NaN. Else the rule judges how [`point`](crate::point) rotates.
+/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is
+/// enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges how
+/// [`point`](crate::point) rotates.
 ///
 /// # Errors
 /// [`Violation`]: the first that is found.

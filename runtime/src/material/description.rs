@@ -1,6 +1,6 @@
 //! Descriptions of declared materials, for programs that choose one at run time.
 
-/// The texts and data of a declaration.
+/// Texts and data of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Description {
     /// The type's name.

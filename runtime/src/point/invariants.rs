@@ -28,7 +28,7 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     ([square(F), square(&cofactor(F)), determinant(F)], is_in_range)
 }
 
-/// |A|².
+/// Squared Frobenius norm |A|².
 #[inline(always)]
 fn square<R: Real>(A: &Matrix3<R>) -> R {
     dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2])
@@ -47,7 +47,7 @@ pub(crate) fn stress_by_invariants<R: Real>(F: &Matrix3<R>, I1: R, [W1, W2, WJ]:
     }))
 }
 
-/// cof F: the matrix of signed minors, J F⁻ᵀ where that exists.
+/// Cofactors of F: the matrix of signed minors, J F⁻ᵀ where that exists.
 #[inline(always)]
 fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => {

@@ -53,7 +53,7 @@ pub(crate) use three;
 #[cfg(feature = "batch")]
 pub(crate) use thrice;
 
-/// x·y.
+/// The scalar product x·y.
 #[inline(always)]
 pub(crate) fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
     x[0].mul_add(y[0], x[1].mul_add(y[1], x[2] * y[2]))
@@ -65,20 +65,20 @@ pub(crate) fn column<R: Real>(A: &Matrix3<R>, j: usize) -> [R; 3] {
     [A[0][j], A[1][j], A[2][j]]
 }
 
-/// Aᵀ.
+/// The transpose Aᵀ.
 #[inline(always)]
 pub(crate) fn transpose<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
     [column(A, 0), column(A, 1), column(A, 2)]
 }
 
-/// A B.
+/// The product A B.
 #[inline(always)]
 pub(crate) fn multiply<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     let Bt = transpose(B);
     multiply_transposed(A, &Bt)
 }
 
-/// A Bᵀ.
+/// The product A Bᵀ.
 #[inline(always)]
 pub(crate) fn multiply_transposed<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => dot(A[i], B[j])))

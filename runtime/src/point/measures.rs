@@ -223,8 +223,8 @@ pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
 /// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of
 /// Abaqus.
 ///
-/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the body.
-/// The order of Abaqus is stated in [`voigt`].
+/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
+/// body. The order of Abaqus is stated in [`voigt`].
 #[inline(always)]
 #[must_use]
 pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
@@ -242,7 +242,7 @@ pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
     principal.to_world(&svd.U)
 }
 
-/// λj λk: what a unit area normal to direction i becomes.
+/// λj λk, the deformed size of a unit area normal to direction i.
 #[inline(always)]
 fn areas<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
     [l2 * l3, l1 * l3, l1 * l2]

@@ -119,7 +119,7 @@ fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
     (U, descending(stretches), V)
 }
 
-/// How well a sweep knows its angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next
+/// Precision of a sweep's angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next
 /// sweep squares. Only what the last one leaves, stays.
 const ROUGH: bool = false;
 const EXACT: bool = true;
