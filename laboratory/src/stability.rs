@@ -2,7 +2,7 @@
 //!
 //! An energy that fits its measurements may still be one that no solid has: a specimen of it would narrow
 //! under a growing pull, or fold into bands as fine as the mesh allows. Three inequalities say where that
-//! cannot be, [`Criterion`](criteria::Criterion); [`survey`] looks at them over a box of stretches and along
+//! cannot be, [`Criterion`]; [`survey`] looks at them over a box of stretches and along
 //! the tests that laboratories make:
 //!
 //! ```

@@ -76,8 +76,8 @@ macro_rules! catalogue {
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// [`Inadmissible`] if the constructor of the material refuses, or a list is longer than the
-            /// catalogue provides for.
+            /// [`Inadmissible`](piola::material::Inadmissible) if the constructor of the material refuses, or
+            /// a list is longer than the catalogue provides for.
             pub fn visit<V: Visitor>(
                 &self,
                 values: &[&[f64]],
@@ -99,8 +99,8 @@ macro_rules! catalogue {
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// [`Inadmissible`], see [`Entry::visit`]; [`Inadmissible::NotFittable`] if a parameter is a
-            /// function.
+            /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`];
+            /// [`NotFittable`](piola::material::Inadmissible::NotFittable) if a parameter is a function.
             pub fn visit_fittable<V: FittableVisitor>(
                 &self,
                 values: &[&[f64]],
@@ -170,7 +170,7 @@ impl Entry {
     /// The material for the elements of a body: dispatched once for each block of them.
     ///
     /// # Errors
-    /// [`Inadmissible`], see [`Entry::visit`].
+    /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`].
     pub fn elements(
         &self,
         values: &[&[f64]],
@@ -189,7 +189,7 @@ impl Entry {
     /// Small-strain moduli, Pa.
     ///
     /// # Errors
-    /// [`Inadmissible`], see [`Entry::visit`].
+    /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`].
     pub fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, Inadmissible> {
         struct Small;
         impl Visitor for Small {

@@ -35,8 +35,7 @@
 //!
 //! * [`lanes`]: the real numbers everything is generic over, one at a time or side by side in vector
 //!   registers;
-//! * [`material`](mod@material): the seam that generated energies implement, and [`quotient`], the kernels
-//!   they call;
+//! * [`material`](mod@material): the trait that energies implement, generated or by hand, and sums of them;
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: F to P and dP/dF through a signed singular value decomposition, and to other measures of
 //!   stress;

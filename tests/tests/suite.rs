@@ -4,7 +4,7 @@
 use piola::material::{Blocks, Declared, Inadmissible};
 use piola::{Inversion, Material, Real};
 use piola_codegen::algebra::expr::Id;
-use piola_codegen::algebra::interpret::{Point, Value, evaluate};
+use piola_codegen::algebra::interpret::{Estimate, Point, evaluate};
 use piola_codegen::model::{Model, Variant, model};
 use piola_codegen::read::domain::Volume;
 use piola_codegen::read::parse::Declaration;
@@ -138,7 +138,7 @@ impl Judge<'_> {
         }
     }
 
-    fn close(&self, what: &str, expected: Value, value: f64, tolerance: f64, point: &Point) {
+    fn close(&self, what: &str, expected: Estimate, value: f64, tolerance: f64, point: &Point) {
         let error = (value - expected.value).abs();
         assert!(
             error <= tolerance * expected.magnitude,

@@ -61,7 +61,7 @@ pub trait Graded: Material + Sized {
         Self: 'a;
 }
 
-/// A material for each point of a [`Batch`](crate::batch::Batch), in their order.
+/// A material for each point of a batch, in their order.
 ///
 /// ```
 /// # #[cfg(feature = "batch")]

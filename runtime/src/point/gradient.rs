@@ -37,9 +37,9 @@ pub struct SvdGradient<R: Real> {
 
 /// dU, dλ and dVᵀ along `dF`; see the module's text for where they exist.
 ///
-/// With dF̂ = Uᵀ dF V: dλi = dF̂ii, Ωij − Θij = (dF̂ij + dF̂ji)/(λj − λi) and Ωij + Θij = (dF̂ij − dF̂ji)/(λi
-/// + λj). Both quotients lose accuracy as u λ1 / |λi ∓ λj|, which is their condition, not a defect of the
-/// formula.
+/// With dF̂ = Uᵀ dF V: dλi = dF̂ii, Ωij − Θij = (dF̂ij + dF̂ji)/(λj − λi) and
+/// Ωij + Θij = (dF̂ij − dF̂ji)/(λi + λj). Both quotients lose accuracy as u λ1 / |λi ∓ λj|, which is their
+/// condition, not a defect of the formula.
 #[inline(always)]
 #[must_use]
 pub fn svd_gradient<R: Real>(svd: &Svd<R>, dF: &Matrix3<R>) -> SvdGradient<R> {

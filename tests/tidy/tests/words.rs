@@ -22,7 +22,7 @@ fn summaries_make_sense_alone() {
                 let begins = |words: &&str| {
                     summary.strip_prefix(*words).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
                 };
-                if HEADLESS.iter().any(|words| begins(words)) {
+                if HEADLESS.iter().any(begins) {
                     found.push(format!("{}:{line}: {summary}", module.file.display()));
                 }
             }
