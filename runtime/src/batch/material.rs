@@ -89,6 +89,11 @@ macro_rules! tile_responses {
 
             #[doc(hidden)]
             fn properties(&self) -> Properties;
+
+            /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
+            #[cfg(feature = "bodies")]
+            #[doc(hidden)]
+            fn rest_stiffness(&self) -> f64;
         }
 
         impl<E: Scalar, P: Points> TileMaterial<E> for P {
@@ -118,16 +123,18 @@ macro_rules! tile_responses {
                 }
             )*
 
+            #[cfg(feature = "bodies")]
+            fn rest_stiffness(&self) -> f64 {
+                let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
+                self.materials().iter().map(stiffness).fold(0.0, f64::max)
+            }
+
             fn properties(&self) -> Properties {
                 let materials = self.materials();
-                #[cfg(feature = "bodies")]
-                let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
                 Properties {
                     has_invariants: P::Material::HAS_INVARIANTS,
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
-                    #[cfg(feature = "bodies")]
-                    rest_stiffness: materials.iter().map(stiffness).fold(0.0, f64::max),
                     points: self.count(),
                 }
             }
@@ -166,9 +173,6 @@ pub struct Properties {
     pub(crate) has_pole: bool,
     /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
     pub(crate) ends_at_zero_volume: bool,
-    /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
-    #[cfg(feature = "bodies")]
-    pub(crate) rest_stiffness: f64,
     /// Number of points with a material of their own; `None` if one serves any number of points.
     pub(crate) points: Option<usize>,
 }

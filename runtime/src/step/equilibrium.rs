@@ -169,7 +169,7 @@ fn unit_force(body: &Body) -> f64 {
     let largest = |volume: f64, element: &Tetrahedron| volume.max(element.shape.volume);
     let forces = body.materials().map(|(material, elements)| {
         let volume = body.elements()[elements].iter().fold(0.0, largest);
-        material.properties().rest_stiffness.abs() * volume.powf(2.0 / 3.0)
+        material.rest_stiffness().abs() * volume.powf(2.0 / 3.0)
     });
     forces.fold(0.0, f64::max)
 }

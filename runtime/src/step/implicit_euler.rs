@@ -362,7 +362,7 @@ const DRIFT: f64 = 1e-4;
 fn static_regularisation(body: &Body) -> f64 {
     let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());
-        material.properties().rest_stiffness.abs() * lengths.sum::<f64>()
+        material.rest_stiffness().abs() * lengths.sum::<f64>()
     };
     1e-4 * body.materials().map(stiffness).sum::<f64>() / body.masses().iter().sum::<f64>()
 }

@@ -151,7 +151,7 @@ impl Elastic {
     pub(crate) fn difference_noise(&self, body: &Body) -> f64 {
         let mut noise = 0.0;
         for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {
-            let stiffness = material.properties().rest_stiffness.abs();
+            let stiffness = material.rest_stiffness().abs();
             for (lane, element) in body.elements()[elements].iter().enumerate() {
                 let square: f64 = state.group.stretches(lane).iter().map(|stretch| stretch * stretch).sum();
                 let scale = element.shape.volume * stiffness * square.max(1.0);
