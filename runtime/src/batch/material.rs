@@ -90,7 +90,8 @@ macro_rules! tile_responses {
             #[doc(hidden)]
             fn properties(&self) -> Properties;
 
-            /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an energy.
+            /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an
+            /// energy.
             #[cfg(feature = "bodies")]
             #[doc(hidden)]
             fn rest_stiffness(&self) -> f64;
