@@ -26,7 +26,8 @@
 //!
 //! Jacobi rotations find V and q as the exact ones of a matrix that differs from 2E by a few u ‖E‖.
 //!
-//! **Stress.** [`Material::gradient_at_strains`](crate::Material::gradient_at_strains) gives ψi from the si. U need not be known, since U diag(λ) =
+//! **Stress.** [`Material::gradient_at_strains`](crate::Material::gradient_at_strains)
+//! gives ψi from the si. U need not be known, since U diag(λ) =
 //! F V:
 //!
 //! ```text
