@@ -99,7 +99,9 @@ fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
         for (point, to) in tile.statuses.iter().enumerate() {
             to.set(status.of_point(point));
         }
-        survey = survey + Survey::of(status, start);
+        if status != Status::default() {
+            survey = survey + Survey::of(status, start);
+        }
     }
     survey
 }
