@@ -1,8 +1,8 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
 //! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ
-//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF as
-//! a block-diagonal map between the frames ([`tangent`], which derives it), made semidefinite on request
+//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF
+//! as a block-diagonal map between the frames ([`tangent`], which derives it), made semidefinite on request
 //! ([`mod@project`]). Bodies that hardly
 //! deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that have their
 //! own elements find other [`measures`] of stress here, with their tangents. Everything is generic over the
