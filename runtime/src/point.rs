@@ -180,10 +180,12 @@ pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R:
     stretches_in_range(stretches) & entries_are_finite(P)
 }
 
-/// The decomposition a material needs: where its domain ends at det F = 0, with the sign of the determinant.
+/// Decomposes F as every evaluation of the material does: with [`svd_signed_by_determinant`] where its domain
+/// ends at det F = 0, else with [`svd()`].
 #[inline(always)]
-pub(crate) fn decompose<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>) -> Svd<R> {
-    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
+#[must_use]
+pub fn decompose<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>) -> Svd<R> {
+    svd::svd_with(F, material.ends_at_zero_volume())
 }
 
 /// Zero if all are finite, else NaN: one comparison asks for many.

@@ -4,7 +4,7 @@
 
 use std::collections::HashSet;
 
-use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
+use nalgebra_34::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
 use piola::mesh::TetMesh;
 
 /// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at

@@ -15,7 +15,7 @@ use std::fmt;
 use piola::Material;
 use piola::batch::{Batch, TileMaterial};
 use piola::material::Blocks;
-use piola::point::{Filter, Matrix3, Svd, svd, svd_signed_by_determinant};
+use piola::point::{Filter, Matrix3, decompose};
 
 use crate::bits::{Precision, widen};
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
@@ -335,10 +335,6 @@ impl Neighbourhood {
         }
         around
     }
-}
-
-fn decompose(material: &impl Material, F: &Matrix3<f64>) -> Svd<f64> {
-    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
 /// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is

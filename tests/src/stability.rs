@@ -8,8 +8,8 @@ use std::fmt::{self, Write as _};
 use std::path::Path;
 
 use piola::material::Declared;
-use piola::point::svd::{Svd, svd, svd_signed_by_determinant};
 use piola::point::{Filter, Matrix3, Tangent, project};
+use piola::point::{Svd, decompose};
 use piola::{Inversion, Material, Real};
 use piola_materials::Visitor;
 
@@ -299,9 +299,4 @@ impl Method {
 /// dP/dF by \[SZLSB11\], regularised as it says.
 fn by_svd_gradients<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<R>) -> [[R; 9]; 9] {
     svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
-}
-
-/// The decomposition of F that [`point::evaluate`] would use for the material.
-fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
-    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }

@@ -3,9 +3,7 @@
 #![expect(non_snake_case, reason = "F, P, K, U, V as in the literature")]
 
 use piola::material::Blocks;
-use piola::point::{
-    Filter, Matrix3, Svd, Tangent, evaluate, project, stress, svd, svd_signed_by_determinant,
-};
+use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate, project, stress, svd};
 use piola::{Material, Real};
 use piola_tests::baselines::automatic::Potential;
 use piola_tests::baselines::clamped::Clamped;
@@ -269,10 +267,4 @@ fn from_blocks<R: Real>(svd: &Svd<R>, blocks: Blocks<R>, filter: Filter) -> (Mat
     let P = stress(svd, blocks.gradient);
     let (blocks, _) = project(&blocks, filter);
     (P, Tangent { U: svd.U, V: svd.V, blocks }.to_matrix())
-}
-
-/// As `piola::point::evaluate` does.
-#[inline(always)]
-fn decompose<R: Real>(material: &impl Material, F: &Matrix3<R>) -> Svd<R> {
-    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
