@@ -18,25 +18,25 @@
 //! ```
 //!
 //! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`.
-//! [`check`] judges them all in one call, and each rule is a function of its own:
+//! [`check`] judges them all in one call, and [`check_rule`] one of them:
 //!
 //! | rule | what must hold |
 //! |---|---|
-//! | [`rest`] | no stress, no twist at F = I, [unless they are meant](Settings::stress_free_at_rest), and a positive shear modulus |
-//! | [`domain`] | results are finite where admitted, and [`Material::ends_at_zero_volume`] is right |
-//! | [`objectivity`] | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
-//! | [`isotropy`] | rotating the rest shape does likewise, and equal stretches are interchangeable |
-//! | [`symmetric_tangent`] | A : (dP/dF) B = B : (dP/dF) A |
-//! | [`stress_slope`] | difference quotients of ψ approach P as h², and ψ grows by the work of P |
-//! | [`tangent_slope`] | difference quotients of P approach dP/dF as h² |
-//! | [`dual_numbers`] | ψ of dual numbers gives the gradient, the gradient of dual numbers the Hessian, to rounding |
-//! | [`quotients`] | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
-//! | [`strains`] | the gradient at strains s is that at stretches 1 + s |
-//! | [`invariants`] | ψ and its gradient by I1, I2, J, where there are such, are those by stretches |
-//! | [`extension`] | P and dP/dF are exact beside the threshold, across it and deep below, where ψ drives inverted material back |
-//! | [`moduli`] | the small-strain moduli that a declaration states are those of its Hessian |
-//! | [`single_precision`] | `f32` gives what `f64` does, to the rounding of `f32` |
-//! | [`lanes`] | every lane of every back end gives what a scalar does, whatever its neighbours |
+//! | [`rest`](Rule::Rest) | no stress, no twist at F = I, [unless they are meant](Settings::stress_free_at_rest), and a positive shear modulus |
+//! | [`domain`](Rule::Domain) | results are finite where admitted, and [`Material::ends_at_zero_volume`] is right |
+//! | [`objectivity`](Rule::Objectivity) | rotating space rotates the stress: P(Q F) = Q P(F), ψ(Q F) = ψ(F) |
+//! | [`isotropy`](Rule::Isotropy) | rotating the rest shape does likewise, and equal stretches are interchangeable |
+//! | [`symmetric_tangent`](Rule::SymmetricTangent) | A : (dP/dF) B = B : (dP/dF) A |
+//! | [`stress_slope`](Rule::StressSlope) | difference quotients of ψ approach P as h², and ψ grows by the work of P |
+//! | [`tangent_slope`](Rule::TangentSlope) | difference quotients of P approach dP/dF as h² |
+//! | [`dual_numbers`](Rule::DualNumbers) | ψ of dual numbers gives the gradient, the gradient of dual numbers the Hessian, to rounding |
+//! | [`quotients`](Rule::Quotients) | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
+//! | [`strains`](Rule::Strains) | the gradient at strains s is that at stretches 1 + s |
+//! | [`invariants`](Rule::Invariants) | ψ and its gradient by I1, I2, J, where there are such, are those by stretches |
+//! | [`extension`](Rule::Extension) | P and dP/dF are exact beside the threshold, across it and deep below, where ψ drives inverted material back |
+//! | [`moduli`](Rule::Moduli) | the small-strain moduli that a declaration states are those of its Hessian |
+//! | [`single_precision`](Rule::SinglePrecision) | `f32` gives what `f64` does, to the rounding of `f32` |
+//! | [`lanes`](Rule::Lanes) | every lane of every back end gives what a scalar does, whatever its neighbours |
 //!
 //! A material is anything that implements [`Material`], by the macro or by hand; the rules on an extension or
 //! invariants apply to materials that have them. A check returns what it found or the first [`Violation`];
@@ -57,38 +57,39 @@ use crate::material::{Blocks, Inversion, Material};
 mod derivatives;
 mod domain;
 mod dual;
-mod evaluation;
 mod frames;
 mod invariants;
 mod inverted;
 mod judge;
 mod lanes;
-mod numbers;
 mod one_line;
 mod pairs;
 mod precisions;
 mod rest;
+mod results;
 mod rule;
 mod samples;
 mod slopes;
 mod strains;
+mod subject;
 mod violation;
 
-pub use derivatives::dual_numbers;
-pub use domain::domain;
-pub use frames::{isotropy, objectivity, symmetric_tangent};
-pub use invariants::invariants;
-pub use inverted::extension;
-pub use lanes::lanes;
-pub use pairs::quotients;
-pub use precisions::single_precision;
-pub use rest::{moduli, rest};
+use derivatives::dual_numbers;
+use domain::domain;
+use frames::{isotropy, objectivity, symmetric_tangent};
+use invariants::invariants;
+use inverted::extension;
+use lanes::lanes;
+use pairs::quotients;
+use precisions::single_precision;
+use rest::{moduli, rest};
 pub use rule::Rule;
-pub use slopes::{stress_slope, tangent_slope};
-pub use strains::strains;
+use slopes::{stress_slope, tangent_slope};
+use strains::strains;
 pub use violation::{Violation, Violations};
 
 use judge::Judge;
+use subject::Subject;
 
 /// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without
 /// optimisation may need.
@@ -183,14 +184,18 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
 }
 
 /// Checks one rule; `None` if the material lacks its subject: an extension, invariants or stated moduli.
-pub fn check_rule<M: Material>(
+pub fn check_rule(
     rule: Rule,
-    material: &M,
+    material: &impl Material,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
+    judge_rule(rule, material, settings)
+}
+
+fn judge_rule(rule: Rule, material: &dyn Subject, settings: &Settings) -> Option<Result<Finding, Violation>> {
     let applies = match rule {
         Rule::Extension => material.inversion() != Inversion::Refuse,
-        Rule::Invariants => M::HAS_INVARIANTS,
+        Rule::Invariants => material.has_invariants(),
         Rule::Moduli => material.stated_moduli().is_some(),
         _ => true,
     };

@@ -186,7 +186,7 @@ pub struct Moduli {
 impl Moduli {
     /// Small-strain moduli from the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
     #[must_use]
-    pub fn at_rest(material: &impl Material) -> Self {
+    pub fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
         let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
         Self { mu: 0.5 * (h11 - h12), lambda: h12 }
     }

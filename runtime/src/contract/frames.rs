@@ -2,40 +2,29 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::evaluation::{blocks_at, energy, energy_at, is_admitted, stress, tangent};
 use super::samples::at_samples;
+use super::subject::{Subject, energy, stress, tangent};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
-use crate::material::{Material, PAIRS};
+use crate::material::PAIRS;
 use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 
-/// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
-///
-/// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that is
-/// enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges how
-/// [`point`](crate::point) rotates.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn objectivity(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Objectivity`].
+pub(super) fn objectivity(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Objectivity, material, settings, |judge, stretches, random| {
         let Q = random.rotation();
         rotated(judge, material, stretches, &Q, &diagonal([1.0; 3]))
     })
 }
 
-/// Isotropy: ψ(F W) = ψ(F), P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj,
-/// ψi = ψj and ψii = ψjj.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Isotropy`].
+pub(super) fn isotropy(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
         let W = random.rotation();
         rotated(judge, material, stretches, &diagonal([1.0; 3]), &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
-            if is_admitted(material, equal) {
+            if material.admits(equal) {
                 interchangeable(judge, material, equal)?;
             }
         }
@@ -43,14 +32,8 @@ pub fn isotropy(material: &impl Material, settings: &Settings) -> Result<Finding
     })
 }
 
-/// Symmetry of the tangent: A : (dP/dF) B = B : (dP/dF) A for random A, B.
-///
-/// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by infinite
-/// or NaN entries. Else the rule judges the tangent that [`point`](crate::point) makes of them.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::SymmetricTangent`].
+pub(super) fn symmetric_tangent(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SymmetricTangent, material, settings, |judge, stretches, random| {
         let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
         let dP_dF = tangent(material, &F);
@@ -67,18 +50,18 @@ pub fn symmetric_tangent(material: &impl Material, settings: &Settings) -> Resul
 /// Energy and stress at Q diag(λ) W against those at diag(λ), which need no decomposition.
 fn rotated(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     Q: &Matrix3<f64>,
     W: &Matrix3<f64>,
 ) -> Result<(), Violation> {
     let F = multiply(&multiply(Q, &diagonal(stretches)), W);
-    let blocks = blocks_at(material, stretches);
+    let blocks = material.blocks(stretches);
     let scale = stress_scale(&blocks, stretches);
     // The product and the decomposition know F to some 30 u, and each of the rotations Q, W is one to a few
     // u.
     let tolerance = 100.0 * UNIT * scale;
-    let expected = energy_at(material, stretches);
+    let expected = material.energy(stretches);
     let energy_tolerance = tolerance * stretches[0] + 100.0 * UNIT * expected.abs();
     let found = energy(material, &F);
     judge.compare(|| "energy after a rotation".into(), stretches, found, expected, energy_tolerance)?;
@@ -94,12 +77,8 @@ fn rotated(
 }
 
 /// First and second derivatives by two equal stretches agree, and so do their mixed ones with the third.
-fn interchangeable(
-    judge: &mut Judge,
-    material: &impl Material,
-    stretches: [f64; 3],
-) -> Result<(), Violation> {
-    let blocks = blocks_at(material, stretches);
+fn interchangeable(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
+    let blocks = material.blocks(stretches);
     let mixed = |i: usize, j: usize| {
         let pair = PAIRS.iter().position(|&pair| pair == (i.min(j), i.max(j)));
         pair.map_or(f64::NAN, |pair| blocks.hessian[3 + pair])

@@ -1,21 +1,13 @@
 //! The rule on invariants: energy and gradient by I1, I2 and J against those by stretches.
 
-use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
 use super::samples::at_samples;
+use super::subject::Subject;
 use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, stress_scale};
-use crate::material::Material;
 
-/// Agreement of the methods by invariants with those by stretches, where the material admits the invariants:
-///
-/// * the stretches are admitted too;
-/// * the energies agree;
-/// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
-///
-/// # Errors
-/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] without invariants.
-pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Invariants`].
+pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Invariants;
-    if !M::HAS_INVARIANTS {
+    if !material.has_invariants() {
         return Err(Violation::DoesNotApply { rule, lacks: "energy by invariants" });
     }
     at_samples(rule, material, settings, |judge, stretches, _| {
@@ -24,18 +16,18 @@ pub fn invariants<M: Material>(material: &M, settings: &Settings) -> Result<Find
         if !material.admits_invariants(invariants) {
             return Ok(());
         }
-        let is_admitted = is_admitted(material, stretches);
+        let is_admitted = material.admits(stretches);
         let remedy =
             "the invariants of these stretches are admitted: narrow `admits_invariants`, or widen `admits`";
         judge.holds(|| "admission of the stretches".into(), stretches, is_admitted, remedy)?;
 
-        let scale = stress_scale(&blocks_at(material, stretches), stretches);
-        let expected = energy_at(material, stretches);
+        let scale = stress_scale(&material.blocks(stretches), stretches);
+        let expected = material.energy(stretches);
         let found = material.energy_by_invariants(invariants);
         let tolerance = 100.0 * UNIT * (scale * stretches[0] + expected.abs());
         judge.compare(|| "energy by invariants".into(), stretches, found, expected, tolerance)?;
 
-        let gradient = gradient_at(material, stretches);
+        let gradient = material.gradient(stretches);
         let [w1, w2, wj] = material.gradient_by_invariants(invariants);
         for i in 0..3 {
             let [l, m, n] = [i, (i + 1) % 3, (i + 2) % 3].map(|k| stretches[k]);

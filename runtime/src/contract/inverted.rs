@@ -1,29 +1,16 @@
 //! The rule on extensions: smooth beside and across the threshold, restoring below it.
 
-use super::evaluation::{blocks_at, gradient_at, is_admitted};
 use super::slopes::{Approach, energy_along, stress_along};
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
-use crate::material::{Blocks, Inversion, Material};
+use crate::material::{Blocks, Inversion};
 use crate::random::Random;
 
 /// Values of −λ3 at which the extension is judged beyond det F = 0.
 const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 
-/// Smooth, restoring extension of a material whose [`inversion`](Material::inversion) is
-/// `Inversion::Extend { epsilon }`:
-///
-/// * it admits an inverted point where it admits its mirror image;
-/// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the
-///   threshold, be it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01, −0.5
-///   and −2;
-/// * those across the threshold do so as h² and as h, since third derivatives of ψ jump there;
-/// * ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
-///
-/// Depths beyond the [`range`](Settings::range) are left out.
-///
-/// # Errors
-/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] if the material refuses inversion.
-pub fn extension(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Extension`].
+pub(super) fn extension(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Extension;
     let Inversion::Extend { epsilon } = material.inversion() else {
         return Err(Violation::DoesNotApply { rule, lacks: "extension beyond its domain" });
@@ -58,7 +45,7 @@ pub fn extension(material: &impl Material, settings: &Settings) -> Result<Findin
 
 fn across(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     random: &mut Random,
 ) -> Result<(), Violation> {
@@ -71,7 +58,7 @@ fn across(
 
 fn beside(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     epsilon: f64,
     random: &mut Random,
@@ -87,7 +74,7 @@ fn beside(
 
 fn restoring(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     epsilon: f64,
 ) -> Result<(), Violation> {
@@ -95,12 +82,12 @@ fn restoring(
         return Ok(());
     }
     let [l1, l2, _] = stretches;
-    let found = gradient_at(material, stretches)[2];
+    let found = material.gradient(stretches)[2];
     let remedy = || {
         const LOGARITHM: &str = "add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater one, if it has such a \
                                  term), and state which parameters restore, as in `extend(kappa > 0.0)`";
         // At the threshold the derivatives are those of the energy as declared.
-        let Blocks { gradient, hessian, .. } = blocks_at(material, [l1, l2, epsilon]);
+        let Blocks { gradient, hessian, .. } = material.blocks([l1, l2, epsilon]);
         let (declared, first) = if gradient[2] < 0.0 {
             ("does push λ3 up at epsilon", LOGARITHM.to_owned())
         } else if hessian[2] > 0.0 {
@@ -121,13 +108,13 @@ fn restoring(
 
 /// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such
 /// as Gent's on I1 is no matter of inversion.
-fn admitted(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<bool, Violation> {
+fn admitted(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<bool, Violation> {
     let [l1, l2, l3] = stretches;
-    if !is_admitted(material, [l1, l2, l3.abs()]) {
+    if !material.admits([l1, l2, l3.abs()]) {
         return Ok(false);
     }
     let remedy = "a limit of the domain other than J > 0 denies this inverted point and grants its mirror image: write that limit \
                   in what no sign changes, such as I1, I2 or J * J";
-    judge.holds(|| "admission".into(), stretches, is_admitted(material, stretches), remedy)?;
+    judge.holds(|| "admission".into(), stretches, material.admits(stretches), remedy)?;
     Ok(true)
 }

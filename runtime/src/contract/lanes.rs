@@ -1,38 +1,27 @@
 //! The rule on lanes: many points side by side against each by itself.
 
-use super::evaluation::{gradient_at_strains, is_admitted};
-use super::numbers::{COUNT, known, name, numbers, numbers_alone};
+use super::results::{COUNT, known, name, results};
 use super::samples::{samples, together};
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation};
 use crate::lanes::{Backend, Kernel, Lanes, Real};
-use crate::material::Material;
+use crate::material::{Material, Response};
 use crate::random::Random;
 
-/// Agreement of every result on lanes with that of its point alone:
-///
-/// * on the portable back end, with the bits of a scalar;
-/// * on any, with the same bits whatever its lane and its neighbours;
-/// * on the fastest one of this processor, as a scalar but for rounding: it has other instructions.
-///
-/// Neighbours differ as much as they can: beside one of the samples are the same stretches with two of them
-/// 10⁻⁹ apart and equal, so that what is done for some lanes alone shows. Truth values are compared as 0 and
-/// 1.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Lanes`].
+pub(super) fn lanes(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Lanes);
     let mut random = Random::new(settings.seed);
     let mut points = Vec::new();
     for stretches in samples(material, settings, &mut random) {
         points.push(stretches);
         let close = [1e-9, 0.0].into_iter().flat_map(|gap| together(stretches, gap));
-        points.extend(close.filter(|&close| is_admitted(material, close)));
+        points.extend(close.filter(|&close| material.admits(close)));
     }
-    let alone: Vec<_> = points.iter().map(|&stretches| alone_at(material, stretches)).collect();
+    let alone: Vec<_> = points.iter().map(|&stretches| everything(material, stretches)).collect();
 
     let portable = Backend::portable();
-    let together = side_by_side_on(portable, material, &points);
+    let together = material.side_by_side_on(portable, &points);
     for ((&stretches, found), expected) in points.iter().zip(together).zip(&alone) {
         for k in 0..ALL {
             let name = || format!("{} on the {portable} back end against a scalar", everything_name(k));
@@ -41,12 +30,12 @@ pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, V
     }
 
     let backend = Backend::best();
-    let in_order = side_by_side_on(backend, material, &points);
+    let in_order = material.side_by_side_on(backend, &points);
     // Each in the lane before, with other neighbours.
     let by = 1.min(points.len());
     let mut moved = points.clone();
     moved.rotate_left(by);
-    let mut shifted = side_by_side_on(backend, material, &moved);
+    let mut shifted = material.side_by_side_on(backend, &moved);
     shifted.rotate_right(by);
     for ((&stretches, found), expected) in points.iter().zip(shifted).zip(&in_order) {
         for k in 0..ALL {
@@ -65,33 +54,13 @@ pub fn lanes(material: &impl Material, settings: &Settings) -> Result<Finding, V
 }
 
 /// Length of a row with results by strains and invariants, and whether stretches and invariants are admitted.
-const ALL: usize = COUNT + 9;
+pub(super) const ALL: usize = COUNT + 9;
 
+/// Row of all results. Inlined.
 #[inline(always)]
-fn everything<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; ALL] {
-    let by_strains = material.gradient_at_strains(strains(stretches));
-    in_a_row(material, stretches, numbers(material, stretches), by_strains)
-}
-
-#[inline(never)]
-fn alone_at(material: &impl Material, stretches: [f64; 3]) -> [f64; ALL] {
-    let by_strains = gradient_at_strains(material, strains(stretches));
-    in_a_row(material, stretches, numbers_alone(material, stretches), by_strains)
-}
-
-/// Strains λi − 1 of the stretches or their mirror image, since strains are above −1.
-#[inline(always)]
-fn strains<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
-    [l1, l2, l3.abs()].map(|l| l - R::splat(1.0))
-}
-
-#[inline(always)]
-fn in_a_row<R: Real>(
-    material: &impl Material,
-    stretches: [R; 3],
-    numbers: [R; COUNT],
-    [s1, s2, s3]: [R; 3],
-) -> [R; ALL] {
+fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3]) -> [R; ALL] {
+    let results = results(material, stretches);
+    let [s1, s2, s3] = material.gradient_at_strains(strains(stretches));
     let [a, b, c] = stretches.map(|l| l * l);
     let invariants = [a + b + c, a * b + a * c + b * c, stretches[0] * stretches[1] * stretches[2]];
     let [w1, w2, wj] = material.gradient_by_invariants(invariants);
@@ -107,7 +76,13 @@ fn in_a_row<R: Real>(
         truth(material.admits(stretches)),
         truth(material.admits_invariants(invariants)),
     ];
-    std::array::from_fn(|k| if k < COUNT { numbers[k] } else { others[k - COUNT] })
+    std::array::from_fn(|k| if k < COUNT { results[k] } else { others[k - COUNT] })
+}
+
+/// Strains λi − 1 of the stretches or their mirror image, since strains are above −1.
+#[inline(always)]
+fn strains<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
+    [l1, l2, l3.abs()].map(|l| l - R::splat(1.0))
 }
 
 fn everything_name(number: usize) -> String {
@@ -125,14 +100,8 @@ fn everything_name(number: usize) -> String {
     if number < COUNT { name(number) } else { OTHERS[number - COUNT].into() }
 }
 
-/// Rows of all points from a back end: one function, since its kernel would be compiled again at every call.
-#[inline(never)]
-fn side_by_side_on(backend: Backend, material: &impl Material, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
-    backend.run(SideBySide(material, points))
-}
-
 /// Kernel for the rows of points, as many at once as there are lanes; copies of the last fill the rest.
-struct SideBySide<'a, M>(&'a M, &'a [[f64; 3]]);
+pub(super) struct SideBySide<'a, M>(pub(super) &'a M, pub(super) &'a [[f64; 3]]);
 
 impl<M: Material> Kernel<f64> for SideBySide<'_, M> {
     type Output = Vec<[f64; ALL]>;

@@ -14,16 +14,13 @@
 //! cancels and the quotients are what their definition says. Stretches 1 and 3 can only be close together
 //! with stretch 2 between them.
 
-use super::evaluation::{blocks_at, is_admitted};
 use super::samples::at_samples;
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
-use crate::material::{Blocks, Material, PAIRS};
+use crate::material::{Blocks, PAIRS};
 
-/// Accuracy of flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all samples.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Quotients`].
+pub(super) fn quotients(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Quotients, material, settings, |judge, stretches, _| {
         by_definition(judge, material, stretches)?;
         for exponent in 1..=17 {
@@ -36,8 +33,8 @@ pub fn quotients(material: &impl Material, settings: &Settings) -> Result<Findin
 }
 
 /// The quotients against (ψi ∓ ψj)/(λi ∓ λj), as exactly as that is known.
-fn by_definition(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
-    let blocks = blocks_at(material, stretches);
+fn by_definition(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
+    let blocks = material.blocks(stretches);
     for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
         let (a, b) = (blocks.gradient[i], blocks.gradient[j]);
         let terms = a.abs() + b.abs() + stiffness(&blocks) * stretches[0];
@@ -56,12 +53,7 @@ fn by_definition(judge: &mut Judge, material: &impl Material, stretches: [f64; 3
 }
 
 /// Flips of stretches that are close to each other.
-fn close(
-    judge: &mut Judge,
-    material: &impl Material,
-    stretches: [f64; 3],
-    gap: f64,
-) -> Result<(), Violation> {
+fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f64) -> Result<(), Violation> {
     let [l1, l2, l3] = stretches;
     // The pair is moved together around its mean, the other stretch stays; descending order is kept.
     // In the last three cases all are close, the other one in the middle or as far as the end of the pair.
@@ -81,7 +73,7 @@ fn close(
         };
         let [x, y, z] = at(half);
         let descends = x >= y && y >= z.abs();
-        if !descends || !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
+        if !descends || !material.admits(at(0.0)) || !material.admits(at(half)) {
             continue;
         }
         let (i, j) = PAIRS[pair];
@@ -89,10 +81,10 @@ fn close(
         let stored = at(half);
         let exact = 0.5 * (stored[i] - stored[j]);
         let (expected, inexact) = mean(exact, |t| {
-            let blocks = blocks_at(material, at(t));
+            let blocks = material.blocks(at(t));
             0.5 * (blocks.hessian[i] + blocks.hessian[j]) - blocks.hessian[3 + pair]
         });
-        let blocks = blocks_at(material, stored);
+        let blocks = material.blocks(stored);
         let tolerance = tolerance(&blocks) + inexact;
         let name = || format!("{}, which are {gap:e} of their mean apart", pair_name("flip", pair));
         judge.compare(name, stored, blocks.flip[pair], expected, tolerance)?;
@@ -103,20 +95,20 @@ fn close(
 /// Twists of stretches that are nearly opposite, where the energy is smooth there.
 fn opposite(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     gap: f64,
 ) -> Result<(), Violation> {
     let [l1, l2, _] = stretches;
     let half = 0.5 * gap * l2;
     let at = |t: f64| [l1.max(1.1 * l2), t + l2, t - l2];
-    if !is_admitted(material, at(0.0)) || !is_admitted(material, at(half)) {
+    if !material.admits(at(0.0)) || !material.admits(at(half)) {
         return Ok(());
     }
     if material.has_pole() {
         // Large at the pole, and bounded.
         let stored = at(half);
-        let Blocks { gradient, twist, .. } = blocks_at(material, stored);
+        let Blocks { gradient, twist, .. } = material.blocks(stored);
         let name = || format!("{} at a pole", pair_name("twist", 2));
         let remedy = if gradient.iter().all(|slope| slope.is_finite()) {
             "bound its denominator from below by `quotient::pole_floor`"
@@ -128,10 +120,10 @@ fn opposite(
     let stored = at(half);
     let exact = 0.5 * (stored[1] + stored[2]);
     let (expected, inexact) = mean(exact, |t| {
-        let blocks = blocks_at(material, at(t));
+        let blocks = material.blocks(at(t));
         0.5 * (blocks.hessian[1] + blocks.hessian[2]) + blocks.hessian[5]
     });
-    let blocks = blocks_at(material, stored);
+    let blocks = material.blocks(stored);
     let tolerance = tolerance(&blocks) + inexact;
     let name = || format!("{}, which are opposite but for {gap:e} of stretch 2", pair_name("twist", 2));
     judge.compare(name, stored, blocks.twist[2], expected, tolerance)

@@ -1,19 +1,13 @@
 //! The rule on formats: `f32` against `f64`, at stretches that both know.
 
-use super::evaluation::is_admitted;
-use super::numbers::{known, name, numbers_alone};
+use super::results::{known, name};
 use super::samples::{at_samples, together};
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
-use crate::material::Material;
 
-/// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
-/// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64` is
-/// so in `f32`.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn single_precision(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::SinglePrecision`].
+pub(super) fn single_precision(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
         compare(judge, material, stretches)?;
         for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
@@ -25,14 +19,14 @@ pub fn single_precision(material: &impl Material, settings: &Settings) -> Result
     })
 }
 
-fn compare(judge: &mut Judge, material: &impl Material, stretches: [f64; 3]) -> Result<(), Violation> {
+fn compare(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
     let single = stretches.map(|l| l as f32);
     let stretches = single.map(f64::from);
-    if !is_admitted(material, stretches) || !material.admits(single) {
+    if !material.admits(stretches) {
         return Ok(());
     }
+    let Some(found) = material.in_single_precision(single) else { return Ok(()) };
     let Some((expected, tolerances)) = known(material, stretches) else { return Ok(()) };
-    let found = numbers_alone(material, single);
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let name = || format!("{} in `f32`", name(k));
         if expected.is_finite() {

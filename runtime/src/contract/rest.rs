@@ -1,18 +1,14 @@
 //! Rules on F = I.
 
-use super::evaluation::blocks_at;
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
-use crate::material::{Material, Moduli};
+use crate::material::Moduli;
 
-/// Rest state F = I: no stress and zero twists, unless [`Settings::stress_free_at_rest`] is `false`; flips of
-/// ψ11 − ψ12 = 2μ > 0.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn rest(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::Rest`].
+pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Rest);
     let stretches = [1.0; 3];
-    let blocks = blocks_at(material, stretches);
+    let blocks = material.blocks(stretches);
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
     for k in 0..3 {
         if settings.stress_free_at_rest {
@@ -31,18 +27,15 @@ const STRESSED: &str = "append to the energy what cancels this stress, such as `
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
-/// Agreement of the moduli of [`Material::stated_moduli`] with μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
-///
-/// # Errors
-/// [`Violation`]: the first that is found; [`Violation::DoesNotApply`] without stated moduli.
-pub fn moduli(material: &impl Material) -> Result<Finding, Violation> {
+/// [`Rule::Moduli`].
+pub(super) fn moduli(material: &dyn Subject) -> Result<Finding, Violation> {
     let rule = Rule::Moduli;
     let Some(stated) = material.stated_moduli() else {
         return Err(Violation::DoesNotApply { rule, lacks: "stated moduli" });
     };
     let mut judge = Judge::new(rule);
     let stretches = [1.0; 3];
-    let tolerance = 64.0 * UNIT * stiffness(&blocks_at(material, stretches));
+    let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
     let found = Moduli::at_rest(material);
     judge.compare(|| "shear modulus".into(), stretches, stated.mu, found.mu, tolerance)?;
     judge.compare(|| "first Lamé parameter".into(), stretches, stated.lambda, found.lambda, tolerance)?;

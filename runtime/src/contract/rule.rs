@@ -6,35 +6,88 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Rule {
-    /// See [`rest`](super::rest).
+    /// Rest state F = I: no stress and zero twists, [unless they are
+    /// meant](super::Settings::stress_free_at_rest); flips of ψ11 − ψ12 = 2μ > 0.
     Rest,
-    /// See [`domain`](super::domain).
+    /// Finite results wherever the material is defined, and a true
+    /// [`ends_at_zero_volume`](crate::Material::ends_at_zero_volume):
+    ///
+    /// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is
+    ///   only 2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
+    /// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the
+    ///   range of numbers ends and not the domain. Such a point is `nonfinite`, and a solver takes a shorter
+    ///   step. Where ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and are
+    ///   not looked at. NaN and −∞ are violations;
+    /// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not,
+    ///   `ends_at_zero_volume` holds.
     Domain,
-    /// See [`objectivity`](super::objectivity).
+    /// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
+    ///
+    /// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that
+    /// is enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges how
+    /// [`point`](crate::point) rotates.
     Objectivity,
-    /// See [`isotropy`](super::isotropy).
+    /// Isotropy: ψ(F W) = ψ(F), P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj,
+    /// ψi = ψj and ψii = ψjj.
     Isotropy,
-    /// See [`symmetric_tangent`](super::symmetric_tangent).
+    /// Symmetry of the tangent: A : (dP/dF) B = B : (dP/dF) A for random A, B.
+    ///
+    /// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by
+    /// infinite or NaN entries. Else the rule judges the tangent that [`point`](crate::point) makes of them.
     SymmetricTangent,
-    /// See [`stress_slope`](super::stress_slope).
+    /// Stress as the slope of the energy: (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h², and from one
+    /// sample to the next ψ grows by the work of its gradient.
+    ///
+    /// Near a sample, an energy that jumps elsewhere looks as it should.
     StressSlope,
-    /// See [`tangent_slope`](super::tangent_slope).
+    /// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
     TangentSlope,
-    /// See [`dual_numbers`](super::dual_numbers).
+    /// Derivatives by dual numbers: `energy` gives the ψi of `gradient` and `blocks`, and `gradient` the ψij,
+    /// either way round.
+    ///
+    /// Both the energy and its derivatives are sums of terms no larger than the tangent, with tens of
+    /// roundings.
     DualNumbers,
-    /// See [`quotients`](super::quotients).
+    /// Accuracy of flips and twists at gaps of 10⁻¹ … 10⁻¹⁶ and 0 of the larger stretch, and at all samples.
     Quotients,
-    /// See [`strains`](super::strains).
+    /// Agreement of `gradient_at_strains` at s with `gradient` at 1 + s, to the rounding of 1 + s: for
+    /// strains of samples with λ3 > 0, and these times 10⁻¹ … 10⁻¹⁵ and 0.
     Strains,
-    /// See [`invariants`](super::invariants).
+    /// Agreement of the methods by invariants with those by stretches, where the material admits the
+    /// invariants:
+    ///
+    /// * the stretches are admitted too;
+    /// * the energies agree;
+    /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
     Invariants,
-    /// See [`extension`](super::extension).
+    /// Smooth, restoring extension of a material whose [`inversion`](crate::Material::inversion) is
+    /// `Inversion::Extend { epsilon }`:
+    ///
+    /// * it admits an inverted point where it admits its mirror image;
+    /// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the
+    ///   threshold, be it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01,
+    ///   −0.5 and −2;
+    /// * those across the threshold do so as h² and as h, since third derivatives of ψ jump there;
+    /// * ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
+    ///
+    /// Depths beyond the [`range`](super::Settings::range) are left out.
     Extension,
-    /// See [`moduli`](super::moduli).
+    /// Agreement of the moduli of [`stated_moduli`](crate::Material::stated_moduli) with μ = (ψ11 − ψ12)/2
+    /// and λ = ψ12 at F = I.
     Moduli,
-    /// See [`single_precision`](super::single_precision).
+    /// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
+    /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64`
+    /// is so in `f32`.
     SinglePrecision,
-    /// See [`lanes`](super::lanes).
+    /// Agreement of every result on lanes with that of its point alone:
+    ///
+    /// * on the portable back end, with the bits of a scalar;
+    /// * on any, with the same bits whatever its lane and its neighbours;
+    /// * on the fastest one of this processor, as a scalar but for rounding: it has other instructions.
+    ///
+    /// Neighbours differ as much as they can: beside one of the samples are the same stretches with two of
+    /// them 10⁻⁹ apart and equal, so that what is done for some lanes alone shows. Truth values are compared
+    /// as 0 and 1.
     Lanes,
 }
 

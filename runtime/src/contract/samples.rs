@@ -1,14 +1,14 @@
 //! Where the contract looks: stretches in descending order, of which the material admits all.
 
-use super::evaluation::is_admitted;
+use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, Violation};
-use crate::material::{Inversion, Material};
+use crate::material::Inversion;
 use crate::random::Random;
 
 /// Judges a rule at every sample, with random numbers to draw further choices from.
 pub(super) fn at_samples(
     rule: Rule,
-    material: &impl Material,
+    material: &dyn Subject,
     settings: &Settings,
     mut look: impl FnMut(&mut Judge, [f64; 3], &mut Random) -> Result<(), Violation>,
 ) -> Result<Finding, Violation> {
@@ -23,7 +23,7 @@ pub(super) fn at_samples(
 /// Random descending stretches within the range, plus inverted ones, as far as the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-pub(super) fn samples(material: &impl Material, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+pub(super) fn samples(material: &dyn Subject, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
     let threshold = match material.inversion() {
         Inversion::Refuse => None,
@@ -39,7 +39,7 @@ pub(super) fn samples(material: &impl Material, settings: &Settings, random: &mu
             }
             l
         })
-        .filter(|&l| is_admitted(material, l))
+        .filter(|&l| material.admits(l))
         .filter(|l| threshold.is_none_or(|epsilon| l.iter().all(|l| (l - epsilon).abs() > 1.0 / 32.0)))
         .collect()
 }

@@ -6,24 +6,18 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::evaluation::{blocks_at, energy, energy_at, gradient_at, is_admitted, stress, tangent};
 use super::frames::diagonal;
 use super::pairs::mean;
 use super::samples::at_samples;
+use super::subject::{Subject, energy, stress, tangent};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
-use crate::material::{Inversion, Material};
+use crate::material::Inversion;
 use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 use crate::random::Random;
 
-/// Stress as the slope of the energy: (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h², and from one
-/// sample to the next ψ grows by the work of its gradient.
-///
-/// Near a sample, an energy that jumps elsewhere looks as it should.
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::StressSlope`].
+pub(super) fn stress_slope(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let mut last = None;
     at_samples(Rule::StressSlope, material, settings, |judge, stretches, random| {
         energy_along(judge, material, stretches, &Approach::smooth(stretches), random)?;
@@ -36,17 +30,17 @@ pub fn stress_slope(material: &impl Material, settings: &Settings) -> Result<Fin
 ///
 /// Gauss's rule says how far off it is, and each ψ is known to some u times its own size and that of its
 /// terms.
-fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
+fn work(judge: &mut Judge, material: &dyn Subject, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
     let at = |t: f64| std::array::from_fn(|k| from[k] + t * (to[k] - from[k]));
     // On the way through λ3 = 0 there may be a pole.
     let crosses = from[2].signum() != to[2].signum();
     let zero = -from[2] / (to[2] - from[2]);
-    let is_inside = (1..16).all(|k| is_admitted(material, at(f64::from(k) / 16.0)));
-    if !is_inside || (crosses && !is_admitted(material, [at(zero)[0], at(zero)[1], 0.0])) {
+    let is_inside = (1..16).all(|k| material.admits(at(f64::from(k) / 16.0)));
+    if !is_inside || (crosses && !material.admits([at(zero)[0], at(zero)[1], 0.0])) {
         return Ok(());
     }
     let power = |t: f64| {
-        let gradient = gradient_at(material, at(t));
+        let gradient = material.gradient(at(t));
         (0..3).map(|k| gradient[k] * (to[k] - from[k])).sum::<f64>()
     };
     // Smooth from one stretch at the threshold of an extension to the next.
@@ -64,18 +58,15 @@ fn work(judge: &mut Judge, material: &impl Material, from: [f64; 3], to: [f64; 3
     }
     let rounding: f64 = [from, to]
         .into_iter()
-        .map(|l| stress_scale(&blocks_at(material, l), l) * l[0] + energy_at(material, l).abs())
+        .map(|l| stress_scale(&material.blocks(l), l) * l[0] + material.energy(l).abs())
         .sum();
-    let found = energy_at(material, to) - energy_at(material, from);
+    let found = material.energy(to) - material.energy(from);
     let name = || format!("growth of the energy from stretches {}, {}, {}", from[0], from[1], from[2]);
     judge.compare(name, to, found, expected, inexact + 100.0 * UNIT * rounding)
 }
 
-/// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
-///
-/// # Errors
-/// [`Violation`]: the first that is found.
-pub fn tangent_slope(material: &impl Material, settings: &Settings) -> Result<Finding, Violation> {
+/// [`Rule::TangentSlope`].
+pub(super) fn tangent_slope(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::TangentSlope, material, settings, |judge, stretches, random| {
         stress_along(judge, material, stretches, &Approach::smooth(stretches), random)
     })
@@ -123,7 +114,7 @@ fn moved(F: &Matrix3<f64>, h: f64, A: &Matrix3<f64>) -> Matrix3<f64> {
 /// The derivative of the energy along a random line.
 pub(super) fn energy_along(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     approach: &Approach,
     random: &mut Random,
@@ -131,8 +122,8 @@ pub(super) fn energy_along(
     let (F, A) = line(stretches, approach.reach, random);
     let P = stress(material, &F);
     let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
-    let blocks = blocks_at(material, stretches);
-    let size = energy_at(material, stretches).abs();
+    let blocks = material.blocks(stretches);
+    let size = material.energy(stretches).abs();
     let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + size);
     let along = |h: f64| energy(material, &moved(&F, h, &A));
     let name = || "difference quotient of the energy along a random line".into();
@@ -142,7 +133,7 @@ pub(super) fn energy_along(
 /// The derivative of one component of the stress along a random line.
 pub(super) fn stress_along(
     judge: &mut Judge,
-    material: &impl Material,
+    material: &dyn Subject,
     stretches: [f64; 3],
     approach: &Approach,
     random: &mut Random,
@@ -151,7 +142,7 @@ pub(super) fn stress_along(
     let B = random.matrix();
     let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
     let dP_dF = tangent(material, &F);
-    let blocks = blocks_at(material, stretches);
+    let blocks = material.blocks(stretches);
     let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
     let along = |h: f64| inner(&stress(material, &moved(&F, h, &A)));
     let name = || "difference quotient of the stress along a random line".into();

@@ -1,26 +1,18 @@
 //! All results of a point in a row, with their tolerances, for the rules on formats and lanes.
 
-use super::evaluation::{blocks_at, energy_at, gradient_at, is_admitted};
+use super::subject::Subject;
 use super::{gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::lanes::Real;
-use crate::material::{Blocks, Material};
+use crate::material::Response;
 
 /// Number of entries in a row.
 pub(super) const COUNT: usize = 19;
 
 /// Row of results: ψ; ψ1 … ψ3 from `gradient`; gradient, Hessian, flips, twists from `blocks`. Inlined.
 #[inline(always)]
-pub(super) fn numbers<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
-    in_a_row(material.energy(stretches), material.gradient(stretches), material.blocks(stretches))
-}
-
-/// Row of results as of [`numbers`], from functions that are compiled once, for single points.
-pub(super) fn numbers_alone<R: Real>(material: &impl Material, stretches: [R; 3]) -> [R; COUNT] {
-    in_a_row(energy_at(material, stretches), gradient_at(material, stretches), blocks_at(material, stretches))
-}
-
-#[inline(always)]
-fn in_a_row<R: Real>(energy: R, [g1, g2, g3]: [R; 3], blocks: Blocks<R>) -> [R; COUNT] {
+pub(super) fn results<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3]) -> [R; COUNT] {
+    let (energy, [g1, g2, g3]) = (material.energy(stretches), material.gradient(stretches));
+    let blocks = material.blocks(stretches);
     let [p1, p2, p3] = blocks.gradient;
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
     let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);
@@ -45,11 +37,11 @@ pub(super) fn name(number: usize) -> String {
 /// for second derivatives, what it makes of the stretches for first ones and the energy. The other is how it
 /// answers to relative changes of the stretches, since what is computed of them first, such as J or a bound
 /// that the energy nears, is rounded.
-pub(super) fn known(material: &impl Material, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
+pub(super) fn known(material: &dyn Subject, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
     /// Long beside rounding, short beside what an energy changes over.
     const STEP: f64 = 1.0 / 4096.0;
-    let values = numbers_alone(material, stretches);
-    let blocks = blocks_at(material, stretches);
+    let values = results(material, stretches);
+    let blocks = material.blocks(stretches);
     let (stress, curvature) = (stress_scale(&blocks, stretches), stiffness(&blocks));
     let mut sizes = [curvature; COUNT];
     sizes[0] = stress * stretches[0] + values[0].abs();
@@ -58,11 +50,10 @@ pub(super) fn known(material: &impl Material, stretches: [f64; 3]) -> Option<([f
     for moved in 1..=3 {
         let moved =
             std::array::from_fn(|k| if k < moved { stretches[k] * (1.0 + STEP) } else { stretches[k] });
-        if !is_admitted(material, moved) {
+        if !material.admits(moved) {
             return None;
         }
-        for (size, (after, before)) in sizes.iter_mut().zip(numbers_alone(material, moved).iter().zip(values))
-        {
+        for (size, (after, before)) in sizes.iter_mut().zip(results(material, moved).iter().zip(values)) {
             *size += (after - before).abs() / STEP;
         }
     }
