@@ -1,7 +1,14 @@
 //! Names that generated code uses: no part of the public interface, and free to change with every version.
 
 pub use crate::lanes::Mask;
-pub use crate::material::{ParameterValue, PerLane};
+pub use crate::material::checked::*;
+pub use crate::material::{
+    Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inadmissible, Inversion, Limit,
+    Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
+};
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]
 pub use serde;
+pub use std::{option::Option, result::Result, vec::Vec};
+
+pub use crate::Real;

@@ -18,6 +18,7 @@
 
 use crate::lanes::{Mask, Real};
 
+pub(crate) mod checked;
 mod combine;
 mod description;
 mod fittable;

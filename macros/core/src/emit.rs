@@ -38,9 +38,9 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let serde = serde(declaration);
     quote! {
         #structure
-        #constructor
         const _: () = {
-            use ::piola::__private as __piola;
+            use ::piola::__private as __p;
+            #constructor
             #material
             #declared
             #fittable

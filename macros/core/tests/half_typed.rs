@@ -49,13 +49,14 @@ fn expand(arguments: &TokenStream, item: &TokenStream, keeps: impl Fn(usize) -> 
     let arguments = thinned(arguments.clone(), &mut next, &keeps);
     let item = thinned(item.clone(), &mut next, &keeps);
     let expansion = piola_codegen::expand(arguments.clone(), item.clone());
-    // At the outermost level a mistake starts as `::core::compile_error!`, a material has implementations.
+    // At the outermost level a mistake starts as `::core::compile_error!`, and the implementations of a
+    // material are in a `const` block.
     let mut words = expansion.into_iter().filter_map(|token| match token {
         TokenTree::Ident(word) => Some(word),
         _ => None,
     });
     assert!(
-        words.any(|word| word == "compile_error" || word == "impl"),
+        words.any(|word| word == "compile_error" || word == "const"),
         "neither a material nor a mistake: #[material({arguments})] {item}"
     );
 }

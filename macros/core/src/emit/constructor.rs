@@ -53,52 +53,29 @@ fn new(declaration: &Declaration) -> TokenStream {
     let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
     let finite = numbers.map(|parameter| {
         let (name, text) = (&parameter.name, parameter.name.to_string());
-        let check = |value: TokenStream, given: TokenStream| {
-            quote! {
-                if !#value.is_finite() {
-                    return Err(::piola::material::Inadmissible::NotFinite { given: ::piola::material::Given::#given });
-                }
-            }
-        };
-        if parameter.length().is_none() {
-            return check(quote!(#name), quote!(scalar(#text, #name)));
-        }
-        let check = check(quote!(value), quote!(entry(#text, index, value)));
-        quote! {
-            for (index, value) in #name.into_iter().enumerate() {
-                #check
-            }
+        match parameter.length() {
+            None => quote!(__p::finite(#text, #name)?;),
+            Some(_) => quote!(__p::all_finite(#text, &#name)?;),
         }
     });
     let admissible =
-        options.admissible.iter().map(|condition| check(declaration, condition, &quote!(Violated)));
-    let inversion = options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion::Refuse,));
-    let stable_rest = (!options.prestressed).then(|| {
-        quote! {
-            let moduli = ::piola::material::Declared::moduli(&material);
-            if !(moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite()) {
-                return Err(::piola::material::Inadmissible::UnstableRest { moduli });
-            }
-        }
-    });
-    let stress_free_rest = (declaration.has_functions() && !options.prestressed).then(|| {
-        quote! {
-            let [stress, ..] = ::piola::Material::gradient(&material, [1.0f64; 3]);
-            if !(stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs())) {
-                return Err(::piola::material::Inadmissible::StressedRest { stress });
-            }
-        }
-    });
+        options.admissible.iter().map(|condition| check(declaration, condition, &quote!(admissible)));
+    let inversion = options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
+    let material = quote!(Self { #(#names,)* #inversion });
+    let checked = match (options.prestressed, declaration.has_functions()) {
+        (true, _) => quote!(Ok(#material)),
+        (false, false) => quote!(__p::stable_at_rest(#material)),
+        // What cancels the stress of a function, no declaration can promise.
+        (false, true) => quote!(__p::stable_at_rest(#material).and_then(__p::stress_free_at_rest)),
+    };
+    let too_many = too_many_arguments(names.len());
     quote! {
         #new_doc
-        #[allow(clippy::too_many_arguments)]
-        #visibility fn new(#(#names: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        #too_many
+        #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::Inadmissible> {
             #(#finite)*
             #(#admissible)*
-            let material = Self { #(#names,)* #inversion };
-            #stable_rest
-            #stress_free_rest
-            Ok(material)
+            #checked
         }
     }
 }
@@ -106,8 +83,12 @@ fn new(declaration: &Declaration) -> TokenStream {
 /// The choice of an extension, which restores only under the given conditions.
 fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream {
     let visibility = &declaration.visibility;
-    let names = declaration.parameters.iter().map(|parameter| &parameter.name);
-    let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(DoesNotRestore)));
+    let read: Vec<_> =
+        conditions.iter().flat_map(|condition| identifiers(condition.to_token_stream())).collect();
+    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
+    let names: Vec<_> = names.into_iter().filter(|name| read.contains(name)).collect();
+    let parameters = (!names.is_empty()).then(|| quote!(let Self { #(#names,)* .. } = self;));
+    let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(restoring)));
     quote! {
         /// Replaces what the material does outside its domain.
         ///
@@ -115,14 +96,10 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
         /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
         #visibility fn with_inversion(
             mut self,
-            inversion: ::piola::Inversion,
-        ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-            if let ::piola::Inversion::Extend { epsilon } = inversion {
-                if !(epsilon > 0.0 && epsilon < 1.0) {
-                    return Err(::piola::material::Inadmissible::Threshold { epsilon });
-                }
-                #[allow(unused_variables)]
-                let Self { #(#names,)* .. } = self;
+            inversion: __p::Inversion,
+        ) -> __p::Result<Self, __p::Inadmissible> {
+            if __p::extends(inversion)? {
+                #parameters
                 #(#restores)*
             }
             self.inversion = inversion;
@@ -148,7 +125,7 @@ fn replacement(declaration: &Declaration, parameter: &Parameter) -> TokenStream 
     quote! {
         #documentation
         #[allow(dead_code)]
-        #visibility fn #method(self, #name: #ty) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+        #visibility fn #method(self, #name: #ty) -> __p::Result<Self, __p::Inadmissible> {
             Self::new(#(#values),*)#inversion
         }
     }
@@ -176,7 +153,7 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
 }
 
 /// Returns an error unless a condition holds, for every entry if it is written for one.
-fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> TokenStream {
+fn check(declaration: &Declaration, condition: &Expr, check: &TokenStream) -> TokenStream {
     let text = condition_text(condition);
     let list = indexed_list(condition);
     let names = identifiers(condition.to_token_stream());
@@ -185,23 +162,21 @@ fn check(declaration: &Declaration, condition: &Expr, error: &TokenStream) -> To
             let (name, text) = (&parameter.name, parameter.name.to_string());
             match &list {
                 Some((_, index)) if parameter.length().is_some() => {
-                    quote!(::piola::material::Given::entry(#text, #index, #name[#index]))
+                    quote!((#text, Some(#index), #name[#index]))
                 }
-                _ => quote!(::piola::material::Given::scalar(#text, #name)),
+                _ => quote!((#text, None, #name)),
             }
         });
     let test = typed(condition);
-    let test = quote! {
-        #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN violates")]
-        if !(#test) {
-            return Err(::piola::material::Inadmissible::#error {
-                condition: #text,
-                given: ::std::vec![#(#given),*],
-            });
-        }
-    };
+    let test = quote!(__p::#check(#test, #text, &[#(#given),*])?;);
     match &list {
         Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
         None => test,
     }
+}
+
+/// Permission for as many arguments as there are parameters, where clippy would complain.
+pub(super) fn too_many_arguments(count: usize) -> Option<TokenStream> {
+    const MANY: usize = 7;
+    (count > MANY).then(|| quote!(#[allow(clippy::too_many_arguments)]))
 }

@@ -18,16 +18,16 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
         let unit = option(parameter.unit().map(|unit| match unit {
-            Unit::Pascal => quote!(::piola::material::Unit::Pascal),
-            Unit::PerPascal => quote!(::piola::material::Unit::PerPascal),
-            Unit::Dimensionless => quote!(::piola::material::Unit::Dimensionless),
+            Unit::Pascal => quote!(__p::Unit::Pascal),
+            Unit::PerPascal => quote!(__p::Unit::PerPascal),
+            Unit::Dimensionless => quote!(__p::Unit::Dimensionless),
         }));
         let form = match &parameter.kind {
-            Kind::Number => quote!(::piola::material::Form::Number),
-            Kind::List(_) => quote!(::piola::material::Form::List),
+            Kind::Number => quote!(__p::Form::Number),
+            Kind::List(_) => quote!(__p::Form::List),
             Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::FORM),
         };
-        quote!(::piola::material::Parameter { name: #name, doc: #doc, unit: #unit, form: #form })
+        quote!(__p::Parameter { name: #name, doc: #doc, unit: #unit, form: #form })
     });
     let typical = option(declaration.options.typical.as_ref().map(typical));
     let extends = declaration.options.extend.is_some();
@@ -40,55 +40,23 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     });
     let admissible = declaration.options.admissible.iter().map(condition_text);
 
-    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
-    let expected = format!(
-        "{} parameters are expected: {}",
-        names.len(),
-        names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-    );
-    let conversions = declaration.parameters.iter().map(|parameter| {
-        let name = &parameter.name;
-        let (pattern, length, shape) = match &parameter.kind {
-            Kind::Number => {
-                let message = format!("`{name}` must be one number");
-                (quote!([#name]), quote!(1), quote!(#message.to_owned()))
-            }
-            Kind::List(length) => {
-                let length = &declaration.lengths[*length];
-                let format = format!("`{name}` must have {{}} entries");
-                (quote!(#name), quote!(#length), quote!(::std::format!(#format, #length)))
-            }
-            Kind::Function(ty) => {
-                return quote!(let #name = <#ty as ::piola::Univariate>::from_values(#name)?;);
-            }
-        };
-        quote! {
-            let Ok(#pattern) = <[f64; #length]>::try_from(#name) else {
-                return Err(::piola::material::Inadmissible::Shape { expected: #shape });
-            };
-        }
+    let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
+    let values = declaration.parameters.iter().map(|parameter| match &parameter.kind {
+        Kind::Number => quote!(values.number()?),
+        Kind::List(_) => quote!(values.list()?),
+        Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.next())?),
     });
-    let finish = if extends {
-        quote!(Self::new(#(#names),*)?.with_inversion(inversion))
+    let material = quote!(Self::new(#(#values),*)?);
+    let material = if extends {
+        quote!(#material.with_inversion(inversion))
     } else {
-        quote! {
-            let material = Self::new(#(#names),*)?;
-            match inversion {
-                ::piola::Inversion::Refuse => Ok(material),
-                ::piola::Inversion::Extend { .. } => {
-                    Err(::piola::material::Inadmissible::NoExtension {
-                        material: #type_name,
-                        reason: <Self as ::piola::material::Declared>::DESCRIPTION.refusal,
-                    })
-                }
-            }
-        }
+        quote!(__p::unextended(#material, inversion))
     };
 
     quote! {
         #naming
-        impl #bounds ::piola::material::Declared for #name #arguments {
-            const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+        impl #bounds __p::Declared for #name #arguments {
+            const DESCRIPTION: __p::Description = __p::Description {
                 name: #type_name,
                 summary: #summary,
                 formula: #formula,
@@ -103,13 +71,10 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
 
             fn from_values(
                 values: &[&[f64]],
-                inversion: ::piola::Inversion,
-            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-                let &[#(#names),*] = values else {
-                    return Err(::piola::material::Inadmissible::Shape { expected: #expected.to_owned() });
-                };
-                #(#conversions)*
-                #finish
+                inversion: __p::Inversion,
+            ) -> __p::Result<Self, __p::Inadmissible> {
+                let mut values = __p::Values::new(values, &[#(#names),*])?;
+                #material
             }
         }
     }
@@ -125,12 +90,12 @@ fn typical(typical: &Typical) -> TokenStream {
         quote!(&[#(#numbers),*])
     });
     let source = &typical.source;
-    quote!(::piola::material::Typical { values: &[#(#lists),*], source: #source })
+    quote!(__p::Typical { values: &[#(#lists),*], source: #source })
 }
 
 fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
-        Some(value) => quote!(::core::option::Option::Some(#value)),
-        None => quote!(::core::option::Option::None),
+        Some(value) => quote!(Some(#value)),
+        None => quote!(None),
     }
 }

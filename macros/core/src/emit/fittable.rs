@@ -38,27 +38,27 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
             fn domain_constraints(
                 &self,
                 [#l1, #l2, #l3]: [f64; 3],
-            ) -> ::std::vec::Vec<::piola::material::Constraint> {
+            ) -> __p::Vec<__p::Constraint> {
                 #constraints
             }
         }
     });
     quote! {
         #naming
-        impl #bounds ::piola::material::Fittable for #name #arguments {
-            fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
+        impl #bounds __p::Fittable for #name #arguments {
+            fn values(&self) -> __p::Vec<__p::Vec<f64>> {
                 ::std::vec![#(#values),*]
             }
 
             #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
-            fn gradient_by_parameters(&self, [#l1, #l2, #l3]: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
+            fn gradient_by_parameters(&self, [#l1, #l2, #l3]: [f64; 3]) -> __p::Vec<[f64; 3]> {
                 use ::piola::Real;
                 type R = f64;
                 #derivatives
             }
 
             #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
-            fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
+            fn constraints(&self) -> __p::Vec<__p::Constraint> {
                 #of_parameters
             }
 
@@ -95,7 +95,7 @@ fn derivatives(declaration: &Declaration, model: &mut Model, by_parameters: &[Ve
     let lists: Vec<_> = lists.collect();
     let count = Literal::usize_unsuffixed(by_parameters.len());
     quote! {
-        let mut #derivatives: [::std::vec::Vec<[f64; #width]>; #count] = [const { ::std::vec::Vec::new() }; #count];
+        let mut #derivatives: [__p::Vec<[f64; #width]>; #count] = [const { __p::Vec::new() }; #count];
         #numbers
         #(#lists)*
         #derivatives.concat()
@@ -108,7 +108,7 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
         constraints.iter().partition(|constraint| constraint.length.is_some());
     let writer = Writer::new(declaration);
     let of_numbers = if of_numbers.is_empty() {
-        quote!(::std::vec::Vec::new())
+        quote!(__p::Vec::new())
     } else {
         let limits = of_numbers.iter().map(|constraint| limit(declaration, constraint.limit));
         let roots: Vec<_> = of_numbers.iter().map(|constraint| constraint.value).collect();
@@ -118,7 +118,7 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
         let derivatives = derivatives(declaration, model, &by_parameters);
         let (statements, outputs) = writer.program(&model.program(&roots));
         quote! {
-            ::piola::material::Constraint::all([#(#limits),*], { #statements [#(#outputs),*] }, { #derivatives })
+            __p::Constraint::all([#(#limits),*], { #statements [#(#outputs),*] }, { #derivatives })
         }
     };
     let of_entries = of_entries.iter().map(|constraint| {
@@ -139,10 +139,10 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
         quote! {
             for #index in 0..#length {
                 #statements
-                constraints.push(::piola::material::Constraint::of_entry(
+                constraints.push(__p::Constraint::of_entry(
                     #limit,
                     #value,
-                    ::piola::material::Fittable::values(self),
+                    __p::Fittable::values(self),
                     &[#(#slopes),*],
                 ));
             }
@@ -168,13 +168,13 @@ fn limit(declaration: &Declaration, limit: Limit) -> TokenStream {
     match limit {
         Limit::Admissible(k) => {
             let text = text(declaration.options.admissible.get(k));
-            quote!(::piola::material::Limit::Admissible(#text))
+            quote!(__p::Limit::Admissible(#text))
         }
-        Limit::ShearModulus => quote!(::piola::material::Limit::ShearModulus),
-        Limit::BulkModulus => quote!(::piola::material::Limit::BulkModulus),
+        Limit::ShearModulus => quote!(__p::Limit::ShearModulus),
+        Limit::BulkModulus => quote!(__p::Limit::BulkModulus),
         Limit::Domain(k) => {
             let text = text(declaration.bounds().nth(k));
-            quote!(::piola::material::Limit::Domain(#text))
+            quote!(__p::Limit::Domain(#text))
         }
     }
 }

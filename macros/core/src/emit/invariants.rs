@@ -30,8 +30,8 @@ pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
         None => inside,
         Some(_) => quote! {
             match self.inversion {
-                ::piola::Inversion::Refuse => #inside,
-                ::piola::Inversion::Extend { epsilon: #threshold } => {
+                __p::Inversion::Refuse => #inside,
+                __p::Inversion::Extend { epsilon: #threshold } => {
                     (R::splat(#threshold) * #i1).less(#j + #j)
                 }
             }
@@ -39,28 +39,28 @@ pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     });
     let conditions = bound_outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound))).chain(inside);
     let admits = conditions.reduce(|a, b| quote!(#a & #b));
-    let admits = admits.unwrap_or_else(|| quote!(__piola::Mask::splat(true)));
+    let admits = admits.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
 
     quote! {
         const HAS_INVARIANTS: bool = true;
 
         #[inline(always)]
         #[allow(non_snake_case)]
-        fn energy_by_invariants<R: ::piola::Real>(&self, #arguments) -> R {
+        fn energy_by_invariants<R: __p::Real>(&self, #arguments) -> R {
             #energy
             #(#energy_output)*
         }
 
         #[inline(always)]
         #[allow(non_snake_case)]
-        fn gradient_by_invariants<R: ::piola::Real>(&self, #arguments) -> [R; 3] {
+        fn gradient_by_invariants<R: __p::Real>(&self, #arguments) -> [R; 3] {
             #gradient
             [#(#gradient_outputs),*]
         }
 
         #[inline(always)]
         #[allow(non_snake_case)]
-        fn admits_invariants<R: ::piola::Real>(&self, #arguments) -> R::Mask {
+        fn admits_invariants<R: __p::Real>(&self, #arguments) -> R::Mask {
             #bounds
             #admits
         }

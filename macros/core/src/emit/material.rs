@@ -30,16 +30,16 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         };
     }
     let value = value_parameter(declaration);
-    let kept = value.as_ref().map(|value| quote!(#value: __piola::ParameterValue));
-    let per_lane = value.as_ref().map(|_| quote!(__piola::PerLane));
+    let kept = value.as_ref().map(|value| quote!(#value: __p::ParameterValue));
+    let per_lane = value.as_ref().map(|_| quote!(__p::PerLane));
     let lengths = &declaration.generics;
     let gathered = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
         match parameter.kind {
             Kind::List(_) => quote! {
-                #name: ::core::array::from_fn(|k| __piola::PerLane::gather(|lane| material(lane).#name[k]))
+                #name: ::core::array::from_fn(|k| __p::PerLane::gather(|lane| material(lane).#name[k]))
             },
-            _ => quote!(#name: __piola::PerLane::gather(|lane| material(lane).#name)),
+            _ => quote!(#name: __p::PerLane::gather(|lane| material(lane).#name)),
         }
     });
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: material(0).inversion,));
@@ -52,7 +52,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             #constants
         }
 
-        impl #bounds ::piola::material::Graded for #name #arguments {
+        impl #bounds __p::Graded for #name #arguments {
             type OnLanes = #name<#(#lengths,)* #per_lane>;
 
             #[inline(always)]
@@ -77,24 +77,19 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
         None => (quote!(#plain_pole), quote!(#is_positive)),
         Some(extended) => {
             let extended_pole = extended.has_pole;
-            let pole = if plain_pole == extended_pole {
-                quote!(#plain_pole)
-            } else {
-                quote! {
-                    match self.inversion {
-                        ::piola::Inversion::Refuse => #plain_pole,
-                        ::piola::Inversion::Extend { .. } => #extended_pole,
-                    }
-                }
+            let refuses = quote!(self.inversion == __p::Inversion::Refuse);
+            let pole = match (plain_pole, extended_pole) {
+                (true, false) => refuses.clone(),
+                (false, true) => quote!(self.inversion != __p::Inversion::Refuse),
+                _ => quote!(#plain_pole),
             };
-            let refuses = quote!(::core::matches!(self.inversion, ::piola::Inversion::Refuse));
             (pole, if is_positive { refuses } else { quote!(false) })
         }
     };
     let inversion = declaration.options.extend.as_ref().map(|_| {
         quote! {
             #[inline]
-            fn inversion(&self) -> ::piola::Inversion {
+            fn inversion(&self) -> __p::Inversion {
                 self.inversion
             }
         }
@@ -113,11 +108,11 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
         #inversion
 
         #[allow(unused_imports)]
-        fn stated_moduli(&self) -> ::core::option::Option<::piola::material::Moduli> {
+        fn stated_moduli(&self) -> __p::Option<__p::Moduli> {
             use ::piola::Real;
             type R = f64;
             #statements
-            ::core::option::Option::Some(::piola::material::Moduli { mu: #mu, lambda: #lambda })
+            __p::stated_moduli(#mu, #lambda)
         }
     }
 }
@@ -142,8 +137,8 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
                 let extended = body(model, &extended);
                 quote! {
                     match self.inversion {
-                        ::piola::Inversion::Refuse => { #plain }
-                        ::piola::Inversion::Extend { epsilon: #threshold } => {
+                        __p::Inversion::Refuse => { #plain }
+                        __p::Inversion::Extend { epsilon: #threshold } => {
                             let #threshold = R::splat(#threshold);
                             #extended
                         }
@@ -158,7 +153,7 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
         let (gradient, hessian, flip, twist) =
             (&outputs[..3], &outputs[3..9], &outputs[9..12], &outputs[12..]);
         quote! {
-            ::piola::material::Blocks {
+            __p::Blocks {
                 gradient: [#(#gradient),*],
                 hessian: [#(#hessian),*],
                 flip: [#(#flip),*],
@@ -172,27 +167,27 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let strains = &writer.strains;
     quote! {
         #[inline(always)]
-        fn energy<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
+        fn energy<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
             #energy
         }
 
         #[inline(always)]
-        fn gradient<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
+        fn gradient<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
             #gradient
         }
 
         #[inline(always)]
-        fn gradient_at_strains<R: ::piola::Real>(&self, #strains: [R; 3]) -> [R; 3] {
+        fn gradient_at_strains<R: __p::Real>(&self, #strains: [R; 3]) -> [R; 3] {
             #at_strains
         }
 
         #[inline(always)]
-        fn blocks<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> ::piola::material::Blocks<R> {
+        fn blocks<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> __p::Blocks<R> {
             #blocks
         }
 
         #[inline(always)]
-        fn admits<R: ::piola::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
+        fn admits<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
             #admits
         }
 
@@ -217,9 +212,9 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     quote! {
         #inside
         let inside = [#(#outputs),*];
-        if let ::piola::Inversion::Extend { epsilon: #threshold } = self.inversion {
+        if let __p::Inversion::Extend { epsilon: #threshold } = self.inversion {
             let below = #strains[2].less(R::splat(#threshold - 1.0));
-            if __piola::Mask::any(below) {
+            if __p::Mask::any(below) {
                 let extended = ::piola::Material::gradient(self, #stretches);
                 return ::core::array::from_fn(|k| R::select(below, extended[k], inside[k]));
             }
@@ -245,12 +240,12 @@ fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> Tok
         None => inside,
         Some(_) => quote! {
             match self.inversion {
-                ::piola::Inversion::Refuse => #inside,
-                ::piola::Inversion::Extend { .. } => __piola::Mask::splat(true),
+                __p::Inversion::Refuse => #inside,
+                __p::Inversion::Extend { .. } => __p::Mask::splat(true),
             }
         },
     }));
     let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
-    let all = all.unwrap_or_else(|| quote!(__piola::Mask::splat(true)));
+    let all = all.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
     quote!(#statements #all)
 }

@@ -2,6 +2,7 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use rustc_hash::FxHashMap;
 use syn::Ident;
 
 use crate::read::parse::Declaration;
@@ -57,138 +58,107 @@ impl<'a> Writer<'a> {
         if self.declaration.has_functions() {
             quote!(R::splat(self.#field))
         } else {
-            quote!(__piola::ParameterValue::on(&self.#field))
+            quote!(__p::ParameterValue::on(&self.#field))
         }
     }
 
     /// The statements of a program and its outputs as expressions.
     pub(super) fn program(&self, program: &Program) -> (TokenStream, Vec<TokenStream>) {
-        let mut names = Names::default();
-        let mut statements = TokenStream::new();
+        let mut lines = Lines::new(self, program);
         for statement in &program.statements {
             match statement {
-                Statement::Let(value, op) => statements.extend(self.binding(*value, op, &mut names)),
+                Statement::Let(value, op) => lines.push(*value, op),
                 Statement::Loop { length, body, totals } => {
                     let length = &self.declaration.lengths[*length];
                     let index = &self.index;
-                    let body: Vec<_> =
-                        body.iter().filter_map(|(value, op)| self.binding(*value, op, &mut names)).collect();
+                    let before = lines.take();
+                    body.iter().for_each(|(value, op)| lines.push(*value, op));
+                    let body = lines.take();
                     let (mut starts, mut additions) = (Vec::new(), Vec::new());
                     for &(total, term) in totals {
                         let name = self.name(total);
-                        let term = names.get(term);
+                        let term = lines.names.argument(term);
                         starts.push(quote!(let mut #name = R::splat(0.0);));
                         additions.push(quote!(#name = #name + #term;));
-                        names.set(total, quote!(#name));
+                        lines.names.set(total, name);
                     }
-                    statements.extend(quote! {
+                    lines.statements = quote! {
+                        #before
                         #(#starts)*
                         for #index in 0..#length {
-                            #(#body)*
+                            #body
                             #(#additions)*
                         }
-                    });
+                    };
                 }
             }
         }
-        let outputs = program.outputs.iter().map(|&output| names.get(output).to_token_stream()).collect();
-        (statements, outputs)
+        lines.take_in(&program.outputs);
+        let statements = lines.take();
+        let outputs = program.outputs.iter().map(|&output| lines.names.argument(output).to_token_stream());
+        (statements, outputs.collect())
     }
 
     fn name(&self, value: Value) -> Ident {
         format_ident!("{}{}", self.prefix, value.0)
     }
 
-    /// Names a value: literals and inputs are written where they are used, the rest is a `let`.
-    fn binding(&self, value: Value, op: &Op, names: &mut Names) -> Option<TokenStream> {
-        let parameter = |k: usize| &self.declaration.parameters[k].name;
-        let inline = match *op {
-            Op::Literal(bits) => Some(literal(f64::from_bits(bits))),
-            Op::Stretch(i) => Some(self.variables[i].to_token_stream()),
-            Op::Strain(i) => {
-                let (strains, i) = (&self.strains, Literal::usize_unsuffixed(i));
-                Some(quote!(#strains[#i]))
-            }
-            Op::Epsilon => Some(self.threshold.to_token_stream()),
-            _ => None,
-        };
-        if let Some(inline) = inline {
-            names.set(value, inline);
-            return None;
-        }
-        let (name, expression) = match *op {
-            Op::Parameter(k) => {
-                let parameter = parameter(k);
-                (parameter.clone(), self.field(quote!(#parameter)))
-            }
-            Op::Entry(k) => {
-                let (parameter, index) = (parameter(k), &self.index);
-                (parameter.clone(), self.field(quote!(#parameter[#index])))
-            }
-            _ => (self.name(value), self.expression(op, names)),
-        };
-        names.set(value, name.to_token_stream());
-        Some(match *op {
-            Op::Parameter(_) | Op::Entry(_) => quote!(let #name: R = #expression;),
-            _ => quote!(let #name = #expression;),
-        })
-    }
-
     fn expression(&self, op: &Op, names: &Names) -> TokenStream {
-        let n = |value: Value| names.get(value);
+        let n = |value: Value| names.argument(value);
+        let o = |value: Value| names.operand(value);
         match *op {
             Op::Neg(a) => {
-                let a = n(a);
+                let a = o(a);
                 quote!(-#a)
             }
             Op::Add(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), o(b));
                 quote!(#a + #b)
             }
             Op::Sub(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), o(b));
                 quote!(#a - #b)
             }
             Op::Mul(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), o(b));
                 quote!(#a * #b)
             }
             Op::Div(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), o(b));
                 quote!(#a / #b)
             }
             Op::MulAdd(a, b, c) => {
-                let (a, b, c) = (n(a), n(b), n(c));
+                let (a, b, c) = (o(a), n(b), n(c));
                 quote!(#a.mul_add(#b, #c))
             }
             // A change of sign costs nothing: it is part of the fused instruction.
             Op::NegMulAdd(a, b, c) => {
-                let (a, b, c) = (n(a), n(b), n(c));
+                let (a, b, c) = (o(a), n(b), n(c));
                 quote!((-#a).mul_add(#b, #c))
             }
             Op::MulSub(a, b, c) => {
-                let (a, b, c) = (n(a), n(b), n(c));
+                let (a, b, c) = (o(a), n(b), o(c));
                 quote!(#a.mul_add(#b, -#c))
             }
-            Op::Sqrt(a) => method(n(a), "sqrt"),
-            Op::Cbrt(a) => method(n(a), "cbrt"),
-            Op::Ln(a) => method(n(a), "ln"),
-            Op::Exp(a) => method(n(a), "exp"),
+            Op::Sqrt(a) => method(o(a), "sqrt"),
+            Op::Cbrt(a) => method(o(a), "cbrt"),
+            Op::Ln(a) => method(o(a), "ln"),
+            Op::Exp(a) => method(o(a), "exp"),
             Op::LnProduct(factors) => {
                 let factors = factors.map(n);
                 self.call("ln_product", &[quote!([#(#factors),*])])
             }
-            Op::Logarithm(a) => method(n(a), "logarithm"),
+            Op::Logarithm(a) => method(o(a), "logarithm"),
             Op::Power(logarithm, exponent) => {
                 let (logarithm, exponent) = (n(logarithm), n(exponent));
                 quote!(R::power(#logarithm, #exponent))
             }
             Op::Max(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), n(b));
                 quote!(#a.max(#b))
             }
             Op::Below(a, b) => {
-                let (a, b) = (n(a), n(b));
+                let (a, b) = (o(a), o(b));
                 quote!((#a - #b).min(R::splat(0.0)))
             }
             Op::Function(k, order, a) => {
@@ -200,18 +170,18 @@ impl<'a> Writer<'a> {
                 self.function(k, name, &[n(a), n(b)])
             }
             Op::WhereNegative(condition, a, b) => {
-                let (condition, a, b) = (n(condition), n(a), n(b));
+                let (condition, a, b) = (o(condition), n(a), n(b));
                 quote!(R::select(#condition.less(R::splat(0.0)), #a, #b))
             }
             Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
             Op::Pair { values, reciprocals, logarithms } => {
                 let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
-                quote!(__piola::Pair::new(#(#arguments),*))
+                quote!(__p::Pair::new(#(#arguments),*))
             }
-            Op::LnQuotient(pair) => method(n(pair), "ln_quotient"),
+            Op::LnQuotient(pair) => method(o(pair), "ln_quotient"),
             Op::PowerQuotient { pair, powers, exponent } => {
-                let (pair, powers, exponent) = (n(pair), self.two(powers, names), n(exponent));
+                let (pair, powers, exponent) = (o(pair), self.two(powers, names), n(exponent));
                 quote!(#pair.power_quotient(#powers, #exponent))
             }
             Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
@@ -239,13 +209,13 @@ impl<'a> Writer<'a> {
     }
 
     fn two(&self, values: [Value; 2], names: &Names) -> TokenStream {
-        let [a, b] = values.map(|value| names.get(value));
+        let [a, b] = values.map(|value| names.argument(value));
         quote!([#a, #b])
     }
 
     fn call(&self, kernel: &str, arguments: &[impl ToTokens]) -> TokenStream {
         let kernel = format_ident!("{kernel}");
-        quote!(__piola::#kernel(#(#arguments),*))
+        quote!(__p::#kernel(#(#arguments),*))
     }
 }
 
@@ -261,17 +231,143 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
         .unwrap_or_else(|| format_ident!("emitted_{}", candidates[0]))
 }
 
-/// How each value is written where it is used.
-#[derive(Default)]
-struct Names(rustc_hash::FxHashMap<Value, TokenStream>);
+/// The statements of a program as they are written, in the order of the program.
+///
+/// A value that is read once, by the next statement to be written, is written there and needs no name:
+/// operations still take place in their order, but for operands of one operation.
+struct Lines<'a> {
+    writer: &'a Writer<'a>,
+    statements: TokenStream,
+    names: Names,
+    /// How often each value is read.
+    reads: FxHashMap<Value, usize>,
+    /// Values read once, with their expressions, which the next statements may take in.
+    waiting: Vec<(Value, Text)>,
+}
 
-impl Names {
-    fn get(&self, value: Value) -> Option<&TokenStream> {
-        self.0.get(&value)
+impl<'a> Lines<'a> {
+    /// Longest expression, in characters, to be taken in by another.
+    const LONGEST: usize = 72;
+
+    fn new(writer: &'a Writer<'a>, program: &Program) -> Self {
+        let mut reads = FxHashMap::default();
+        let mut read = |value: Value| *reads.entry(value).or_insert(0) += 1;
+        for statement in &program.statements {
+            match statement {
+                Statement::Let(_, op) => op.operands().into_iter().for_each(&mut read),
+                Statement::Loop { body, totals, .. } => {
+                    body.iter().flat_map(|(_, op)| op.operands()).for_each(&mut read);
+                    totals.iter().for_each(|&(_, term)| read(term));
+                }
+            }
+        }
+        program.outputs.iter().copied().for_each(read);
+        Self { writer, statements: TokenStream::new(), names: Names::default(), reads, waiting: Vec::new() }
     }
 
-    fn set(&mut self, value: Value, text: TokenStream) {
-        self.0.insert(value, text);
+    /// Writes an operation: literals and inputs where they are read, the rest as a `let` or where it is read.
+    fn push(&mut self, value: Value, op: &Op) {
+        let writer = self.writer;
+        let parameter = |k: usize| &writer.declaration.parameters[k].name;
+        match *op {
+            Op::Literal(bits) => self.names.set(value, literal(f64::from_bits(bits))),
+            Op::Stretch(i) => self.names.set(value, &writer.variables[i]),
+            Op::Strain(i) => {
+                let (strains, i) = (&writer.strains, Literal::usize_unsuffixed(i));
+                self.names.set(value, quote!(#strains[#i]));
+            }
+            Op::Epsilon => self.names.set(value, &writer.threshold),
+            Op::Parameter(k) => self.field(value, parameter(k), TokenStream::new()),
+            Op::Entry(k) => {
+                let index = &writer.index;
+                self.field(value, parameter(k), quote!([#index]));
+            }
+            _ => self.operation(value, op),
+        }
+    }
+
+    /// Reads a parameter from `self`.
+    fn field(&mut self, value: Value, parameter: &Ident, index: TokenStream) {
+        let number = self.writer.field(quote!(#parameter #index));
+        self.statements.extend(quote!(let #parameter: R = #number;));
+        self.names.set(value, parameter);
+    }
+
+    fn operation(&mut self, value: Value, op: &Op) {
+        self.take_in(&op.operands());
+        let text = Text {
+            tokens: self.writer.expression(op, &self.names),
+            is_operand: !matches!(op, Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..)),
+        };
+        let is_read_once = self.reads.get(&value) == Some(&1);
+        let is_short = || text.tokens.to_string().chars().filter(|c| *c != ' ').count() <= Self::LONGEST;
+        if is_read_once && is_short() {
+            self.waiting.push((value, text));
+        } else {
+            self.flush();
+            self.name(value, &text);
+        }
+    }
+
+    /// Writes those of the values that wait where they are read, if they are the last of all that wait; else
+    /// names all that wait.
+    fn take_in(&mut self, read: &[Value]) {
+        let is_read = |(value, _): &(Value, Text)| read.contains(value);
+        let first = self.waiting.len() - self.waiting.iter().filter(|one| is_read(one)).count();
+        if self.waiting[first..].iter().all(is_read) {
+            self.names.0.extend(self.waiting.drain(first..));
+        } else {
+            self.flush();
+        }
+    }
+
+    fn name(&mut self, value: Value, Text { tokens, .. }: &Text) {
+        let name = self.writer.name(value);
+        self.statements.extend(quote!(let #name = #tokens;));
+        self.names.set(value, name);
+    }
+
+    /// Names the values that wait.
+    fn flush(&mut self) {
+        for (value, text) in std::mem::take(&mut self.waiting) {
+            self.name(value, &text);
+        }
+    }
+
+    /// The statements up to here, with a name for each value that is still read.
+    fn take(&mut self) -> TokenStream {
+        self.flush();
+        std::mem::take(&mut self.statements)
+    }
+}
+
+/// A value where it is read.
+struct Text {
+    tokens: TokenStream,
+    /// Whether it can be an operand without parentheses.
+    is_operand: bool,
+}
+
+/// How each value is written where it is read.
+#[derive(Default)]
+struct Names(FxHashMap<Value, Text>);
+
+impl Names {
+    fn set(&mut self, value: Value, name: impl ToTokens) {
+        self.0.insert(value, Text { tokens: name.into_token_stream(), is_operand: true });
+    }
+
+    /// The value between commas.
+    fn argument(&self, value: Value) -> Option<&TokenStream> {
+        self.0.get(&value).map(|text| &text.tokens)
+    }
+
+    /// The value beside an operator, or as the receiver of a method.
+    fn operand(&self, value: Value) -> Option<TokenStream> {
+        self.0.get(&value).map(|Text { tokens, is_operand }| match is_operand {
+            true => tokens.clone(),
+            false => quote!((#tokens)),
+        })
     }
 }
 

@@ -1,8 +1,9 @@
 //! The constructor from Young's modulus and Poisson's ratio.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
+use super::constructor::too_many_arguments;
 use super::doc;
 use super::writer::free_name;
 use crate::algebra::rational::Rational;
@@ -17,14 +18,12 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
     let poisson = free_name(declaration, &["poisson", "poisson_ratio"]);
     let others: Vec<_> =
         (0..parameters.len()).filter(|&k| determined.of(k).is_none()).map(|k| &parameters[k]).collect();
-    let names = others.iter().map(|parameter| &parameter.name);
+    let names: Vec<_> = others.iter().map(|parameter| &parameter.name).collect();
     let types = others.iter().map(|parameter| declaration.parameter_type(parameter));
-    let solved = determined.0.map(|one| {
-        let name = &parameters[one.parameter].name;
-        let value = value(&one);
-        quote!(let #name = #value;)
+    let all = parameters.iter().enumerate().map(|(k, parameter)| match determined.of(k) {
+        Some(one) => value(one),
+        None => parameter.name.to_token_stream(),
     });
-    let all = parameters.iter().map(|parameter| &parameter.name);
     let formulas = determined.0.map(|one| {
         let Determined { parameter, mu, lambda, constant } = one;
         format!("`{}` = {}", parameters[parameter].name, combination(&[("μ", mu), ("λ", lambda)], constant))
@@ -43,16 +42,16 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
         formulas[0],
         formulas[1],
     ));
+    let too_many = too_many_arguments(2 + names.len());
     quote! {
         #documentation
-        #[allow(clippy::too_many_arguments)]
+        #too_many
         #visibility fn from_young_poisson(
             #young: f64,
             #poisson: f64,
             #(#names: #types),*
-        ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
-            let moduli = ::piola::material::Moduli::from_young_poisson(#young, #poisson)?;
-            #(#solved)*
+        ) -> __p::Result<Self, __p::Inadmissible> {
+            let moduli = __p::Moduli::from_young_poisson(#young, #poisson)?;
             Self::new(#(#all),*)
         }
     }
