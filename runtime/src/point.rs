@@ -185,7 +185,7 @@ pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R:
 #[inline(always)]
 #[must_use]
 pub fn decompose<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>) -> Svd<R> {
-    svd::svd_with(F, material.ends_at_zero_volume())
+    if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
 /// Zero if all are finite, else NaN: one comparison asks for many.

@@ -85,7 +85,8 @@ fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
     body: &impl Fn(Tile<'_, E, I, O>) -> Status<u64>,
 ) -> Survey {
     let mut survey = Survey::default();
-    let mut rest = work;
+    let statuses = work.statuses;
+    let mut rest = Work { statuses: &[], ..work };
     for start in points.clone().step_by(TILE) {
         let (tile, later) = rest.split(1);
         rest = later;
@@ -96,8 +97,10 @@ fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
             inputs: tile.inputs.map(|(slice, _)| slice),
             outputs: tile.outputs.map(|(slice, _)| slice),
         });
-        for (point, to) in tile.statuses.iter().enumerate() {
-            to.set(status.of_point(point));
+        if !statuses.is_empty() {
+            for (point, to) in statuses[start - points.start..].iter().take(TILE).enumerate() {
+                to.set(status.of_point(point));
+            }
         }
         if status != Status::default() {
             survey = survey + Survey::of(status, start);

@@ -21,8 +21,10 @@ use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
-use crate::point::svd::svd_with;
-use crate::point::{Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite};
+use crate::point::{
+    Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
+    svd_signed_by_determinant,
+};
 use crate::status::Status;
 
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
@@ -48,9 +50,15 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
         let Self { F, count, is_signed, points } = self;
-        for_each_group!(InTurns<R>, count, |at| {
-            points.set(at, &svd_with(&to_matrix(F.get_all::<InTurns<R>>(at)), is_signed));
-        });
+        if is_signed {
+            for_each_group!(InTurns<R>, count, |at| {
+                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<InTurns<R>>(at))));
+            });
+        } else {
+            for_each_group!(InTurns<R>, count, |at| {
+                points.set(at, &svd(&to_matrix(F.get_all::<InTurns<R>>(at))));
+            });
+        }
     }
 }
 

@@ -53,7 +53,9 @@ pub struct Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    svd_with(F, false)
+    let (F, back) = scaled(F);
+    let (U, stretches, V) = jacobi(&F);
+    Svd { U, stretches: three!(k => stretches[k] * back), V }
 }
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
@@ -65,20 +67,12 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    svd_with(F, true)
-}
-
-/// [`svd_signed_by_determinant`] or else [`svd()`], in one piece of code where a batch decides at run time.
-#[inline(always)]
-pub(crate) fn svd_with<R: Real>(F: &Matrix3<R>, is_signed: bool) -> Svd<R> {
     let (F, back) = scaled(F);
-    let (U, [s1, s2, mut s3], V) = jacobi(&F);
-    if is_signed {
-        let area = s1 * s2;
-        s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
-        // λ2 and the quotient are rounded independently, which must not disturb their order.
-        s3 = s3.abs().min(s2).copysign(s3);
-    }
+    let (U, [s1, s2, s3], V) = jacobi(&F);
+    let area = s1 * s2;
+    let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
+    // λ2 and the quotient are rounded independently, which must not disturb their order.
+    let s3 = s3.abs().min(s2).copysign(s3);
     Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
 }
 
