@@ -72,6 +72,7 @@ mod samples;
 mod slopes;
 mod strains;
 mod subject;
+mod tolerances;
 mod violation;
 
 use derivatives::dual_numbers;

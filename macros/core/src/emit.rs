@@ -148,3 +148,9 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
         }
     }
 }
+
+/// Permission for as many arguments as there are parameters, where clippy would complain.
+fn too_many_arguments(count: usize) -> Option<TokenStream> {
+    const MANY: usize = 7;
+    (count > MANY).then(|| quote!(#[allow(clippy::too_many_arguments)]))
+}

@@ -1,8 +1,9 @@
 //! The rule on formats: `f32` against `f64`, at stretches that both know.
 
-use super::results::{known, name};
+use super::results::name;
 use super::samples::{at_samples, together};
 use super::subject::Subject;
+use super::tolerances::known;
 use super::{Finding, Judge, Rule, Settings, Violation};
 use crate::lanes::Real;
 

@@ -1,9 +1,8 @@
-//! All results of a point in a row, with their tolerances, for the rules on formats and lanes.
+//! All results of a point in a row, by itself or on lanes.
 
-use super::subject::Subject;
-use super::{gradient_name, hessian_name, pair_name, stiffness, stress_scale};
-use crate::lanes::Real;
-use crate::material::Response;
+use super::{gradient_name, hessian_name, pair_name};
+use crate::lanes::{Kernel, Lanes, Real};
+use crate::material::{Material, Response};
 
 /// Number of entries in a row.
 pub(super) const COUNT: usize = 19;
@@ -31,31 +30,72 @@ pub(super) fn name(number: usize) -> String {
     }
 }
 
-/// Entries of a row and the tolerance of each in units of u; `None` if the domain ends too near.
-///
-/// A hundred times the sum of two parts. One is the size of the terms that a number is a sum of: the tangent
-/// for second derivatives, what it makes of the stretches for first ones and the energy. The other is how it
-/// answers to relative changes of the stretches, since what is computed of them first, such as J or a bound
-/// that the energy nears, is rounded.
-pub(super) fn known(material: &dyn Subject, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
-    /// Long beside rounding, short beside what an energy changes over.
-    const STEP: f64 = 1.0 / 4096.0;
-    let values = results(material, stretches);
-    let blocks = material.blocks(stretches);
-    let (stress, curvature) = (stress_scale(&blocks, stretches), stiffness(&blocks));
-    let mut sizes = [curvature; COUNT];
-    sizes[0] = stress * stretches[0] + values[0].abs();
-    sizes[1..7].fill(stress);
-    // The first, the first two, all three: whose order stays descending.
-    for moved in 1..=3 {
-        let moved =
-            std::array::from_fn(|k| if k < moved { stretches[k] * (1.0 + STEP) } else { stretches[k] });
-        if !material.admits(moved) {
-            return None;
+/// Length of a row with results by strains and invariants, and whether stretches and invariants are admitted.
+pub(super) const ALL: usize = COUNT + 9;
+
+/// Row of all results. Inlined.
+#[inline(always)]
+pub(super) fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3]) -> [R; ALL] {
+    let results = results(material, stretches);
+    let [s1, s2, s3] = material.gradient_at_strains(strains(stretches));
+    let [a, b, c] = stretches.map(|l| l * l);
+    let invariants = [a + b + c, a * b + a * c + b * c, stretches[0] * stretches[1] * stretches[2]];
+    let [w1, w2, wj] = material.gradient_by_invariants(invariants);
+    let truth = |mask| R::select(mask, R::splat(1.0), R::splat(0.0));
+    let others = [
+        s1,
+        s2,
+        s3,
+        material.energy_by_invariants(invariants),
+        w1,
+        w2,
+        wj,
+        truth(material.admits(stretches)),
+        truth(material.admits_invariants(invariants)),
+    ];
+    std::array::from_fn(|k| if k < COUNT { results[k] } else { others[k - COUNT] })
+}
+
+/// Strains λi − 1 of the stretches or their mirror image, since strains are above −1.
+#[inline(always)]
+fn strains<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
+    [l1, l2, l3.abs()].map(|l| l - R::splat(1.0))
+}
+
+pub(super) fn everything_name(number: usize) -> String {
+    const OTHERS: [&str; ALL - COUNT] = [
+        "derivative of the energy by strain 1",
+        "derivative of the energy by strain 2",
+        "derivative of the energy by strain 3",
+        "energy by invariants",
+        "derivative of the energy by I1",
+        "derivative of the energy by I2",
+        "derivative of the energy by J",
+        "admission (1 or 0)",
+        "admission of the invariants (1 or 0)",
+    ];
+    if number < COUNT { name(number) } else { OTHERS[number - COUNT].into() }
+}
+
+/// Kernel for the rows of points, as many at once as there are lanes; copies of the last fill the rest.
+pub(super) struct SideBySide<'a, M>(pub(super) &'a M, pub(super) &'a [[f64; 3]]);
+
+impl<M: Material> Kernel<f64> for SideBySide<'_, M> {
+    type Output = Vec<[f64; ALL]>;
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = f64>>(self) -> Self::Output {
+        let Self(material, points) = self;
+        let mut all = vec![[0.0; ALL]; points.len()];
+        let mut lanes = vec![0.0; R::LANES];
+        for (points, all) in points.chunks(R::LANES).zip(all.chunks_mut(R::LANES)) {
+            let stretches: [R; 3] =
+                std::array::from_fn(|k| R::from_fn(|lane| points[lane.min(points.len() - 1)][k]));
+            for (k, number) in everything(material, stretches).into_iter().enumerate() {
+                number.store(&mut lanes);
+                all.iter_mut().zip(&lanes).for_each(|(all, number)| all[k] = *number);
+            }
         }
-        for (size, (after, before)) in sizes.iter_mut().zip(results(material, moved).iter().zip(values)) {
-            *size += (after - before).abs() / STEP;
-        }
+        all
     }
-    Some((values, sizes.map(|size| 100.0 * size)))
 }

@@ -3,8 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::dual::Dual;
-use super::lanes::{ALL, SideBySide};
-use super::results::{COUNT, results};
+use super::results::{ALL, COUNT, SideBySide, results};
 use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Moduli, Response};
 use crate::point::{self, Filter, Matrix3, Tangent};

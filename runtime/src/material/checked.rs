@@ -1,4 +1,4 @@
-//! What the constructors of declared materials have in common: checks of parameters, and how they are read.
+//! Common parts of the constructors of declared materials: checks of parameters, and how they are read.
 
 use super::{Declared, Given, Inadmissible, Inversion, Moduli};
 
@@ -59,7 +59,7 @@ pub fn extends(inversion: Inversion) -> Result<bool, Inadmissible> {
     }
 }
 
-/// What [`Material::stated_moduli`](crate::Material::stated_moduli) returns, Pa.
+/// Stated moduli of a material, Pa, from its two expressions.
 #[must_use]
 pub const fn stated_moduli(mu: f64, lambda: f64) -> Option<Moduli> {
     Some(Moduli { mu, lambda })

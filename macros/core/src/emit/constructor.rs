@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
-use super::{condition_text, doc, generics, naming};
+use super::{condition_text, doc, generics, naming, too_many_arguments};
 use crate::model::Model;
 use crate::read::literals::typed;
 use crate::read::parse::{Declaration, Parameter, identifiers, indexed_list};
@@ -173,10 +173,4 @@ fn check(declaration: &Declaration, condition: &Expr, check: &TokenStream) -> To
         Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
         None => test,
     }
-}
-
-/// Permission for as many arguments as there are parameters, where clippy would complain.
-pub(super) fn too_many_arguments(count: usize) -> Option<TokenStream> {
-    const MANY: usize = 7;
-    (count > MANY).then(|| quote!(#[allow(clippy::too_many_arguments)]))
 }

@@ -3,9 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-use super::constructor::too_many_arguments;
-use super::doc;
 use super::writer::free_name;
+use super::{doc, too_many_arguments};
 use crate::algebra::rational::Rational;
 use crate::algebra::young_poisson::{Determined, YoungPoisson};
 use crate::printer::combination;
