@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::material::Inadmissible;
+use piola::material::MaterialError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
@@ -148,7 +148,7 @@ impl Error {
                 format!("; add {}", options.join(" "))
             }
             SceneError::Inadmissible {
-                source: Inadmissible::NoExtension { .. } | Inadmissible::DoesNotRestore { .. },
+                source: MaterialError::NoExtension { .. } | MaterialError::DoesNotRestore { .. },
                 ..
             } => " (`--inversion refuse`)".into(),
             SceneError::OutOfRange { quantity, .. } => match *quantity {

@@ -1,7 +1,7 @@
 //! Fits that an edge of what an energy accepts keeps from their minimum.
 
 use nalgebra_34::{DMatrix, DVector};
-use piola::material::Inadmissible;
+use piola::material::MaterialError;
 use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, PointError, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Ended, Fit, FitSettings, TrialError, Warning, fit_parameters};
@@ -77,7 +77,7 @@ fn edges(fit: &Fit) -> Vec<&TrialError> {
 /// The conditions at whose edge a fit ends.
 fn conditions(fit: &Fit) -> Vec<&str> {
     let condition = |reason: &&TrialError| match reason {
-        TrialError::Inadmissible(Inadmissible::Violated { condition, .. }) => *condition,
+        TrialError::Inadmissible(MaterialError::Violated { condition, .. }) => *condition,
         other => panic!("{other:?}"),
     };
     edges(fit).iter().map(condition).collect()
@@ -178,7 +178,7 @@ fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Out
         assert!(found.agreement.total > 0.8, "{found:?}");
         assert!(found.numbers.iter().all(|number| number.error.is_none()), "{found:?}");
         let unstable = |reason: &&TrialError| match reason {
-            TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }) => moduli.bulk() < 0.0,
+            TrialError::Inadmissible(MaterialError::UnstableRest { moduli }) => moduli.bulk() < 0.0,
             _ => false,
         };
         assert!(edges(&found).len() == 1 && edges(&found).iter().all(unstable), "{found:?}");

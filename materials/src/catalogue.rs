@@ -2,7 +2,7 @@
 
 use piola::Inversion;
 use piola::batch::TileMaterial;
-use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
+use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
 
 use crate::{CATALOGUE, Kind};
 
@@ -76,14 +76,14 @@ macro_rules! catalogue {
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// [`Inadmissible`](piola::material::Inadmissible) if the constructor of the material refuses, or
-            /// a list is longer than the catalogue provides for.
+            /// [`MaterialError`](piola::material::MaterialError) if the constructor of the material refuses,
+            /// or a list is longer than the catalogue provides for.
             pub fn visit<V: Visitor>(
                 &self,
                 values: &[&[f64]],
                 inversion: ::piola::Inversion,
                 visitor: V,
-            ) -> Result<V::Output, ::piola::material::Inadmissible> {
+            ) -> Result<V::Output, ::piola::material::MaterialError> {
                 let _ = (values, inversion, &visitor);
                 match self.kind {$(
                     #[cfg(feature = $feature)]
@@ -99,14 +99,14 @@ macro_rules! catalogue {
             /// `values` has one slice for each parameter of the description, in its order.
             ///
             /// # Errors
-            /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`];
-            /// [`NotFittable`](piola::material::Inadmissible::NotFittable) if a parameter is a function.
+            /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`];
+            /// [`NotFittable`](piola::material::MaterialError::NotFittable) if a parameter is a function.
             pub fn visit_fittable<V: FittableVisitor>(
                 &self,
                 values: &[&[f64]],
                 inversion: ::piola::Inversion,
                 visitor: V,
-            ) -> Result<V::Output, ::piola::material::Inadmissible> {
+            ) -> Result<V::Output, ::piola::material::MaterialError> {
                 let _ = (values, inversion, &visitor);
                 match self.kind {$(
                     #[cfg(feature = $feature)]
@@ -120,7 +120,7 @@ macro_rules! catalogue {
     (@description $Material:ident) => { <$Material as ::piola::material::Declared>::DESCRIPTION };
     (@description $Material:ident $first:literal $($length:literal)*) => { <$Material<$first> as ::piola::material::Declared>::DESCRIPTION };
     (@visit_fittable [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
-        Err(::piola::material::Inadmissible::NotFittable { material: <$Material as ::piola::material::Declared>::DESCRIPTION.name })
+        Err(::piola::material::MaterialError::NotFittable { material: <$Material as ::piola::material::Declared>::DESCRIPTION.name })
     };
     (@visit_fittable [] $($rest:tt)+) => { catalogue!(@visit $($rest)+) };
     (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
@@ -129,7 +129,7 @@ macro_rules! catalogue {
     (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident $($length:literal)+) => {
         match $values.first().map_or(0, |list| list.len()) {
             $($length => <$Material<$length> as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit(material)),)+
-            length => Err(::piola::material::Inadmissible::Shape {
+            length => Err(::piola::material::MaterialError::Shape {
                 expected: format!(
                     "the lists of {} have {} entries by name, not {length}; other lengths need its type in Rust",
                     stringify!($Material),
@@ -170,12 +170,12 @@ impl Entry {
     /// The material for the elements of a body: dispatched once for each block of them.
     ///
     /// # Errors
-    /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`].
+    /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
     pub fn elements(
         &self,
         values: &[&[f64]],
         inversion: Inversion,
-    ) -> Result<Box<dyn TileMaterial<f64>>, Inadmissible> {
+    ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
         struct Boxed;
         impl Visitor for Boxed {
             type Output = Box<dyn TileMaterial<f64>>;
@@ -189,8 +189,8 @@ impl Entry {
     /// Small-strain moduli, Pa.
     ///
     /// # Errors
-    /// [`Inadmissible`](piola::material::Inadmissible), see [`Entry::visit`].
-    pub fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, Inadmissible> {
+    /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
+    pub fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, MaterialError> {
         struct Small;
         impl Visitor for Small {
             type Output = Moduli;

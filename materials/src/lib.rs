@@ -9,7 +9,7 @@
 //! use piola::{Inversion, Material};
 //! use piola_materials::NeoHookean;
 //!
-//! # fn main() -> Result<(), piola::material::Inadmissible> {
+//! # fn main() -> Result<(), piola::material::MaterialError> {
 //! let rubber = NeoHookean::new(1e6, 5e6)?.with_inversion(Inversion::Extend { epsilon: 0.1 })?;
 //! assert_eq!(rubber.energy([1.0, 1.0, 1.0]), 0.0);
 //! assert!(rubber.energy([1.1, 1.0, -0.2]) > 0.0); // inverted, and defined

@@ -1,7 +1,7 @@
 //! Parameters for given small-strain moduli.
 
 use piola::Inversion;
-use piola::material::{Inadmissible, Moduli};
+use piola::material::{MaterialError, Moduli};
 
 use crate::Entry;
 
@@ -32,8 +32,8 @@ impl Entry {
     /// ```
     ///
     /// # Errors
-    /// [`Inadmissible`] if the material refuses the parameters, as for moduli that are not positive.
-    pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, Inadmissible> {
+    /// [`MaterialError`] if the material refuses the parameters, as for moduli that are not positive.
+    pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, MaterialError> {
         let typical: Vec<Vec<f64>> = self.typical().iter().map(|values| values.to_vec()).collect();
         let values = self.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);
         let factor = wanted.young() / self.moduli_of(&values)?.young();
@@ -66,7 +66,7 @@ impl Entry {
         })
     }
 
-    fn moduli_of(&self, values: &[Vec<f64>]) -> Result<Moduli, Inadmissible> {
+    fn moduli_of(&self, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         self.moduli(&values, Inversion::Refuse)
     }

@@ -4,7 +4,7 @@
 
 use piola::Inversion;
 use piola::batch::Batch;
-use piola::material::{Inadmissible, Moduli};
+use piola::material::{MaterialError, Moduli};
 use piola_materials::{CATALOGUE, Entry, find};
 
 /// Roundings of a dozen operations in the moduli, magnified where λ is a difference.
@@ -13,7 +13,7 @@ const TOLERANCE: f64 = 1e-12;
 /// Within the domains of all: gently sheared.
 const F: [f64; 9] = [1.1, 0.2, 0.0, -0.1, 0.95, 0.1, 0.05, 0.0, 1.05];
 
-fn moduli(entry: &Entry, values: &[Vec<f64>]) -> Result<Moduli, Inadmissible> {
+fn moduli(entry: &Entry, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
     entry.moduli(&values.iter().map(Vec::as_slice).collect::<Vec<_>>(), Inversion::Refuse)
 }
 

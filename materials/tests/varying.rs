@@ -1,7 +1,7 @@
 //! Each point with parameters of its own gets what it would get alone.
 
 use piola::lanes::{Lanes, Lanes2};
-use piola::material::{Blocks, Graded, Inadmissible};
+use piola::material::{Blocks, Graded, MaterialError};
 use piola::{Inversion, Material};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
 
@@ -53,10 +53,10 @@ fn check<M: Graded>(materials: [M; 4]) {
 }
 
 #[test]
-fn each_point_gets_what_it_would_get_alone() -> Result<(), Inadmissible> {
+fn each_point_gets_what_it_would_get_alone() -> Result<(), MaterialError> {
     let extend = Inversion::Extend { epsilon: 0.25 };
-    let four = |build: fn(f64) -> Result<NeoHookean, Inadmissible>| {
-        Ok::<_, Inadmissible>([build(1.0)?, build(2.5)?, build(0.3)?, build(40.0)?])
+    let four = |build: fn(f64) -> Result<NeoHookean, MaterialError>| {
+        Ok::<_, MaterialError>([build(1.0)?, build(2.5)?, build(0.3)?, build(40.0)?])
     };
     let rubbers = four(|mu| NeoHookean::new(mu, 3.0 + mu))?;
     check(rubbers);
@@ -84,11 +84,11 @@ fn each_point_gets_what_it_would_get_alone() -> Result<(), Inadmissible> {
 }
 
 #[test]
-fn a_parameter_can_be_replaced_and_is_checked() -> Result<(), Inadmissible> {
+fn a_parameter_can_be_replaced_and_is_checked() -> Result<(), MaterialError> {
     let extend = Inversion::Extend { epsilon: 0.25 };
     let rubber = NeoHookean::new(1.0, 3.0)?.with_inversion(extend)?;
     assert_eq!(rubber.with_lambda(5.0)?, NeoHookean::new(1.0, 5.0)?.with_inversion(extend)?);
-    assert!(matches!(rubber.with_mu(-1.0), Err(Inadmissible::Violated { .. })));
-    assert!(matches!(rubber.with_lambda(f64::NAN), Err(Inadmissible::NotFinite { .. })));
+    assert!(matches!(rubber.with_mu(-1.0), Err(MaterialError::Violated { .. })));
+    assert!(matches!(rubber.with_lambda(f64::NAN), Err(MaterialError::NotFinite { .. })));
     Ok(())
 }

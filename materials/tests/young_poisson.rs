@@ -1,7 +1,7 @@
 //! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked.
 
 use piola::material;
-use piola::material::{Declared, Inadmissible, Moduli};
+use piola::material::{Declared, MaterialError, Moduli};
 use piola_materials::{
     CiarletNeoHookean, ExponentiatedHencky, FixedCorotated, Hencky, IsochoricNeoHookean, Knowles, NeoHookean,
     RotatedLinear, StVenantKirchhoff, StableNeoHookean, ValanisLandel, Varga, Yeoh,
@@ -16,14 +16,14 @@ const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
 /// parameters no more than 3 (λ + μ) in size, so that both moduli err by 20 u (λ + μ). E changes by at most
 /// three times as much as μ and λ (1 − 2ν)², so both err by 100 u of E and of one.
 #[track_caller]
-fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, Inadmissible>) -> Result<(), Inadmissible> {
+fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, MaterialError>) -> Result<(), MaterialError> {
     let name = M::DESCRIPTION.name;
     let tolerance = 100.0 * f64::EPSILON;
     for young in [1.0, 3.7e5, 2.1e11] {
         for poisson in RATIOS {
             let Moduli { mu, lambda } = match build(young, poisson) {
                 // Some ask more of their parameters.
-                Err(Inadmissible::Violated { .. }) if poisson == 0.0 => continue,
+                Err(MaterialError::Violated { .. }) if poisson == 0.0 => continue,
                 material => material?.moduli(),
             };
             let moduli = Moduli { mu, lambda };
@@ -43,13 +43,13 @@ fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, Inadmissible>) -> Re
         [(0.0, 0.3), (-1.0, 0.3), (1.0, 0.5), (1.0, -1.0), (f64::NAN, 0.3), (1.0, f64::NAN)]
     {
         let refused = build(young, poisson).err();
-        assert!(matches!(refused, Some(Inadmissible::YoungPoisson { .. })), "{name}: {refused:?}");
+        assert!(matches!(refused, Some(MaterialError::YoungPoisson { .. })), "{name}: {refused:?}");
     }
     Ok(())
 }
 
 #[test]
-fn materials_are_as_stiff_as_asked() -> Result<(), Inadmissible> {
+fn materials_are_as_stiff_as_asked() -> Result<(), MaterialError> {
     check(CiarletNeoHookean::from_young_poisson)?;
     check(|young, poisson| ExponentiatedHencky::from_young_poisson(young, poisson, 0.25, 0.125))?;
     check(FixedCorotated::from_young_poisson)?;
@@ -83,7 +83,7 @@ pub fn Own(
 }
 
 #[test]
-fn differences_and_constants_are_solved() -> Result<(), Inadmissible> {
+fn differences_and_constants_are_solved() -> Result<(), MaterialError> {
     check(|young, poisson| Own::from_young_poisson(young, poisson, 0.1))?;
     // E = 2.5, ν = 0.25: μ = λ = 1.
     let own = Own::from_young_poisson(2.5, 0.25, 0.1)?;

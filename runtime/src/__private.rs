@@ -3,7 +3,7 @@
 pub use crate::lanes::Mask;
 pub use crate::material::checked::*;
 pub use crate::material::{
-    Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inadmissible, Inversion, Limit,
+    Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inversion, Limit, MaterialError,
     Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
 };
 pub use crate::quotient::*;

@@ -21,16 +21,16 @@ use crate::lanes::{Mask, Real};
 pub(crate) mod checked;
 mod combine;
 mod description;
+mod error;
 mod fittable;
-mod inadmissible;
 mod normalised;
 mod parameter;
 mod response;
 
 pub use combine::{Scaled, Sum};
 pub use description::{Description, Form, Parameter, Typical, Unit};
+pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
-pub use inadmissible::{Given, Inadmissible};
 pub use normalised::{Normalised, VolumetricPenalty};
 pub use parameter::{Graded, ParameterValue, PerLane, PerPoint, PerPointError};
 pub use response::Response;
@@ -198,7 +198,7 @@ impl Moduli {
     /// ```
     /// use piola::material::Moduli;
     ///
-    /// # fn main() -> Result<(), piola::material::Inadmissible> {
+    /// # fn main() -> Result<(), piola::material::MaterialError> {
     /// let steel = Moduli::from_young_poisson(2.1e11, 0.3)?;
     /// assert!((steel.mu - 2.1e11 / 2.6).abs() < 1e-3);
     /// assert!(Moduli::from_young_poisson(1e6, 0.5).is_err());
@@ -207,11 +207,11 @@ impl Moduli {
     /// ```
     ///
     /// # Errors
-    /// [`Inadmissible::YoungPoisson`] unless E > 0 and −1 < ν < 1/2, both finite.
-    pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, Inadmissible> {
+    /// [`MaterialError::YoungPoisson`] unless E > 0 and −1 < ν < 1/2, both finite.
+    pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, MaterialError> {
         let is_elastic = young > 0.0 && young.is_finite() && poisson > -1.0 && poisson < 0.5;
         if !is_elastic {
-            return Err(Inadmissible::YoungPoisson { young, poisson });
+            return Err(MaterialError::YoungPoisson { young, poisson });
         }
         Ok(Self {
             mu: young / (2.0 * (1.0 + poisson)),
@@ -246,8 +246,8 @@ pub trait Declared: Material + Sized {
     /// The material with these values, one slice for each entry of [`Description::parameters`].
     ///
     /// # Errors
-    /// [`Inadmissible::Shape`] if the lengths do not fit; the others as the constructor of the type.
-    fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, Inadmissible>;
+    /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type.
+    fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, MaterialError>;
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
     fn moduli(&self) -> Moduli {
@@ -258,9 +258,9 @@ pub trait Declared: Material + Sized {
     /// (J − 1)²; see [`Normalised`].
     ///
     /// # Errors
-    /// Those of [`Normalised::with_young_poisson`]: [`Inadmissible::YoungPoisson`],
-    /// [`Inadmissible::UnstableRest`], [`Inadmissible::BelowOwnPoisson`].
-    fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, Inadmissible> {
+    /// Those of [`Normalised::with_young_poisson`]: [`MaterialError::YoungPoisson`],
+    /// [`MaterialError::UnstableRest`], [`MaterialError::BelowOwnPoisson`].
+    fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, MaterialError> {
         Normalised::with_young_poisson(self, young, poisson)
     }
 }

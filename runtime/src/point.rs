@@ -45,7 +45,7 @@ pub use project::{Filter, project};
 pub use small_strain::{evaluate_from_displacement, evaluate_stress_from_displacement};
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
-pub use tangent::{Assemble, Tangent, contract};
+pub use tangent::{Assemble, Tangent, assemble_blocks};
 
 /// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix3<R> = [[R; 3]; 3];
@@ -219,7 +219,7 @@ pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
 /// finite one.
 ///
 /// With m the largest of the numbers, an eigenvalue of the Hessian block is at most 3m, which so bounds what
-/// a filter leaves; and the partial sums of [`contract`] between rotations stay below four times that.
+/// a filter leaves; and the partial sums of [`assemble_blocks`] between rotations stay below four times that.
 #[inline(always)]
 fn tangent_stays_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
     (none_large(blocks.hessian) + none_large(blocks.flip) + none_large(blocks.twist)).is_finite()

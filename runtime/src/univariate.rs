@@ -10,7 +10,7 @@
 use std::fmt::Debug;
 
 use crate::lanes::{Mask, Real};
-use crate::material::{Form, Inadmissible};
+use crate::material::{Form, MaterialError};
 
 mod spline;
 
@@ -98,11 +98,11 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// Builds the function from a list of numbers, for a material that is chosen by name at run time.
     ///
     /// # Errors
-    /// [`Inadmissible::Shape`] if the list describes no function of this type; by default always.
-    fn from_values(values: &[f64]) -> Result<Self, Inadmissible> {
+    /// [`MaterialError::Shape`] if the list describes no function of this type; by default always.
+    fn from_values(values: &[f64]) -> Result<Self, MaterialError> {
         let _ = values;
         let type_name = std::any::type_name::<Self>();
-        Err(Inadmissible::Shape {
+        Err(MaterialError::Shape {
             expected: format!("a {type_name} cannot be given by numbers, only in Rust"),
         })
     }

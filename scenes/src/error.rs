@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::material::Inadmissible;
+use piola::material::MaterialError;
 use piola::mesh::ReadError;
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
@@ -62,7 +62,7 @@ pub enum Error {
         /// Name of the material.
         material: &'static str,
         /// Reason.
-        source: Inadmissible,
+        source: MaterialError,
     },
     /// A value of the settings is out of range.
     #[error("{quantity} is {value}; it must be {requirement}")]

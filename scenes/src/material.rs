@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use piola::Inversion;
 use piola::batch;
-use piola::material::{Declared, Description, Fittable, Inadmissible, Moduli};
+use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 use piola_materials::{CATALOGUE, Entry, FittableVisitor, Visitor};
@@ -177,7 +177,7 @@ impl MaterialSpec {
     /// something of them.
     fn resolve<T>(
         &self,
-        make: impl FnOnce(&'static Entry, &[&[f64]], Inversion) -> Result<T, Inadmissible>,
+        make: impl FnOnce(&'static Entry, &[&[f64]], Inversion) -> Result<T, MaterialError>,
     ) -> Result<T, Error> {
         let entry = find(&self.material)?;
         let refused = |source| Error::Inadmissible { material: entry.name, source };

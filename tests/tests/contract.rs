@@ -2,7 +2,7 @@
 
 use piola::Inversion;
 use piola::contract::{Settings, Violations, check};
-use piola::material::{Declared, Inadmissible};
+use piola::material::{Declared, MaterialError};
 use piola_materials::{CATALOGUE, Entry, Visitor, find};
 
 const EPSILON: f64 = 0.3;
@@ -63,7 +63,7 @@ fn all() -> impl Iterator<Item = (&'static Entry, &'static [&'static [f64]])> {
 }
 
 fn restores(entry: &Entry, values: &[&[f64]]) -> bool {
-    !matches!(entry.moduli(values, EXTEND), Err(Inadmissible::DoesNotRestore { .. }))
+    !matches!(entry.moduli(values, EXTEND), Err(MaterialError::DoesNotRestore { .. }))
 }
 
 #[test]

@@ -4,23 +4,23 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use piola::batch::Batch;
-use piola::material::{Declared, Inadmissible, Moduli, Normalised, PerPoint};
+use piola::material::{Declared, MaterialError, Moduli, Normalised, PerPoint};
 use piola::{Inversion, Material};
 use piola_materials::{Arap, Gent, MooneyRivlin, find};
 
 const YOUNG: f64 = 1e6;
 const POISSON: f64 = 0.45;
 
-fn arap() -> Result<Normalised<Arap>, Inadmissible> {
+fn arap() -> Result<Normalised<Arap>, MaterialError> {
     Arap::new(1.0)?.normalised_to(YOUNG, POISSON)
 }
 
-fn gent() -> Result<Normalised<Gent>, Inadmissible> {
+fn gent() -> Result<Normalised<Gent>, MaterialError> {
     let extended = Gent::new(3.3e5, 108.0, 1e5)?.with_inversion(Inversion::Extend { epsilon: 0.2 })?;
     extended.normalised_to(YOUNG, POISSON)
 }
 
-fn mooney_rivlin() -> Result<Normalised<MooneyRivlin>, Inadmissible> {
+fn mooney_rivlin() -> Result<Normalised<MooneyRivlin>, MaterialError> {
     MooneyRivlin::new(1.8e5, 3.4e3, 1e5)?.normalised_to(YOUNG, POISSON)
 }
 
@@ -50,7 +50,7 @@ fn check_tensile_test(material: &impl Material) {
 }
 
 #[test]
-fn a_tensile_test_finds_what_was_stated() -> Result<(), Inadmissible> {
+fn a_tensile_test_finds_what_was_stated() -> Result<(), MaterialError> {
     check_tensile_test(&arap()?);
     check_tensile_test(&gent()?);
     check_tensile_test(&mooney_rivlin()?);
@@ -79,7 +79,7 @@ fn a_batch_may_have_a_normalised_material_for_each_point() -> Result<(), Box<dyn
 fn softer_in_volume_than_the_energy_itself_is_refused() {
     let stiff = MooneyRivlin::new(1.8e5, 3.4e3, 2e7).expect("admissible");
     let error = stiff.normalised_to(1e6, 0.3).expect_err("its own ratio is 0.49");
-    assert!(matches!(error, Inadmissible::BelowOwnPoisson { poisson: 0.3, lowest } if lowest > 0.49));
+    assert!(matches!(error, MaterialError::BelowOwnPoisson { poisson: 0.3, lowest } if lowest > 0.49));
     assert!(error.to_string().contains("Entry::matching"), "{error}");
     // What the message says.
     let entry = find("mooney_rivlin").expect("in the catalogue");

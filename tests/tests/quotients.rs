@@ -16,7 +16,7 @@ use std::sync::{Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Trial};
 use piola::__private::pole_floor;
-use piola::material::{Inadmissible, PAIRS};
+use piola::material::{MaterialError, PAIRS};
 use piola::{Inversion, Material, Real};
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::declared::Declared;
@@ -79,7 +79,7 @@ fn trials() -> Vec<Trial> {
 
 /// Typical parameters can be extended wherever the entry can; of other ones, some may not.
 fn can_be_extended(entry: &Entry, values: &[&[f64]]) -> bool {
-    let restores = || !matches!(entry.moduli(values, EXTEND), Err(Inadmissible::DoesNotRestore { .. }));
+    let restores = || !matches!(entry.moduli(values, EXTEND), Err(MaterialError::DoesNotRestore { .. }));
     entry.description.extends && (values == entry.typical() || restores())
 }
 

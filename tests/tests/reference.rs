@@ -211,10 +211,10 @@ enum Verdict {
 fn in_single_precision(
     name: &str,
     values: &[&[f64]],
-) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::Inadmissible> {
+) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::MaterialError> {
     fn boxed<M: Declared + 'static>(
         values: &[&[f64]],
-    ) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::Inadmissible> {
+    ) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::MaterialError> {
         Ok(Some(Box::new(M::from_values(values, Inversion::Refuse)?)))
     }
     match name {

@@ -1,7 +1,7 @@
 //! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives,
 //! quotients, schedule and emission at once, in `f64` and `f32`.
 
-use piola::material::{Blocks, Declared, Inadmissible};
+use piola::material::{Blocks, Declared, MaterialError};
 use piola::{Inversion, Material, Real};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::interpret::{Estimate, Point, evaluate};
@@ -59,7 +59,7 @@ fn compiled_materials_compute_what_they_declare() {
                 match entry.visit(&values, inversion, judge) {
                     Ok(()) => judged += 1,
                     // Random parameters need not make a stable or restoring solid.
-                    Err(Inadmissible::UnstableRest { .. } | Inadmissible::DoesNotRestore { .. }) => {}
+                    Err(MaterialError::UnstableRest { .. } | MaterialError::DoesNotRestore { .. }) => {}
                     Err(error) => panic!("{}: {error}", entry.name),
                 }
             }

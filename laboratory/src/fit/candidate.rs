@@ -2,7 +2,7 @@
 //! numbers.
 
 use piola::Inversion;
-use piola::material::{Constraint, Description, Fittable, Inadmissible};
+use piola::material::{Constraint, Description, Fittable, MaterialError};
 
 use crate::specimen::Specimen;
 
@@ -17,8 +17,8 @@ pub trait Candidate: Specimen {
     /// The energy with these parameters and without extension.
     ///
     /// # Errors
-    /// [`Inadmissible`] if the constructor refuses.
-    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Inadmissible>;
+    /// [`MaterialError`] if the constructor refuses.
+    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, MaterialError>;
 
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, at stretches λ1 ≥ λ2 ≥ λ3 > 0.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
@@ -39,7 +39,7 @@ impl<M: Fittable + 'static> Candidate for M {
         Fittable::values(self)
     }
 
-    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Inadmissible> {
+    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, MaterialError> {
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         Ok(Box::new(M::from_values(&values, Inversion::Refuse)?))
     }

@@ -2,7 +2,7 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_34::{DMatrix, DVector, Dyn, Owned};
-use piola::material::{Constraint, Inadmissible, Limit, Moduli};
+use piola::material::{Constraint, Limit, MaterialError, Moduli};
 
 use super::candidate::{Candidate, Numbers};
 use super::trial::TrialError;
@@ -44,13 +44,13 @@ impl Bound {
     /// Whether this may be the constraint that does not hold. Of the entries of a list, only a place tells.
     pub(super) fn refuses(&self, error: &TrialError) -> bool {
         match (error, self.limit) {
-            (TrialError::Inadmissible(Inadmissible::Violated { condition, .. }), Limit::Admissible(own)) => {
+            (TrialError::Inadmissible(MaterialError::Violated { condition, .. }), Limit::Admissible(own)) => {
                 *condition == own
             }
-            (TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }), Limit::ShearModulus) => {
+            (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::ShearModulus) => {
                 moduli.mu <= 0.0
             }
-            (TrialError::Inadmissible(Inadmissible::UnstableRest { moduli }), Limit::BulkModulus) => {
+            (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::BulkModulus) => {
                 moduli.mu > 0.0
             }
             (TrialError::Point(error), Limit::Domain(_)) => self.point == Some(error.point),

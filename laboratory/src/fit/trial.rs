@@ -1,6 +1,6 @@
 //! Why an energy with trial parameters has no stresses to compare with the data.
 
-use piola::material::{Given, Inadmissible};
+use piola::material::{Argument, MaterialError};
 
 use crate::data::PointError;
 
@@ -12,7 +12,7 @@ pub enum TrialError {
     Inadmissible(
         /// Its reason.
         #[from]
-        Inadmissible,
+        MaterialError,
     ),
     /// A measured point has no stress.
     Point(
@@ -26,8 +26,9 @@ impl TrialError {
     /// The entries of lists that a constructor speaks of, each with its name among the numbers, which count
     /// from 1: `beta[0]` and `beta_1`.
     pub(super) fn entries(&self) -> Vec<(String, String)> {
-        let Self::Inadmissible(Inadmissible::Violated { given, .. }) = self else { return Vec::new() };
-        let names = |given: &Given| Some((given.name(), format!("{}_{}", given.parameter, given.index? + 1)));
+        let Self::Inadmissible(MaterialError::Violated { given, .. }) = self else { return Vec::new() };
+        let names =
+            |given: &Argument| Some((given.name(), format!("{}_{}", given.parameter, given.index? + 1)));
         given.iter().filter_map(names).collect()
     }
 }
@@ -38,9 +39,12 @@ mod tests {
 
     #[test]
     fn entries_of_lists_go_by_the_names_of_numbers() {
-        let given =
-            vec![Given::entry("mu", 0, -1.0), Given::scalar("kappa", 2.0), Given::entry("alpha", 11, 0.5)];
-        let violated = TrialError::Inadmissible(Inadmissible::Violated { condition: "", given });
+        let given = vec![
+            Argument::entry("mu", 0, -1.0),
+            Argument::scalar("kappa", 2.0),
+            Argument::entry("alpha", 11, 0.5),
+        ];
+        let violated = TrialError::Inadmissible(MaterialError::Violated { condition: "", given });
         let names = [("mu[0]", "mu_1"), ("alpha[11]", "alpha_12")];
         assert_eq!(violated.entries(), names.map(|(entry, number)| (entry.to_owned(), number.to_owned())));
     }

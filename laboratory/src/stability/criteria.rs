@@ -116,7 +116,7 @@ fn largest<const N: usize>(numbers: [f64; N]) -> f64 {
 
 /// The least aij.
 fn baker_ericksen(blocks: &Blocks<f64>) -> f64 {
-    (0..PAIRS.len()).map(|pair| blocks.straight_and_crossed(pair).0).fold(f64::INFINITY, f64::min)
+    (0..PAIRS.len()).map(|pair| blocks.pair_block(pair).0).fold(f64::INFINITY, f64::min)
 }
 
 /// Half the least eigenvalue of dτ/d ln U.
@@ -128,7 +128,7 @@ fn hill(blocks: &Blocks<f64>, stretches: [f64; 3]) -> f64 {
     let tangent = diagonal * hessian * diagonal + Matrix3::from_diagonal(&stresses.into());
     let shears = PAIRS.into_iter().enumerate().map(|(pair, (i, j))| {
         let mean = logarithmic_mean(stretches[i], stretches[j]);
-        blocks.straight_and_crossed(pair).0 * (stretches[i] + stretches[j]) * mean
+        blocks.pair_block(pair).0 * (stretches[i] + stretches[j]) * mean
     });
     0.5 * shears.fold(tangent.symmetric_eigenvalues().min(), f64::min)
 }

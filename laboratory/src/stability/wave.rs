@@ -104,7 +104,7 @@ pub fn slowest(blocks: &Blocks<f64>) -> Wave {
 fn axial(blocks: &Blocks<f64>, pair: usize) -> Wave {
     let (i, j) = PAIRS[pair];
     let axis = |k: usize| std::array::from_fn(|l| f64::from(u8::from(k == l)));
-    Wave { polarisation: axis(i), normal: axis(j), modulus: blocks.straight_and_crossed(pair).0 }
+    Wave { polarisation: axis(i), normal: axis(j), modulus: blocks.pair_block(pair).0 }
 }
 
 /// M of eq. 1.
@@ -114,7 +114,7 @@ fn reflected(blocks: &Blocks<f64>, signs: [f64; 3]) -> [[f64; 3]; 3] {
         M[i][i] = blocks.hessian[i];
     }
     for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
-        let (a, b) = blocks.straight_and_crossed(pair);
+        let (a, b) = blocks.pair_block(pair);
         M[i][j] = a + signs[i] * signs[j] * (blocks.hessian[3 + pair] + b);
         M[j][i] = M[i][j];
     }

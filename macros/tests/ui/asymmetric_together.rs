@@ -5,7 +5,7 @@ pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
     mu * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2)) + mu * (l3 - 1.0)
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid = Solid::new(1e6)?;
     assert!(solid.mu() < solid.energy([1.0; 3]));
     Ok(())

@@ -5,7 +5,7 @@ pub fn Solid([l1, l2, l3]: [f64; 3], f: Spline) -> f64 {
     f(l1) + f(l2) + f(l3)
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let spline = Spline::through(&[[0.5, -1.0], [1.0, 0.0], [2.0, 1.0]])?;
     let solid = Solid::new(spline)?;
     assert!(0.0 < solid.energy([1.0; 3]));

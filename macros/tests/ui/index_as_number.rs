@@ -6,7 +6,7 @@ pub fn Solid([l1, l2, l3]: [f64; 3], a: [f64; 2], kappa: f64) -> f64 {
     shape + kappa / 2 * (J - 1).powi(2)
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid = Solid::new([1e6, 1e5], 1e7)?;
     assert!(solid.kappa() < solid.energy([1.0; 3]));
     Ok(())

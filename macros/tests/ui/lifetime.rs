@@ -5,7 +5,7 @@ pub fn Solid<'a>([l1, l2, l3]: [f64; 3], mu: &'a [f64]) -> f64 {
     sum(|p| mu[p]) * (I1 - 3.0 - 2.0 * J.ln())
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid = Solid::new(&[1e6, 2e6])?;
     assert!(0.0 < solid.energy([1.0; 3]));
     Ok(())

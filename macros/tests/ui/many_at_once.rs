@@ -22,7 +22,7 @@ fn stiffness<M: Declared + Varying + Copy + std::fmt::Debug>(material: M) -> f64
     material.moduli().mu + material.blocks([f64::splat(1.0); 3]).hessian[0]
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid: Solid<2> = Solid::new([1e6, 2e6], 1e7, vec![2.0, 4.0])?;
     let solid = solid.with_inversion(Inversion::Extend { epsilon: 0.1 })?;
     assert!(solid.energy([1.0; 3]) < stiffness(solid) + solid.mu()[0] + solid.kapa());

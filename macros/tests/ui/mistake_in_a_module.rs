@@ -9,7 +9,7 @@ mod solids {
     }
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid = solids::Solid::new(1e6)?;
     assert!(solid.mu() < solid.energy([1.0; 3]));
     Ok(())

@@ -16,7 +16,7 @@ pub fn Pulled([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
     mu * ((l1 - 1).powi(2) + (l2 - 1).powi(2) + (l3 - 1).powi(2)) - kappa * J.ln()
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let solid = Solid::new(1e6, 1.0, 1.5, 1e7)?;
     let free = Free::new(1e6, 1.0, 1e7)?;
     let pulled = Pulled::new(1e6, 1e7)?;

@@ -10,7 +10,7 @@ pub fn Hard([a, b, c]: [f64; 3], mu: f64) -> f64 {
     mu / 2.0 * (a * a + b * b - 2.0) - mu * J.ln()
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     assert!(Soft::new(1e3)?.energy([1.0; 3]) < Hard::new(1e9)?.energy([1.0; 3]));
     Ok(())
 }

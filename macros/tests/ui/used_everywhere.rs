@@ -1,4 +1,4 @@
-use piola::material::{Declared, Fittable, Inadmissible, Moduli};
+use piola::material::{Declared, Fittable, MaterialError, Moduli};
 use piola::{Inversion, Material, material};
 
 /// Misspelt once, and used in every way.
@@ -24,7 +24,7 @@ fn derivatives(material: &(impl Fittable + Material)) -> usize {
     material.values().len() + material.gradient_by_parameters([1.0; 3]).len()
 }
 
-fn main() -> Result<(), Inadmissible> {
+fn main() -> Result<(), MaterialError> {
     let solid = Solid::from_young_poisson(1e6, 0.3, 1.0, 3.0)?;
     let inversion = Inversion::Extend { epsilon: 0.1 };
     let body = Body { solid: Solid::new(1e5, 1e7, 2.0, 3.0)?.with_inversion(inversion)? };

@@ -20,12 +20,12 @@ mod solids {
         }
     }
 
-    pub fn shear_moduli() -> Result<[f64; 2], piola::material::Inadmissible> {
+    pub fn shear_moduli() -> Result<[f64; 2], piola::material::MaterialError> {
         Ok([Private::new(1e6)?.mu(), inner::Inner::new(1e6)?.mu()])
     }
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let shared = solids::inner::Shared::new(1e6)?;
     assert_eq!(solids::shear_moduli()?, [shared.mu(); 2]);
     solids::Private::new(1e6)?;

@@ -10,12 +10,12 @@ mod solids {
 
     pub type Alias = Private;
 
-    pub fn private() -> Result<Private, piola::material::Inadmissible> {
+    pub fn private() -> Result<Private, piola::material::MaterialError> {
         Private::new(1e6, 1e7)
     }
 }
 
-fn main() -> Result<(), piola::material::Inadmissible> {
+fn main() -> Result<(), piola::material::MaterialError> {
     let _ = solids::Alias::new(1e6, 1e7)?;
     let _ = solids::Alias::from_young_poisson(1e6, 0.3)?;
     let _ = solids::private()?.with_inversion(piola::Inversion::Refuse)?;

@@ -3,7 +3,7 @@
 mod own;
 
 use piola::Inversion;
-use piola::material::{Declared, Fittable, Inadmissible, Moduli, Parameter, Unit};
+use piola::material::{Declared, Fittable, MaterialError, Moduli, Parameter, Unit};
 use piola_materials::{CATALOGUE, Entry, FittableVisitor, find};
 
 /// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
@@ -32,13 +32,13 @@ fn visit<V: FittableVisitor>(
     entry: &Entry,
     values: &[Vec<f64>],
     visitor: V,
-) -> Result<V::Output, Inadmissible> {
+) -> Result<V::Output, MaterialError> {
     let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
     entry.visit_fittable(&values, Inversion::Refuse, visitor)
 }
 
 /// ψ1, ψ2, ψ3 with other parameters.
-fn gradient<M: Declared>(values: &[Vec<f64>], stretches: [f64; 3]) -> Result<[f64; 3], Inadmissible> {
+fn gradient<M: Declared>(values: &[Vec<f64>], stretches: [f64; 3]) -> Result<[f64; 3], MaterialError> {
     let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
     Ok(M::from_values(&values, Inversion::Refuse)?.gradient(stretches))
 }
@@ -54,7 +54,7 @@ fn difference<M: Declared>(
     values: &[Vec<f64>],
     (list, place): (usize, usize),
     stretches: [f64; 3],
-) -> Result<[f64; 3], Inadmissible> {
+) -> Result<[f64; 3], MaterialError> {
     let mut slope = [0.0; 3];
     for (k, coefficient) in (1..).zip(STENCIL) {
         for side in [1.0, -1.0] {
@@ -84,7 +84,7 @@ fn scale(material: &impl Fittable, derivatives: &[[f64; 3]]) -> f64 {
 struct Slopes<'a>(&'a str);
 
 impl FittableVisitor for Slopes<'_> {
-    type Output = Result<(), Inadmissible>;
+    type Output = Result<(), MaterialError>;
 
     fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
         let Self(name) = self;
@@ -112,7 +112,7 @@ impl FittableVisitor for Slopes<'_> {
 }
 
 #[test]
-fn derivatives_are_slopes() -> Result<(), Inadmissible> {
+fn derivatives_are_slopes() -> Result<(), MaterialError> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         visit(entry, &values(entry), Slopes(entry.name))??;
     }
@@ -148,7 +148,7 @@ impl FittableVisitor for Homogeneity<'_> {
 }
 
 #[test]
-fn stresses_are_proportional_to_moduli() -> Result<(), Inadmissible> {
+fn stresses_are_proportional_to_moduli() -> Result<(), MaterialError> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         visit(entry, &values(entry), Homogeneity(entry.name))?;
     }
@@ -193,7 +193,7 @@ impl FittableVisitor for Constraints<'_> {
 }
 
 #[test]
-fn constraints_have_their_gradients() -> Result<(), Inadmissible> {
+fn constraints_have_their_gradients() -> Result<(), MaterialError> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         visit(entry, &values(entry), Constraints(entry.name))?;
     }
@@ -211,7 +211,7 @@ impl FittableVisitor for Values {
 }
 
 #[test]
-fn values_are_those_of_the_constructor() -> Result<(), Inadmissible> {
+fn values_are_those_of_the_constructor() -> Result<(), MaterialError> {
     for entry in CATALOGUE.iter().filter(|entry| entry.name != "stretch_spline") {
         assert_eq!(visit(entry, &values(entry), Values)?, values(entry), "{}", entry.name);
     }
@@ -222,5 +222,5 @@ fn values_are_those_of_the_constructor() -> Result<(), Inadmissible> {
 fn curves_cannot_be_fitted() {
     let drawn = find("stretch_spline").expect("in the catalogue");
     let refused = visit(drawn, &values(drawn), Values);
-    assert_eq!(refused, Err(Inadmissible::NotFittable { material: "StretchSpline" }));
+    assert_eq!(refused, Err(MaterialError::NotFittable { material: "StretchSpline" }));
 }

@@ -1,7 +1,7 @@
 //! Energies whose derivatives by parameters meet every rule, each harder than any of the catalogue.
 
 use piola::material;
-use piola::material::{Fittable, Inadmissible};
+use piola::material::{Fittable, MaterialError};
 use piola_materials::FittableVisitor;
 
 use crate::Slopes;
@@ -55,7 +55,7 @@ pub fn Stiffening(
 }
 
 #[test]
-fn sums_inside_everything() -> Result<(), Inadmissible> {
+fn sums_inside_everything() -> Result<(), MaterialError> {
     Slopes("Nested").visit(Nested::new([1.5, 2.0, 0.5], [1.3, 4.0, -2.0], [0.25, 0.5], 3.0)?)?;
     // An exponent of zero, where λ^α is 1 and its derivative ln λ.
     let zero = Nested::new([1.5, 2.0], [1.0, 0.0], [0.5], 3.0)?;
@@ -67,12 +67,12 @@ fn sums_inside_everything() -> Result<(), Inadmissible> {
 }
 
 #[test]
-fn powers_that_differ_from_entry_to_entry() -> Result<(), Inadmissible> {
+fn powers_that_differ_from_entry_to_entry() -> Result<(), MaterialError> {
     Slopes("Shifted").visit(Shifted::new([1.0, 2.0], [0.5, 0.7], 1.2)?)
 }
 
 #[test]
-fn powers_whose_logarithm_vanishes_at_rest() -> Result<(), Inadmissible> {
+fn powers_whose_logarithm_vanishes_at_rest() -> Result<(), MaterialError> {
     let solid = Stiffening::new(1.0, 2.0, 2.5)?;
     Slopes("Stiffening").visit(solid)?;
     assert_eq!(solid.gradient_by_parameters([1.0; 3]), [[0.0; 3]; 3]);

@@ -5,7 +5,7 @@
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
 use crate::point::matrix::{dot, three, thrice, to_row_major};
-use crate::point::{Assemble, Matrix3, Tangent, contract};
+use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
 use crate::status::Status;
 
 /// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
@@ -34,7 +34,7 @@ pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Sc
     }
 }
 
-/// Output for the blocks of [`contract`], placed as the form F prescribes.
+/// Output for the blocks of [`assemble_blocks`], placed as the form F prescribes.
 struct Blocks3<'a, F, E>(F, &'a mut [E]);
 
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
@@ -57,7 +57,7 @@ impl Form<0, 81> for FullTangent {
     #[inline(always)]
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
-        contract(U, V, blocks, &mut Blocks3(Self, to));
+        assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
@@ -81,7 +81,7 @@ impl Form<0, 45> for PackedTangent {
     #[inline(always)]
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
-        contract(U, V, blocks, &mut Blocks3(Self, to));
+        assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
@@ -249,7 +249,8 @@ trait Places {
     fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>);
 }
 
-/// The stiffness from the blocks of the tangent: [`contract`] with W in place of V, with no 9×12 product.
+/// The stiffness from the blocks of the tangent: [`assemble_blocks`] with W in place of V, with no 9×12
+/// product.
 ///
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
 struct Stiffness<'a, F, E>(F, &'a mut [E]);
@@ -308,7 +309,7 @@ macro_rules! stiffness_form {
             fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
                 let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
-                contract(U, &W, blocks, &mut Stiffness(Self, to));
+                assemble_blocks(U, &W, blocks, &mut Stiffness(Self, to));
             }
         }
     };

@@ -1,9 +1,9 @@
 //! The stiffness of a tile of linear tetrahedra as an operator: its products, without its entries.
 //!
 //! With W = √v Dm⁻¹ V the stiffness between the nodes 1, 2, 3 of an element is (U ⊗ W) A (U ⊗ W)ᵀ, as dP/dF
-//! is with V in the place of W (see [`contract`](crate::point::contract)). So the thirty numbers of a
-//! tangent's factors, with W, are a stiffness, and the operations of dP = (dP/dF) dF multiply by it:
-//! displacements with the edges Ds give
+//! is with V in the place of W (see [`assemble_blocks`](crate::point::assemble_blocks)). So the thirty
+//! numbers of a tangent's factors, with W, are a stiffness, and the operations of dP = (dP/dF) dF multiply by
+//! it: displacements with the edges Ds give
 //!
 //! ```text
 //! U A(Uᵀ Ds W) Wᵀ

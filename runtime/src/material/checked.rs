@@ -1,61 +1,63 @@
 //! Common parts of the constructors of declared materials: checks of parameters, and how they are read.
 
-use super::{Declared, Given, Inadmissible, Inversion, Moduli};
+use super::{Argument, Declared, Inversion, MaterialError, Moduli};
 
 /// Checks that a parameter is a finite number.
 ///
 /// # Errors
-/// [`Inadmissible::NotFinite`].
-pub fn finite(parameter: &'static str, value: f64) -> Result<(), Inadmissible> {
+/// [`MaterialError::NotFinite`].
+pub fn finite(parameter: &'static str, value: f64) -> Result<(), MaterialError> {
     if value.is_finite() {
         return Ok(());
     }
-    Err(Inadmissible::NotFinite { given: Given::scalar(parameter, value) })
+    Err(MaterialError::NotFinite { given: Argument::scalar(parameter, value) })
 }
 
 /// Checks that all entries of a list are finite numbers.
 ///
 /// # Errors
-/// [`Inadmissible::NotFinite`] with the first that is not.
-pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), Inadmissible> {
+/// [`MaterialError::NotFinite`] with the first that is not.
+pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), MaterialError> {
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
-        Some(index) => Err(Inadmissible::NotFinite { given: Given::entry(parameter, index, values[index]) }),
+        Some(index) => {
+            Err(MaterialError::NotFinite { given: Argument::entry(parameter, index, values[index]) })
+        }
     }
 }
 
 /// Name of a parameter, place in its list, value.
 type Named = (&'static str, Option<usize>, f64);
 
-fn named(given: &[Named]) -> Vec<Given> {
-    given.iter().map(|&(parameter, index, value)| Given { parameter, index, value }).collect()
+fn named(given: &[Named]) -> Vec<Argument> {
+    given.iter().map(|&(parameter, index, value)| Argument { parameter, index, value }).collect()
 }
 
 /// Checks a condition of `admissible(…)`.
 ///
 /// # Errors
-/// [`Inadmissible::Violated`] unless it holds.
-pub fn admissible(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), Inadmissible> {
-    if holds { Ok(()) } else { Err(Inadmissible::Violated { condition, given: named(given) }) }
+/// [`MaterialError::Violated`] unless it holds.
+pub fn admissible(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
+    if holds { Ok(()) } else { Err(MaterialError::Violated { condition, given: named(given) }) }
 }
 
 /// Checks a condition of `extend(…)`.
 ///
 /// # Errors
-/// [`Inadmissible::DoesNotRestore`] unless it holds.
-pub fn restoring(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), Inadmissible> {
-    if holds { Ok(()) } else { Err(Inadmissible::DoesNotRestore { condition, given: named(given) }) }
+/// [`MaterialError::DoesNotRestore`] unless it holds.
+pub fn restoring(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
+    if holds { Ok(()) } else { Err(MaterialError::DoesNotRestore { condition, given: named(given) }) }
 }
 
 /// Whether a material is to be extended.
 ///
 /// # Errors
-/// [`Inadmissible::Threshold`] unless 0 < ε < 1.
-pub fn extends(inversion: Inversion) -> Result<bool, Inadmissible> {
+/// [`MaterialError::Threshold`] unless 0 < ε < 1.
+pub fn extends(inversion: Inversion) -> Result<bool, MaterialError> {
     match inversion {
         Inversion::Refuse => Ok(false),
         Inversion::Extend { epsilon } if epsilon > 0.0 && epsilon < 1.0 => Ok(true),
-        Inversion::Extend { epsilon } => Err(Inadmissible::Threshold { epsilon }),
+        Inversion::Extend { epsilon } => Err(MaterialError::Threshold { epsilon }),
     }
 }
 
@@ -68,12 +70,12 @@ pub const fn stated_moduli(mu: f64, lambda: f64) -> Option<Moduli> {
 /// A material that has no extension.
 ///
 /// # Errors
-/// [`Inadmissible::NoExtension`] if one is asked for.
-pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, Inadmissible> {
+/// [`MaterialError::NoExtension`] if one is asked for.
+pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, MaterialError> {
     match inversion {
         Inversion::Refuse => Ok(material),
         Inversion::Extend { .. } => {
-            Err(Inadmissible::NoExtension { material: M::DESCRIPTION.name, reason: M::DESCRIPTION.refusal })
+            Err(MaterialError::NoExtension { material: M::DESCRIPTION.name, reason: M::DESCRIPTION.refusal })
         }
     }
 }
@@ -81,26 +83,26 @@ pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, I
 /// A material whose shear modulus at rest is positive and whose bulk modulus is not negative.
 ///
 /// # Errors
-/// [`Inadmissible::UnstableRest`].
-pub fn stable_at_rest<M: Declared>(material: M) -> Result<M, Inadmissible> {
+/// [`MaterialError::UnstableRest`].
+pub fn stable_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
     let moduli = material.moduli();
     if moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite() {
         return Ok(material);
     }
-    Err(Inadmissible::UnstableRest { moduli })
+    Err(MaterialError::UnstableRest { moduli })
 }
 
 /// A material without stress at rest, to rounding.
 ///
 /// # Errors
-/// [`Inadmissible::StressedRest`].
-pub fn stress_free_at_rest<M: Declared>(material: M) -> Result<M, Inadmissible> {
+/// [`MaterialError::StressedRest`].
+pub fn stress_free_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
     let moduli = material.moduli();
     let [stress, ..] = material.gradient([1.0f64; 3]);
     if stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs()) {
         return Ok(material);
     }
-    Err(Inadmissible::StressedRest { stress })
+    Err(MaterialError::StressedRest { stress })
 }
 
 /// Values of parameters, read one after the other in the order of the declaration.
@@ -110,13 +112,13 @@ impl<'a> Values<'a> {
     /// One slice for each parameter.
     ///
     /// # Errors
-    /// [`Inadmissible::Shape`] if there are more or fewer.
-    pub fn new(values: &'a [&'a [f64]], names: &'a [&'static str]) -> Result<Self, Inadmissible> {
+    /// [`MaterialError::Shape`] if there are more or fewer.
+    pub fn new(values: &'a [&'a [f64]], names: &'a [&'static str]) -> Result<Self, MaterialError> {
         if values.len() == names.len() {
             return Ok(Self(names.iter().zip(values)));
         }
         let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        Err(Inadmissible::Shape { expected: format!("{} parameters are expected: {listed}", names.len()) })
+        Err(MaterialError::Shape { expected: format!("{} parameters are expected: {listed}", names.len()) })
     }
 
     /// The next parameter, whatever its length.
@@ -128,8 +130,8 @@ impl<'a> Values<'a> {
     /// The next parameter, one number.
     ///
     /// # Errors
-    /// [`Inadmissible::Shape`].
-    pub fn number(&mut self) -> Result<f64, Inadmissible> {
+    /// [`MaterialError::Shape`].
+    pub fn number(&mut self) -> Result<f64, MaterialError> {
         let [number] = self.array(|name, _| format!("`{name}` must be one number"))?;
         Ok(number)
     }
@@ -137,16 +139,16 @@ impl<'a> Values<'a> {
     /// The next parameter, a list of N numbers.
     ///
     /// # Errors
-    /// [`Inadmissible::Shape`].
-    pub fn list<const N: usize>(&mut self) -> Result<[f64; N], Inadmissible> {
+    /// [`MaterialError::Shape`].
+    pub fn list<const N: usize>(&mut self) -> Result<[f64; N], MaterialError> {
         self.array(|name, length| format!("`{name}` must have {length} entries"))
     }
 
     fn array<const N: usize>(
         &mut self,
         expected: impl Fn(&str, usize) -> String,
-    ) -> Result<[f64; N], Inadmissible> {
+    ) -> Result<[f64; N], MaterialError> {
         let (name, values) = self.0.next().map_or(("", &[][..]), |(name, values)| (*name, *values));
-        <[f64; N]>::try_from(values).map_err(|_| Inadmissible::Shape { expected: expected(name, N) })
+        <[f64; N]>::try_from(values).map_err(|_| MaterialError::Shape { expected: expected(name, N) })
     }
 }

@@ -5,7 +5,7 @@
 //! its parts.
 
 use super::response::with_responses;
-use super::{Blocks, Given, Graded, Inadmissible, Inversion, Material, Moduli, ParameterValue, PerLane};
+use super::{Argument, Blocks, Graded, Inversion, Material, MaterialError, Moduli, ParameterValue, PerLane};
 use crate::lanes::Real;
 
 /// The sum of two energies: ψ = ψa + ψb.
@@ -62,10 +62,10 @@ impl<M> Scaled<M> {
     /// The energy times a dimensionless factor s.
     ///
     /// # Errors
-    /// [`Inadmissible::NotFinite`] if the factor is infinite or NaN.
-    pub fn new(factor: f64, material: M) -> Result<Self, Inadmissible> {
+    /// [`MaterialError::NotFinite`] if the factor is infinite or NaN.
+    pub fn new(factor: f64, material: M) -> Result<Self, MaterialError> {
         if !factor.is_finite() {
-            return Err(Inadmissible::NotFinite { given: Given::scalar("factor", factor) });
+            return Err(MaterialError::NotFinite { given: Argument::scalar("factor", factor) });
         }
         Ok(Self { factor, material })
     }
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn an_infinite_factor_is_refused() {
         for factor in [f64::NAN, f64::INFINITY] {
-            assert!(matches!(Scaled::new(factor, NeoHookean), Err(Inadmissible::NotFinite { .. })));
+            assert!(matches!(Scaled::new(factor, NeoHookean), Err(MaterialError::NotFinite { .. })));
         }
     }
 }

@@ -67,7 +67,7 @@ pub trait Fittable: Declared {
     ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
     /// }
     ///
-    /// # fn main() -> Result<(), piola::material::Inadmissible> {
+    /// # fn main() -> Result<(), piola::material::MaterialError> {
     /// let [upper, shear, bulk] = <[_; 3]>::try_from(Rubber::new(6e5, 1e6)?.constraints()).expect("three");
     /// assert_eq!((upper.limit, upper.value), (Limit::Admissible("lambda <= 1e7"), 9e6));
     /// assert_eq!((shear.limit, shear.value), (Limit::ShearModulus, 6e5));

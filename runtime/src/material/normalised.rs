@@ -20,7 +20,7 @@
 //! by which it makes up for another λ may differ from ours. Its third property, how nonlinear an energy is at
 //! large strain, is not set here.
 
-use super::{Inadmissible, Material, Moduli, Scaled, Sum};
+use super::{Material, MaterialError, Moduli, Scaled, Sum};
 use crate::lanes::Real;
 use piola::material;
 
@@ -62,26 +62,26 @@ impl<M: Material> Normalised<M> {
     /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½, both of small strain.
     ///
     /// # Errors
-    /// * [`Inadmissible::YoungPoisson`] if E or ν is outside these bounds;
-    /// * [`Inadmissible::UnstableRest`] if the material is unstable at rest, or s or c leaves the range of
+    /// * [`MaterialError::YoungPoisson`] if E or ν is outside these bounds;
+    /// * [`MaterialError::UnstableRest`] if the material is unstable at rest, or s or c leaves the range of
     ///   numbers;
-    /// * [`Inadmissible::BelowOwnPoisson`] if ν is below that of the material itself, since c < 0 would take
+    /// * [`MaterialError::BelowOwnPoisson`] if ν is below that of the material itself, since c < 0 would take
     ///   away resistance to changes of volume, the more the larger they are.
-    pub fn with_young_poisson(material: M, young: f64, poisson: f64) -> Result<Self, Inadmissible> {
+    pub fn with_young_poisson(material: M, young: f64, poisson: f64) -> Result<Self, MaterialError> {
         let moduli = Moduli::from_young_poisson(young, poisson)?;
         let own = Moduli::at_rest(&material);
         if !(own.mu > 0.0 && own.bulk() >= 0.0 && own.bulk().is_finite()) {
-            return Err(Inadmissible::UnstableRest { moduli: own });
+            return Err(MaterialError::UnstableRest { moduli: own });
         }
         let lowest = own.poisson();
         // Its own ratio is no ratio below, however it was rounded.
         if poisson < lowest - 8.0 * f64::UNIT_ROUNDOFF {
-            return Err(Inadmissible::BelowOwnPoisson { poisson, lowest });
+            return Err(MaterialError::BelowOwnPoisson { poisson, lowest });
         }
         let scale = moduli.mu / own.mu;
         let volumetric = (moduli.lambda - scale * own.lambda).max(0.0);
         if !(moduli.mu > 0.0 && scale.is_finite() && volumetric.is_finite()) {
-            return Err(Inadmissible::UnstableRest { moduli });
+            return Err(MaterialError::UnstableRest { moduli });
         }
         Ok(Self::new(Scaled::new(scale, material)?, VolumetricPenalty::new(volumetric)?))
     }
@@ -143,10 +143,10 @@ mod tests {
         for (young, poisson) in [(f64::NAN, 0.4), (1.0, f64::INFINITY), (0.0, 0.4), (1.0, 0.5), (1.0, -1.0)] {
             let error =
                 Normalised::with_young_poisson(NeoHookean, young, poisson).err().expect("inadmissible");
-            assert!(matches!(error, Inadmissible::YoungPoisson { .. }), "{error}");
+            assert!(matches!(error, MaterialError::YoungPoisson { .. }), "{error}");
         }
         let error = Normalised::with_young_poisson(NeoHookean, 1.0, 0.2).err().expect("inadmissible");
-        let Inadmissible::BelowOwnPoisson { poisson, lowest } = error else { panic!("{error}") };
+        let MaterialError::BelowOwnPoisson { poisson, lowest } = error else { panic!("{error}") };
         assert_eq!(poisson, 0.2);
         // Three roundings of a number below ½.
         assert!((lowest - 0.3).abs() <= 3.0 * f64::UNIT_ROUNDOFF);

@@ -143,7 +143,7 @@
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
 //! no longer the sum of a part with S and one that E alone decides, and behind it is no dS/dE. Of filtered
 //! blocks these functions make symmetric matrices that are no derivative and need not be semidefinite; for a
-//! semidefinite element stiffness, [`contract`](super::contract) the filtered blocks instead.
+//! semidefinite element stiffness, [`assemble_blocks`](super::assemble_blocks) the filtered blocks instead.
 //!
 //! This module knows no particular material and no mesh.
 //!
@@ -197,7 +197,7 @@ pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R>
     let principal = Principal {
         diagonal: std::array::from_fn(|i| (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
         mixed: std::array::from_fn(|pair| hessian[3 + pair] / products[pair]),
-        shear: std::array::from_fn(|pair| blocks.straight_and_crossed(pair).1 / products[pair]),
+        shear: std::array::from_fn(|pair| blocks.pair_block(pair).1 / products[pair]),
     };
     principal.to_world(&svd.V)
 }
@@ -215,7 +215,7 @@ pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
     let principal = Principal {
         diagonal: std::array::from_fn(|i| l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
         mixed: std::array::from_fn(|pair| hessian[3 + pair] / l[third(pair)]),
-        shear: std::array::from_fn(|pair| blocks.straight_and_crossed(pair).1 / l[third(pair)]),
+        shear: std::array::from_fn(|pair| blocks.pair_block(pair).1 / l[third(pair)]),
     };
     principal.to_world(&svd.U)
 }
@@ -236,7 +236,7 @@ pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
         shear: std::array::from_fn(|pair| {
             let (i, j) = PAIRS[pair];
             let ratios = R::splat(0.5) * (l[i] / l[j] + l[j] / l[i]);
-            blocks.straight_and_crossed(pair).0 * ratios / l[third(pair)]
+            blocks.pair_block(pair).0 * ratios / l[third(pair)]
         }),
     };
     principal.to_world(&svd.U)

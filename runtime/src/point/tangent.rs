@@ -93,8 +93,8 @@
 //! ```
 //!
 //! The first term is symmetric in x and y, the second one antisymmetric, and it vanishes for a = c.
-//! [`contract`] evaluates both once for each x ≤ y, with the products of V shared among all (a, c) and those
-//! of U among all (x, y). Nothing in it asks V to be orthogonal, nor to be about columns of F: with
+//! [`assemble_blocks`] evaluates both once for each x ≤ y, with the products of V shared among all (a, c) and
+//! those of U among all (x, y). Nothing in it asks V to be orthogonal, nor to be about columns of F: with
 //! √volume·Dm⁻ᵀ-transformed rows in place of V it gives an element's stiffness, whose product of 9×12, 9×9
 //! and 12×9 matrices is thereby never formed.
 //!
@@ -138,7 +138,7 @@ impl<R: Real> Tangent<R> {
     #[must_use]
     pub fn to_matrix(&self) -> [[R; 9]; 9] {
         let mut dP_dF = [[R::splat(0.0); 9]; 9];
-        contract(&self.U, &self.V, &self.blocks, &mut dP_dF);
+        assemble_blocks(&self.U, &self.V, &self.blocks, &mut dP_dF);
         dP_dF
     }
 }
@@ -164,7 +164,7 @@ impl<R: Real> Blocks<R> {
         let [[d1, ..], [_, d2, _], [.., d3]] = *increment;
         let [[up12, down12], [up13, down13], [up23, down23]] = three!(pair => {
             let (i, j) = PAIRS[pair];
-            let (a, b) = self.straight_and_crossed(pair);
+            let (a, b) = self.pair_block(pair);
             let (up, down) = (increment[i][j], increment[j][i]);
             [a.mul_add(up, b * down), a.mul_add(down, b * up)]
         });
@@ -178,14 +178,14 @@ impl<R: Real> Blocks<R> {
     /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2, Pa, of a pair: its place in [`PAIRS`].
     #[inline(always)]
     #[must_use]
-    pub fn straight_and_crossed(&self, pair: usize) -> (R, R) {
+    pub fn pair_block(&self, pair: usize) -> (R, R) {
         let half = R::splat(0.5);
         let (flip, twist) = (half * self.flip[pair], half * self.twist[pair]);
         (flip + twist, flip - twist)
     }
 }
 
-/// Takes the 3×3 blocks of a symmetric matrix from [`contract`].
+/// Takes the 3×3 blocks of a symmetric matrix from [`assemble_blocks`].
 ///
 /// A trait and no closure, because lanes want everything inlined, and nothing can force a closure to be.
 pub trait Assemble<R> {
@@ -203,9 +203,14 @@ pub trait Assemble<R> {
 /// rest shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus
 /// their sum. About 560 multiplications and additions.
 #[inline(always)]
-pub fn contract<R: Real>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut impl Assemble<R>) {
+pub fn assemble_blocks<R: Real>(
+    U: &Matrix3<R>,
+    W: &Matrix3<R>,
+    blocks: &Blocks<R>,
+    to: &mut impl Assemble<R>,
+) {
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
-    let [(a12, b12), (a13, b13), (a23, b23)] = three!(pair => blocks.straight_and_crossed(pair));
+    let [(a12, b12), (a13, b13), (a23, b23)] = three!(pair => blocks.pair_block(pair));
     let alpha = [[h11, a12, a13], [a12, h22, a23], [a13, a23, h33]];
     let half = R::splat(0.5);
     let even = [half * (h12 + b12), half * (h13 + b13), half * (h23 + b23)];

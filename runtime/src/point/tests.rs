@@ -97,7 +97,7 @@ fn the_contraction_equals_the_dense_product() {
         let (U, W, blocks) = (random.rotation(), random.matrix(), random_blocks(&mut random));
         let expected = in_the_world(&U, &W, &dense(&blocks));
         let mut K = [[0.0; 9]; 9];
-        contract(&U, &W, &blocks, &mut K);
+        assemble_blocks(&U, &W, &blocks, &mut K);
         // Each entry is a sum of 81 products here and of 15 there, with terms of up to ‖W‖²‖A‖.
         let error = difference(&K, &expected);
         assert!(error < 100.0 * f64::EPSILON * norm(dense(&blocks).iter().flatten()), "{error:e}");

@@ -2,7 +2,7 @@
 
 use super::{Piecewise, Univariate, by_pieces};
 use crate::lanes::Real;
-use crate::material::{Form, Inadmissible};
+use crate::material::{Form, MaterialError};
 
 /// A function φ given by its derivative: φ′ is the natural cubic spline through control points, φ(1) = 0.
 ///
@@ -13,7 +13,7 @@ use crate::material::{Form, Inadmissible};
 /// ```
 /// use piola::{Spline, Univariate};
 ///
-/// # fn main() -> Result<(), piola::material::Inadmissible> {
+/// # fn main() -> Result<(), piola::material::MaterialError> {
 /// let force = Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5]])?;
 /// assert_eq!(force.derivative(2.0), 1e5);
 /// assert_eq!(force.value(1.0), 0.0);
@@ -47,8 +47,8 @@ impl Spline {
     ///
     /// # Errors
     /// Fewer than two points, a coordinate that is not finite, or abscissae that do not increase.
-    pub fn through(points: &[[f64; 2]]) -> Result<Self, Inadmissible> {
-        let refuse = |expected: String| Err(Inadmissible::Shape { expected });
+    pub fn through(points: &[[f64; 2]]) -> Result<Self, MaterialError> {
+        let refuse = |expected: String| Err(MaterialError::Shape { expected });
         if points.len() < 2 {
             return refuse(format!("a spline needs two or more control points, not {}", points.len()));
         }
@@ -122,9 +122,9 @@ impl From<Spline> for Vec<[f64; 2]> {
 }
 
 impl TryFrom<Vec<[f64; 2]>> for Spline {
-    type Error = Inadmissible;
+    type Error = MaterialError;
 
-    fn try_from(points: Vec<[f64; 2]>) -> Result<Self, Inadmissible> {
+    fn try_from(points: Vec<[f64; 2]>) -> Result<Self, MaterialError> {
         Self::through(&points)
     }
 }
@@ -220,10 +220,10 @@ impl Univariate for Spline {
     }
 
     /// Builds the spline from its control points, listed as x, φ′, x, φ′, …
-    fn from_values(values: &[f64]) -> Result<Self, Inadmissible> {
+    fn from_values(values: &[f64]) -> Result<Self, MaterialError> {
         let (points, rest) = values.as_chunks::<2>();
         if !rest.is_empty() {
-            return Err(Inadmissible::Shape {
+            return Err(MaterialError::Shape {
                 expected: format!("control points are pairs x, φ′, but there are {} numbers", values.len()),
             });
         }

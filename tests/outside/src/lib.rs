@@ -1,7 +1,7 @@
 //! A material of a user's own crate, and its sum with one of the catalogue.
 
 use piola::DynMaterial;
-use piola::material::{Inadmissible, Scaled, Sum};
+use piola::material::{MaterialError, Scaled, Sum};
 use piola_materials::NeoHookean;
 
 /// Rubber that stiffens: the first two terms of Yeoh's energy.
@@ -21,16 +21,16 @@ pub fn Stiffening(
 /// The declared energy with parameters of a soft rubber.
 ///
 /// # Errors
-/// `Inadmissible` if a parameter is.
-pub fn stiffening() -> Result<Stiffening, Inadmissible> {
+/// `MaterialError` if a parameter is.
+pub fn stiffening() -> Result<Stiffening, MaterialError> {
     Stiffening::new(1e5, 1e4, 2e6)
 }
 
 /// A neo-Hookean solid of the catalogue.
 ///
 /// # Errors
-/// `Inadmissible` if a parameter is.
-pub fn matrix() -> Result<NeoHookean, Inadmissible> {
+/// `MaterialError` if a parameter is.
+pub fn matrix() -> Result<NeoHookean, MaterialError> {
     NeoHookean::new(3.8e5, 2e7)
 }
 
@@ -40,15 +40,15 @@ pub const FACTOR: f64 = 0.25;
 /// The neo-Hookean solid and a multiple of the declared energy, deformed alike.
 ///
 /// # Errors
-/// `Inadmissible` if a parameter is.
-pub fn sum() -> Result<Sum<NeoHookean, Scaled<Stiffening>>, Inadmissible> {
+/// `MaterialError` if a parameter is.
+pub fn sum() -> Result<Sum<NeoHookean, Scaled<Stiffening>>, MaterialError> {
     Ok(Sum::new(matrix()?, Scaled::new(FACTOR, stiffening()?)?))
 }
 
 /// Materials that are told apart at run time only.
 ///
 /// # Errors
-/// `Inadmissible` if a parameter is.
-pub fn boxed() -> Result<[Box<dyn DynMaterial<f64>>; 2], Inadmissible> {
+/// `MaterialError` if a parameter is.
+pub fn boxed() -> Result<[Box<dyn DynMaterial<f64>>; 2], MaterialError> {
     Ok([Box::new(stiffening()?), Box::new(sum()?)])
 }

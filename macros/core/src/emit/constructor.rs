@@ -72,7 +72,7 @@ fn new(declaration: &Declaration) -> TokenStream {
     quote! {
         #new_doc
         #too_many
-        #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::Inadmissible> {
+        #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::MaterialError> {
             #(#finite)*
             #(#admissible)*
             #checked
@@ -97,7 +97,7 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
         #visibility fn with_inversion(
             mut self,
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             if __p::extends(inversion)? {
                 #parameters
                 #(#restores)*
@@ -125,7 +125,7 @@ fn replacement(declaration: &Declaration, parameter: &Parameter) -> TokenStream 
     quote! {
         #documentation
         #[allow(dead_code)]
-        #visibility fn #method(self, #name: #ty) -> __p::Result<Self, __p::Inadmissible> {
+        #visibility fn #method(self, #name: #ty) -> __p::Result<Self, __p::MaterialError> {
             Self::new(#(#values),*)#inversion
         }
     }

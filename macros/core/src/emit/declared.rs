@@ -72,7 +72,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
             fn from_values(
                 values: &[&[f64]],
                 inversion: __p::Inversion,
-            ) -> __p::Result<Self, __p::Inadmissible> {
+            ) -> __p::Result<Self, __p::MaterialError> {
                 let mut values = __p::Values::new(values, &[#(#names),*])?;
                 #material
             }

@@ -93,7 +93,7 @@ fn inert_type(function: &Function) -> TokenStream {
                 _: f64,
                 _: f64,
                 #(_: #others),*
-            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 ::core::unreachable!("this material does not compile")
             }
         }
@@ -109,20 +109,20 @@ fn inert_type(function: &Function) -> TokenStream {
 
         #[allow(missing_docs, dead_code, non_snake_case, unused_variables, clippy::too_many_arguments)]
         impl<#(const #generics: usize),*> #name<#(#generics),*> {
-            #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 #unreachable
             }
             #from_young_poisson
             #visibility fn with_inversion(
                 self,
                 inversion: ::piola::Inversion,
-            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 #unreachable
             }
             #(#visibility fn #replacements<AnyValue>(
                 self,
                 _: AnyValue,
-            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 #unreachable
             })*
             #(#visibility fn #methods(&self) -> #results {
@@ -180,7 +180,7 @@ fn inert_type(function: &Function) -> TokenStream {
             fn from_values(
                 values: &[&[f64]],
                 inversion: ::piola::Inversion,
-            ) -> ::core::result::Result<Self, ::piola::material::Inadmissible> {
+            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 #unreachable
             }
         }

@@ -49,7 +49,7 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
             #young: f64,
             #poisson: f64,
             #(#names: #types),*
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             let moduli = __p::Moduli::from_young_poisson(#young, #poisson)?;
             Self::new(#(#all),*)
         }

@@ -81,7 +81,7 @@ const _: () = {
             mu: f64,
             jm: f64,
             kappa: f64,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             __p::finite("mu", mu)?;
             __p::finite("jm", jm)?;
             __p::finite("kappa", kappa)?;
@@ -101,7 +101,7 @@ const _: () = {
         pub fn with_inversion(
             mut self,
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             if __p::extends(inversion)? {
                 let Self { kappa, .. } = self;
                 __p::restoring(kappa >= 0f64, "kappa >= 0", &[("kappa", None, kappa)])?;
@@ -129,7 +129,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_mu(self, mu: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_mu(self, mu: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(mu, self.jm, self.kappa)?.with_inversion(self.inversion)
         }
         /// Replaces `jm`.
@@ -137,7 +137,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_jm(self, jm: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_jm(self, jm: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(self.mu, jm, self.kappa)?.with_inversion(self.inversion)
         }
         /// Replaces `kappa`.
@@ -145,7 +145,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_kappa(self, kappa: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_kappa(self, kappa: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(self.mu, self.jm, kappa)?.with_inversion(self.inversion)
         }
     }
@@ -674,7 +674,7 @@ const _: () = {
         fn from_values(
             values: &[&[f64]],
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             let mut values = __p::Values::new(values, &["mu", "jm", "kappa"])?;
             Self::new(values.number()?, values.number()?, values.number()?)?
                 .with_inversion(inversion)

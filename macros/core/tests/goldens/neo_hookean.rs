@@ -73,7 +73,7 @@ const _: () = {
         ///
         /// # Errors
         /// Where a parameter is not finite or not admissible.
-        pub fn new(mu: f64, lambda: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn new(mu: f64, lambda: f64) -> __p::Result<Self, __p::MaterialError> {
             __p::finite("mu", mu)?;
             __p::finite("lambda", lambda)?;
             __p::admissible(mu > 0f64, "mu > 0", &[("mu", None, mu)])?;
@@ -95,7 +95,7 @@ const _: () = {
         pub fn from_young_poisson(
             young: f64,
             poisson: f64,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             let moduli = __p::Moduli::from_young_poisson(young, poisson)?;
             Self::new(moduli.mu, moduli.lambda)
         }
@@ -106,7 +106,7 @@ const _: () = {
         pub fn with_inversion(
             mut self,
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             if __p::extends(inversion)? {
                 let Self { lambda, .. } = self;
                 __p::restoring(
@@ -133,7 +133,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_mu(self, mu: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_mu(self, mu: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(mu, self.lambda)?.with_inversion(self.inversion)
         }
         /// Replaces `lambda`.
@@ -141,7 +141,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_lambda(self, lambda: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_lambda(self, lambda: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(self.mu, lambda)?.with_inversion(self.inversion)
         }
     }
@@ -527,7 +527,7 @@ const _: () = {
         fn from_values(
             values: &[&[f64]],
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             let mut values = __p::Values::new(values, &["mu", "lambda"])?;
             Self::new(values.number()?, values.number()?)?.with_inversion(inversion)
         }

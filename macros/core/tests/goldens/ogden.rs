@@ -75,7 +75,7 @@ const _: () = {
             mu: [f64; N],
             alpha: [f64; N],
             kappa: f64,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             __p::all_finite("mu", &mu)?;
             __p::all_finite("alpha", &alpha)?;
             __p::finite("kappa", kappa)?;
@@ -100,7 +100,7 @@ const _: () = {
         pub fn with_inversion(
             mut self,
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             if __p::extends(inversion)? {
                 let Self { mu, alpha, kappa, .. } = self;
                 for p in 0..mu.len() {
@@ -135,7 +135,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_mu(self, mu: [f64; N]) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_mu(self, mu: [f64; N]) -> __p::Result<Self, __p::MaterialError> {
             Self::new(mu, self.alpha, self.kappa)?.with_inversion(self.inversion)
         }
         /// Replaces `alpha`.
@@ -146,7 +146,7 @@ const _: () = {
         pub fn with_alpha(
             self,
             alpha: [f64; N],
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             Self::new(self.mu, alpha, self.kappa)?.with_inversion(self.inversion)
         }
         /// Replaces `kappa`.
@@ -154,7 +154,7 @@ const _: () = {
         /// # Errors
         /// If the parameters are not admissible together, as of `new`.
         #[allow(dead_code)]
-        pub fn with_kappa(self, kappa: f64) -> __p::Result<Self, __p::Inadmissible> {
+        pub fn with_kappa(self, kappa: f64) -> __p::Result<Self, __p::MaterialError> {
             Self::new(self.mu, self.alpha, kappa)?.with_inversion(self.inversion)
         }
     }
@@ -746,7 +746,7 @@ const _: () = {
         fn from_values(
             values: &[&[f64]],
             inversion: __p::Inversion,
-        ) -> __p::Result<Self, __p::Inadmissible> {
+        ) -> __p::Result<Self, __p::MaterialError> {
             let mut values = __p::Values::new(values, &["mu", "alpha", "kappa"])?;
             Self::new(values.list()?, values.list()?, values.number()?)?
                 .with_inversion(inversion)

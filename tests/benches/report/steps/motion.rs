@@ -1,6 +1,6 @@
 //! A body that is followed.
 
-use piola::material::{Inadmissible, Moduli};
+use piola::material::{MaterialError, Moduli};
 use piola::mesh::TetMesh;
 use piola::step::{Damping, NewtonSettings, Simulation};
 use piola::system::{self, Pins};
@@ -149,7 +149,7 @@ fn free(mesh: &TetMesh, scene: &Scene, newton: NewtonSettings) -> Result<Flight,
 }
 
 /// What flies free, as stiff as the bodies of the scenes.
-pub(super) fn free_material() -> Result<StableNeoHookean, Inadmissible> {
+pub(super) fn free_material() -> Result<StableNeoHookean, MaterialError> {
     let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
     StableNeoHookean::new(moduli.mu, moduli.lambda)
 }

@@ -7,18 +7,18 @@ use super::Moduli;
 /// Reason why a material cannot be built from given parameters.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Inadmissible {
+pub enum MaterialError {
     /// A parameter is infinite or NaN.
     NotFinite {
         /// The parameter with its value.
-        given: Given,
+        given: Argument,
     },
     /// A condition of the declaration does not hold.
     Violated {
         /// The condition as declared.
         condition: &'static str,
         /// The parameters that it names, as given.
-        given: Vec<Given>,
+        given: Vec<Argument>,
     },
     /// The shear modulus at rest is not positive, or the bulk modulus negative, or one is not finite.
     UnstableRest {
@@ -59,7 +59,7 @@ pub enum Inadmissible {
         /// The condition that would make it restore.
         condition: &'static str,
         /// The parameters that it names, as given.
-        given: Vec<Given>,
+        given: Vec<Argument>,
     },
     /// The wanted Poisson's ratio is below that of the energy itself.
     BelowOwnPoisson {
@@ -75,7 +75,7 @@ pub enum Inadmissible {
     },
 }
 
-impl fmt::Display for Inadmissible {
+impl fmt::Display for MaterialError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { given } => {
@@ -140,12 +140,12 @@ impl fmt::Display for Inadmissible {
     }
 }
 
-impl std::error::Error for Inadmissible {}
+impl std::error::Error for MaterialError {}
 
 /// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] =
 /// 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given {
+pub struct Argument {
     /// Name of the parameter.
     pub parameter: &'static str,
     /// Place in the list, counted from 0, if the parameter is one.
@@ -154,7 +154,7 @@ pub struct Given {
     pub value: f64,
 }
 
-impl Given {
+impl Argument {
     /// A parameter that is a number.
     #[must_use]
     pub const fn scalar(parameter: &'static str, value: f64) -> Self {
@@ -175,13 +175,13 @@ impl Given {
     }
 }
 
-impl fmt::Display for Given {
+impl fmt::Display for Argument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.name(), self.value)
     }
 }
 
-fn listed(given: &[Given]) -> String {
+fn listed(given: &[Argument]) -> String {
     given.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn an_unstable_rest_state_is_told_by_the_modulus_that_makes_it_so() {
-        let unstable = |mu, lambda| Inadmissible::UnstableRest { moduli: Moduli { mu, lambda } }.to_string();
+        let unstable = |mu, lambda| MaterialError::UnstableRest { moduli: Moduli { mu, lambda } }.to_string();
         assert!(unstable(-1.0, 1.0).ends_with("shear modulus is -1 Pa and must be positive"));
         assert!(unstable(1.5, -2.0).contains("bulk modulus is -1 Pa and must not be negative"));
         // ν = 1/2, and 0/0.
