@@ -51,6 +51,12 @@ pub fn Curve(
     W(l1) + W(l2) + W(l3)
 }
 
+/// An energy without parameters.
+#[piola::material]
+pub fn Springs([l1, l2, l3]: [f64; 3]) -> f64 {
+    (l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2)
+}
+
 #[test]
 fn the_names_are_those_of_the_declaration() {
     let solid = Solid::new(1e6, [2.0, 4.0], [1e5, 1e3], 1e4, 30.0).expect("admissible");
@@ -64,4 +70,5 @@ fn the_names_are_those_of_the_declaration() {
     assert!(pair.energy([1.1, 1.0, 1.0]) > 0.0);
     assert!(pair.G() < pair.K__());
     let _ = Curve::W;
+    assert_eq!(Springs::from_values(&[], piola::Inversion::Refuse), Springs::new());
 }

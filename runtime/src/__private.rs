@@ -1,7 +1,7 @@
 //! Names that generated code uses: no part of the public interface, and free to change with every version.
 
 pub use crate::lanes::Mask;
-pub use crate::material::checked::*;
+pub use crate::material::constructor::*;
 pub use crate::material::{
     Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inversion, Limit, MaterialError,
     Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,

@@ -18,8 +18,8 @@
 
 use crate::lanes::{Mask, Real};
 
-pub(crate) mod checked;
 mod combine;
+pub(crate) mod constructor;
 mod description;
 mod error;
 mod fittable;

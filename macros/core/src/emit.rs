@@ -148,9 +148,3 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
         }
     }
 }
-
-/// Permission for as many arguments as there are parameters, where clippy would complain.
-fn too_many_arguments(count: usize) -> Option<TokenStream> {
-    const MANY: usize = 7;
-    (count > MANY).then(|| quote!(#[allow(clippy::too_many_arguments)]))
-}

@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
 use super::young_poisson::from_young_poisson;
-use super::{condition_text, doc, generics, naming, too_many_arguments};
+use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
 use crate::read::literals::typed;
 use crate::read::parse::{Declaration, Parameter, identifiers, indexed_list};
@@ -25,6 +25,7 @@ pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStre
     let replacements = declaration.parameters.iter().map(|parameter| replacement(declaration, parameter));
     quote! {
         #naming
+        #[allow(clippy::too_many_arguments)]
         impl #bounds #name #arguments {
             #new
 
@@ -68,10 +69,8 @@ fn new(declaration: &Declaration) -> TokenStream {
         // What cancels the stress of a function, no declaration can promise.
         (false, true) => quote!(__p::stable_at_rest(#material).and_then(__p::stress_free_at_rest)),
     };
-    let too_many = too_many_arguments(names.len());
     quote! {
         #new_doc
-        #too_many
         #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::MaterialError> {
             #(#finite)*
             #(#admissible)*

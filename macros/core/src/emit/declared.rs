@@ -44,8 +44,9 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let values = declaration.parameters.iter().map(|parameter| match &parameter.kind {
         Kind::Number => quote!(values.number()?),
         Kind::List(_) => quote!(values.list()?),
-        Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.next())?),
+        Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?),
     });
+    let binding = (!declaration.parameters.is_empty()).then(|| quote!(let mut values =));
     let material = quote!(Self::new(#(#values),*)?);
     let material = if extends {
         quote!(#material.with_inversion(inversion))
@@ -73,7 +74,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
                 values: &[&[f64]],
                 inversion: __p::Inversion,
             ) -> __p::Result<Self, __p::MaterialError> {
-                let mut values = __p::Values::new(values, &[#(#names),*])?;
+                #binding __p::Values::new(values, &[#(#names),*])?;
                 #material
             }
         }

@@ -246,7 +246,7 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// Longest expression, in characters, to be taken in by another.
+    /// Longest expression, in characters, to be taken in by another: with what is around it, about a line.
     const LONGEST: usize = 72;
 
     fn new(writer: &'a Writer<'a>, program: &Program) -> Self {

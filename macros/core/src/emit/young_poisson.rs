@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
+use super::doc;
 use super::writer::free_name;
-use super::{doc, too_many_arguments};
 use crate::algebra::rational::Rational;
 use crate::algebra::young_poisson::{Determined, YoungPoisson};
 use crate::printer::combination;
@@ -41,10 +41,8 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
         formulas[0],
         formulas[1],
     ));
-    let too_many = too_many_arguments(2 + names.len());
     quote! {
         #documentation
-        #too_many
         #visibility fn from_young_poisson(
             #young: f64,
             #poisson: f64,

@@ -68,6 +68,7 @@ pub struct Gent<P = f64> {
 }
 const _: () = {
     use ::piola::__private as __p;
+    #[allow(clippy::too_many_arguments)]
     impl Gent {
         /// The material with these parameters.
         ///

@@ -65,6 +65,7 @@ pub struct NeoHookean<P = f64> {
 }
 const _: () = {
     use ::piola::__private as __p;
+    #[allow(clippy::too_many_arguments)]
     impl NeoHookean {
         /// The material with these parameters.
         ///

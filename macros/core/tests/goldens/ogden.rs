@@ -62,6 +62,7 @@ pub struct Ogden<const N: usize, P = f64> {
 }
 const _: () = {
     use ::piola::__private as __p;
+    #[allow(clippy::too_many_arguments)]
     impl<const N: usize> Ogden<N> {
         /// The material with these parameters.
         ///

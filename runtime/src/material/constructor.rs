@@ -26,7 +26,7 @@ pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), Materia
     }
 }
 
-/// Name of a parameter, place in its list, value.
+/// Name of a parameter, its place if it is an entry of a list, and its value: the fields of [`Argument`].
 type Named = (&'static str, Option<usize>, f64);
 
 fn named(given: &[Named]) -> Vec<Argument> {
@@ -121,9 +121,8 @@ impl<'a> Values<'a> {
         Err(MaterialError::Shape { expected: format!("{} parameters are expected: {listed}", names.len()) })
     }
 
-    /// The next parameter, whatever its length.
-    #[expect(clippy::should_implement_trait, reason = "no more than as many times as there are parameters")]
-    pub fn next(&mut self) -> &'a [f64] {
+    /// The next parameter, however many numbers describe it.
+    pub fn slice(&mut self) -> &'a [f64] {
         self.0.next().map_or(&[], |(_, values)| values)
     }
 
