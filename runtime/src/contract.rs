@@ -193,6 +193,7 @@ pub fn check_rule(
     judge_rule(rule, material, settings)
 }
 
+/// [`check_rule`], compiled once for all materials.
 fn judge_rule(rule: Rule, material: &dyn Subject, settings: &Settings) -> Option<Result<Finding, Violation>> {
     let applies = match rule {
         Rule::Extension => material.inversion() != Inversion::Refuse,
