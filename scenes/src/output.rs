@@ -4,12 +4,14 @@
 
 mod folder;
 mod ply;
+mod sealed;
 mod summary;
 mod vtu;
 mod whole;
 
 pub use folder::Folder;
 pub use ply::write_ply;
+pub use sealed::{SealError, Sealer, Unsealer};
 pub use summary::{FinalPlace, FinalState, Newton, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
 pub use whole::write_whole;
