@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Steps that a number of double precision counts exactly; nobody lives to see the last of them.
+const MAX_FRAME: u64 = 1 << 53;
+
 /// A count of steps from 0, of a length that may change between them.
 ///
 /// Time is the number of steps of the present length, times that length, after the time when it last changed:
@@ -52,10 +55,15 @@ impl Clock {
         Self { dt, since_frame: self.frame, since_time: self.time(), ..self }
     }
 
-    /// Whether steps can have led here; a file may say anything.
+    /// Whether steps can have led here, and can go on; a file may say anything.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        self.dt > 0.0 && self.dt.is_finite() && self.since_time.is_finite() && self.since_frame <= self.frame
+        self.dt > 0.0
+            && self.dt.is_finite()
+            && self.since_time >= 0.0
+            && self.since_frame <= self.frame
+            && self.frame as u64 <= MAX_FRAME
+            && self.time().is_finite()
     }
 }
 
@@ -80,5 +88,8 @@ mod tests {
         assert!(Clock::new(0.1).is_sound());
         assert!(!Clock::new(f64::NAN).is_sound());
         assert!(!Clock { since_frame: 1, ..Clock::new(0.1) }.is_sound());
+        assert!(!Clock { frame: usize::MAX, ..Clock::new(0.1) }.is_sound());
+        assert!(!Clock { since_time: -1.0, ..Clock::new(0.1) }.is_sound());
+        assert!(!Clock { frame: 1 << 20, ..Clock::new(1e308) }.is_sound());
     }
 }

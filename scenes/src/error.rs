@@ -131,6 +131,18 @@ pub enum Error {
     /// The equilibrium of a body that has not recovered cannot be examined.
     #[error("the equilibrium at the end cannot be examined: {0}")]
     Equilibrium(#[from] NewtonError),
+    /// A moment belongs to another body.
+    #[error("the state belongs to another body than {body}")]
+    OtherBody {
+        /// The body that it was to go on with, or the file of its mesh.
+        body: String,
+    },
+    /// No steps lead to such a moment.
+    #[error("the state cannot be resumed: {0}")]
+    Unsound(
+        /// Reason.
+        &'static str,
+    ),
     /// A time step failed.
     #[error("the step to frame {frame} failed: {source}")]
     Step {

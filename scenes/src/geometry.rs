@@ -96,6 +96,35 @@ impl Geometry {
         self.embedding.anchors().get(vertex).copied()
     }
 
+    /// A checksum of everything that steps and pulls depend on: nodes at rest, tetrahedra, groups, triangles
+    /// and where the surface is attached. Names of files and tags of elements are left out.
+    #[must_use]
+    pub fn checksum(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        let mut whole = |numbers: &mut dyn Iterator<Item = u64>| {
+            let mut count: u64 = 0;
+            for number in numbers {
+                sum.update(&number.to_le_bytes());
+                count += 1;
+            }
+            // Where a list ends is part of it.
+            sum.update(&count.to_le_bytes());
+        };
+        let index = |&index: &usize| index as u64;
+        let bits = |x: &f64| x.to_bits();
+        whole(&mut self.mesh.positions.as_flattened().iter().map(bits));
+        whole(&mut self.mesh.tets.as_flattened().iter().map(index));
+        for group in &self.mesh.groups {
+            whole(&mut group.name.bytes().map(u64::from));
+            whole(&mut group.nodes.iter().map(index));
+        }
+        whole(&mut self.triangles.as_flattened().iter().map(|&vertex| u64::from(vertex)));
+        let anchors = self.embedding.anchors();
+        whole(&mut anchors.iter().flat_map(|anchor| &anchor.nodes).map(index));
+        whole(&mut anchors.iter().flat_map(|anchor| &anchor.weights).map(bits));
+        sum.finalize()
+    }
+
     /// Positions of the surface's vertices, m, for these positions of the nodes, m; in the precision of files
     /// and pictures.
     #[must_use]

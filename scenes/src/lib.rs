@@ -13,6 +13,7 @@ pub mod fields;
 pub mod geometry;
 pub mod material;
 pub mod measure;
+pub mod moment;
 pub mod output;
 pub mod play;
 pub mod recovery_trial;

@@ -142,9 +142,14 @@ impl Play {
     /// Makes the next time step, in the rayon pool of the caller.
     ///
     /// # Errors
-    /// [`Error::Step`] or [`Error::Setup`]; the state before the step is then untouched.
+    /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] where no time is left; the state before
+    /// the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let clock = self.clock.next();
+        if !clock.time().is_finite() {
+            let (quantity, value) = ("the time after the step", clock.time());
+            return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
+        }
         let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
         let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
         self.simulation.set_springs(&springs)?;

@@ -22,7 +22,8 @@ pub struct Settings {
     pub scene: &'static Scene,
     /// The body, unless `files` describe another.
     pub body: Body,
-    /// Files of another body.
+    /// Files of another body; they are named where they are read, and nowhere else.
+    #[serde(skip)]
     pub files: Option<Files>,
     /// Positions of the nodes before the first step.
     pub start: Start,
@@ -46,8 +47,7 @@ pub struct Settings {
 }
 
 /// Files of a body.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Files {
     /// Tetrahedra: TetGen where the name ends in `.node` or `.ele`, else Gmsh MSH 4.1 or 2.2 in ASCII.
     pub mesh: PathBuf,
@@ -110,6 +110,12 @@ impl Settings {
         with_newton: newton = Newton;
         /// Replaces the number of threads; 0 for one per core.
         with_threads: threads = usize;
+    }
+
+    /// Name of the body, or that of its mesh's file.
+    #[must_use]
+    pub fn body_name(&self) -> String {
+        self.files.as_ref().map_or(self.body.name.into(), |files| files.mesh.display().to_string())
     }
 
     /// Checks that all values are in range.
