@@ -83,7 +83,8 @@ pub(crate) struct View {
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 
-    /// Continue a saved state, to the last bit; it names its scene and options itself.
+    /// Continue a saved state, to the last bit; it names its scene and options itself, but for the files of
+    /// another body: give --mesh and --surface again.
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     load: Option<PathBuf>,
 
@@ -91,7 +92,7 @@ pub(crate) struct View {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
-    /// Play a recording back, which names its scene and options itself; at its end the page takes over.
+    /// Play a recording back, which names its scene and options like a state; at its end the page takes over.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
 }
@@ -183,17 +184,35 @@ impl View {
     pub(crate) fn options(self) -> Result<Options, Error> {
         let begin = match (&self.load, &self.replay) {
             (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
-            _ if self.choice != Choice::parse_from(["piola"]) => return Err(Error::ScenesOwn),
-            (Some(path), _) => Begin::State(Box::new(State::read(path)?)),
-            (None, Some(path)) => Begin::Replay(Box::new(Recording::read(path)?)),
+            (Some(path), _) => {
+                let files = self.choice.only_files()?;
+                Begin::State(Box::new(State::read(path)?.with_files(files)))
+            }
+            (None, Some(path)) => {
+                let files = self.choice.only_files()?;
+                Begin::Replay(Box::new(Recording::read(path)?.with_files(files)))
+            }
         };
         Ok(Options::new(begin).with_port(self.port).with_save(self.save).with_record(self.record))
     }
 }
 
 impl Choice {
+    /// The files of another body.
+    fn files(&self) -> Option<Files> {
+        self.mesh.clone().map(|mesh| Files { mesh, surface: self.surface.clone() })
+    }
+
+    /// The files of another body, where nothing else may be chosen.
+    fn only_files(self) -> Result<Option<Files>, Error> {
+        let files = self.files();
+        let rest = Self { mesh: None, surface: None, ..self };
+        if rest == Self::parse_from(["piola"]) { Ok(files) } else { Err(Error::ScenesOwn) }
+    }
+
     /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
+        let files = self.files();
         let scene = Scene::find(&self.scene)?;
         let mut settings = Settings::new(scene);
         if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
@@ -212,7 +231,6 @@ impl Choice {
         settings.density = self.density.unwrap_or(settings.density);
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
         settings.dt = self.dt.unwrap_or(settings.dt);
-        let files = self.mesh.map(|mesh| Files { mesh, surface: self.surface });
         Ok(settings
             .with_files(files)
             .with_pins(self.pins)

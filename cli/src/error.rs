@@ -7,6 +7,7 @@ use piola::material::MaterialError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
+use piola_scenes::output::SealError;
 
 /// Why the command ends without success.
 #[derive(Debug, thiserror::Error)]
@@ -30,7 +31,8 @@ pub enum Error {
     },
     /// A file that names its scene is given beside a scene or its options.
     #[error(
-        "the file names its scene and options itself; leave out all but --load or --replay, --port, --save and --record"
+        "the file names its scene and options itself; leave out all but --load or --replay, --mesh and --surface of \
+         its body, --port, --save and --record"
     )]
     ScenesOwn,
     /// The page cannot be served at the port.
@@ -58,7 +60,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
         /// Reason.
-        source: serde_json::Error,
+        source: SealError,
     },
     /// A file is not a recording.
     #[error("{}:{line}: is not a line of a recording: {reason}", path.display())]
@@ -70,12 +72,6 @@ pub enum Error {
         /// Reason.
         reason: String,
     },
-    /// A state cannot be resumed.
-    #[error("the state cannot be resumed: {0}")]
-    Unsound(
-        /// Why.
-        &'static str,
-    ),
     /// There is no state to go back to.
     #[error("no state has been saved yet")]
     NothingSaved,
@@ -161,6 +157,11 @@ impl Error {
                 _ => "",
             }
             .into(),
+            SceneError::OtherBody { .. } => {
+                "; give the mesh that it was saved with by --mesh (and --surface), or none for a body of the \
+                 program"
+                    .into()
+            }
             SceneError::Pin { .. } => "; choose a place with --pin".into(),
             SceneError::Folder { .. } => "; name another one with --out".into(),
             SceneError::Step { .. } => "; nothing was written".into(),

@@ -138,8 +138,8 @@ fn files_of_the_viewer_that_are_none() {
     check(&[], &["view", "--load", "one", "--replay", "other"], &["--load", "--replay"]);
     let state = ("state.json", String::from("{\"format\": \"piola state 0\"}"));
     check(&[state], &["view", "--load", "state.json"], &["state.json", "piola state 0"]);
-    let recording = ("pulls.jsonl", String::from("{\"until\": {\"steps\": 1}}\n{\"until\": {}}\n"));
-    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl:2", "steps"]);
+    let recording = ("pulls.jsonl", String::from("{\"until\": {\"steps\": 1}}\n"));
+    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl:1", "crc32"]);
     let recording = ("pulls.jsonl", String::new());
     check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
     check(&[], &["view", "--port", "65536"], &["65536"]);

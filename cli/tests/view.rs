@@ -15,9 +15,9 @@ use piola_cli::view::session::Session;
 use piola_cli::view::state::State;
 use piola_cli::view::{Begin, Options, Viewer};
 use piola_scenes::measure;
-use piola_scenes::output::Summary;
+use piola_scenes::output::{Sealer, Summary};
 use piola_scenes::scene::Scene;
-use piola_scenes::settings::Settings;
+use piola_scenes::settings::{Files, Settings};
 
 /// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
 const TAIL: usize = 5;
@@ -80,23 +80,36 @@ fn what_is_no_state_is_refused() {
     let check = |change: &dyn Fn(&mut Value), guilty: &str| {
         let mut changed = state.clone();
         change(&mut changed);
-        std::fs::write(&file, changed.to_string()).expect("a scratch file");
+        let sealed = Sealer::new().line(&changed).expect("JSON");
+        std::fs::write(&file, sealed).expect("a scratch file");
         let error = State::read(&file).and_then(Session::resume).expect_err(guilty).to_string();
         assert!(error.contains(guilty), "`{guilty}` is not in: {error}");
     };
-    check(&|state| state["format"] = json!("piola state 2"), "piola state 2");
+    check(&|state| state["format"] = json!("piola state 3"), "piola state 3");
+    check(&|state| state["moment"]["body"] = json!(7), "another body than dinosaur");
+    check(&|state| state["moment"]["settings"]["files"] = json!({ "mesh": "/etc/passwd" }), "files");
     check(&|state| state["colour"] = json!(1), "colour");
-    check(&|state| state["settings"]["scene"] = json!("hrose"), "hrose");
-    check(&|state| state["settings"]["density"] = json!(-1.0), "density");
-    check(&|state| state["clock"]["since_frame"] = json!(7), "clock");
-    check(&|state| state["positions"] = json!([[0.0, 0.0, 0.0]]), "found 1");
+    check(&|state| state["moment"]["settings"]["scene"] = json!("hrose"), "hrose");
+    check(&|state| state["moment"]["settings"]["density"] = json!(-1.0), "density");
+    check(&|state| state["moment"]["clock"]["since_frame"] = json!(7), "clock");
+    check(&|state| state["moment"]["positions"] = json!([[0.0, 0.0, 0.0]]), "found 1");
     let held =
         |vertex: u64, place: f64| json!({ "vertex": vertex, "target": [0, 0, 0], "place": [place, 0, 0] });
     check(&|state| state["pulls"] = json!({ "1": held(1 << 40, 0.0) }), "vertex");
     check(&|state| state["pulls"] = json!({ "1": held(1, 1e9) }), "target");
     check(&|state| state["pulls"] = json!({ u64::MAX.to_string(): held(1, 0.0) }), "too many pulls");
-    std::fs::write(&file, "{").expect("a scratch file");
-    assert!(matches!(State::read(&file), Err(Error::NotState { .. })));
+    for (text, guilty) in [
+        ("{", "EOF"),
+        (
+            r#"{"format":"piola state 1","settings":{}}"#,
+            "the format is `piola state 1`, where `piola state 2` can be read",
+        ),
+        (r#"{"crc32":"00000000","content":{"format":"piola state 3"}}"#, "the checksum is wrong"),
+    ] {
+        std::fs::write(&file, text).expect("a scratch file");
+        let error = State::read(&file).expect_err(text);
+        assert!(matches!(error, Error::NotState { .. }) && error.to_string().contains(guilty), "{error}");
+    }
 }
 
 #[test]
@@ -135,11 +148,14 @@ fn a_recording_gives_the_same_motion_again() {
     assert!(bits(&again) == bits(&session), "the motion was another");
 
     let text = std::fs::read_to_string(&file).expect("a recording");
-    std::fs::write(&file, text.clone() + "{\"act\": {\"steps\"").expect("a scratch file");
-    assert!(Recording::read(&file).is_ok(), "an unfinished line is left out");
-    std::fs::write(&file, text + "{\"until\": {\"steps\": 1}}\n").expect("a scratch file");
+    std::fs::write(&file, text + "{\"crc32\": \"").expect("a scratch file");
+    let error = Recording::read(&file).expect_err("cut off").to_string();
+    assert!(error.contains(":12:") && error.contains("cut off"), "{error}");
+    let mut recorder = Recorder::begin(&file, session.state()).expect("a file");
+    recorder.end(2).expect("a file");
+    recorder.end(1).expect("a file");
     let error = Recording::read(&file).expect_err("back in time").to_string();
-    assert!(error.contains(":12:") && error.contains("back in time"), "{error}");
+    assert!(error.contains(":3:") && error.contains("back in time"), "{error}");
 }
 
 #[test]
@@ -497,4 +513,42 @@ fn a_viewer_records_saves_and_plays_back() {
     let again = State::read(&again).expect("a state");
     let bits = |state: &State| serde_json::to_string(state).expect("JSON");
     assert!(bits(&again) == bits(&state), "the recording was played back in another way");
+}
+
+/// Gmsh text of a unit tetrahedron.
+const TETRAHEDRON: &str = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\
+                           $Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n\
+                           $Elements\n1 1 4 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
+
+#[test]
+fn a_body_from_files_is_given_again() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let (mesh, other) = (folder.path().join("cage.msh"), folder.path().join("other.msh"));
+    std::fs::write(&mesh, TETRAHEDRON).expect("a scratch file");
+    std::fs::write(&other, TETRAHEDRON.replace("0 0 1\n$", "0 0 2\n$")).expect("a scratch file");
+    let files = |mesh: &std::path::Path| Some(Files { mesh: mesh.into(), surface: None });
+    let (state, record) = (folder.path().join("state.json"), folder.path().join("recording.jsonl"));
+    let mut session = Session::new(settings().with_files(files(&mesh))).expect("a scene that plays");
+    Recorder::begin(&record, session.state()).expect("a file");
+    steps(&mut session, 2);
+    session.state().write(&state).expect("a file");
+    for file in [&state, &record] {
+        let text = std::fs::read_to_string(file).expect("a file");
+        assert!(!text.contains("cage.msh"), "{} names the mesh", file.display());
+    }
+
+    let load = |files| Session::resume(State::read(&state).expect("a state").with_files(files));
+    let replay = |files| {
+        let recording = Recording::read(&record).expect("a recording").with_files(files);
+        Session::resume(recording.start().clone())
+    };
+    let mut again = load(files(&mesh)).expect("a state that plays");
+    assert!(bits(&again) == bits(&session));
+    again.apply(&Act::Restore {}).expect("the same body");
+    replay(files(&mesh)).expect("a state that plays");
+    for files in [None, files(&other)] {
+        let error = load(files.clone()).expect_err("another body").to_string();
+        assert!(error.contains("another body"), "{error}");
+        replay(files).expect_err("another body");
+    }
 }

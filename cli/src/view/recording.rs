@@ -1,16 +1,18 @@
 //! Acts on a body in a file, from which the same motion comes again, to the last bit.
 //!
-//! A line of JSON for the state at the start, one for each act with the number of the step before which it
-//! took effect, and now and then one that says how many steps there have been. The last of these is where the
-//! recording ends.
+//! A [sealed](piola_scenes::output::Sealer) line for the state at the start, one for each act with the number
+//! of the step before which it took effect, and now and then one that says how many steps there have been.
+//! The last of these is where the recording ends.
 
 use std::collections::VecDeque;
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola_scenes::error::Error as SceneError;
+use piola_scenes::output::{Sealer, Unsealer};
+use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
@@ -39,6 +41,7 @@ enum Line {
 #[derive(Debug)]
 pub struct Recorder {
     file: File,
+    sealer: Sealer,
     path: PathBuf,
     marked: Instant,
 }
@@ -50,7 +53,7 @@ impl Recorder {
     /// [`Error::Scene`].
     pub fn begin(path: &Path, state: State) -> Result<Self, Error> {
         let file = File::create(path).map_err(|source| SceneError::Write { path: path.into(), source })?;
-        let mut recorder = Self { file, path: path.into(), marked: Instant::now() };
+        let mut recorder = Self { file, sealer: Sealer::new(), path: path.into(), marked: Instant::now() };
         recorder.write(&Line::Start(Box::new(state)))?;
         Ok(recorder)
     }
@@ -84,11 +87,9 @@ impl Recorder {
     }
 
     fn write(&mut self, line: &Line) -> Result<(), Error> {
-        // Numbers and strings: nothing that JSON could not say.
-        let mut text = serde_json::to_vec(line).unwrap_or_default();
-        text.push(b'\n');
-        let failed = |source| SceneError::Write { path: self.path.clone(), source };
-        Ok(self.file.write_all(&text).map_err(failed)?)
+        let text = self.sealer.line(line).map_err(io::Error::from);
+        let written = text.and_then(|text| self.file.write_all(&text));
+        Ok(written.map_err(|source| SceneError::Write { path: self.path.clone(), source })?)
     }
 }
 
@@ -101,19 +102,23 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Reads a recording. A last line without an end, as an interrupted viewer may leave it, is left out.
+    /// Reads a recording. One that ends after any of its lines, as an interrupted viewer leaves it, is whole.
     ///
     /// # Errors
     /// [`Error::Unreadable`] or [`Error::NotRecording`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text =
             fs::read_to_string(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
-        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
         let failure = |line, reason| Error::NotRecording { path: path.into(), line, reason };
+        let mut unsealer = Unsealer::new();
         let mut start = None;
         let (mut acts, mut until) = (VecDeque::new(), 0);
-        for (line, text) in (1..).zip(whole.lines()) {
-            let steps = match serde_json::from_str(text).map_err(|error| failure(line, error.to_string()))? {
+        for (line, text) in (1..).zip(text.split_inclusive('\n')) {
+            if !text.ends_with('\n') {
+                let reason = "the line is cut off; without it, the file can be played up to here";
+                return Err(failure(line, reason.into()));
+            }
+            let steps = match unsealer.line(text).map_err(|error| failure(line, error.to_string()))? {
                 Line::Start(state) if line == 1 => {
                     start = Some(*state);
                     continue;
@@ -132,6 +137,12 @@ impl Recording {
         }
         let start = start.ok_or_else(|| failure(1, "it has no start".into()))?;
         Ok(Self { start, acts, until })
+    }
+
+    /// Takes the body from files, or, with `None`, that of the program.
+    #[must_use]
+    pub fn with_files(self, files: Option<Files>) -> Self {
+        Self { start: self.start.with_files(files), ..self }
     }
 
     /// The state before its first step.

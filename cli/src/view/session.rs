@@ -10,6 +10,7 @@ use piola::step::StepReport;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
+use piola_scenes::moment::Moment;
 use piola_scenes::play::Play;
 use piola_scenes::settings::Settings;
 
@@ -59,25 +60,27 @@ impl Session {
     /// Continues from a saved state, to the last bit.
     ///
     /// # Errors
-    /// Like [`Session::new`], and [`Error::Unsound`] if the state does not fit the body.
+    /// Like [`Session::new`], and [`SceneError::Unsound`] or [`SceneError::OtherBody`] if the state does not
+    /// fit the body.
     pub fn resume(state: State) -> Result<Self, Error> {
-        let mut session = Self::new(state.settings.clone())?;
-        session.go_to(&state)?;
-        session.saved = Some(state);
-        Ok(session)
+        let geometry = Geometry::load(state.moment.settings())?;
+        let play = play_of(&state, &geometry)?;
+        Ok(Self {
+            geometry,
+            settings: state.moment.settings().clone(),
+            material_at_start: state.material_at_start.clone(),
+            play,
+            pulls: state.pulls.clone(),
+            saved: Some(state),
+            steps: 0,
+        })
     }
 
     /// The present state, to be resumed.
     #[must_use]
     pub fn state(&self) -> State {
-        let simulation = self.play.simulation();
-        State::new(
-            self.settings.clone(),
-            self.material_at_start.clone(),
-            self.play.clock(),
-            [simulation.positions(), simulation.velocities()],
-            self.pulls.clone(),
-        )
+        let moment = Moment::of(&self.settings, &self.geometry, &self.play);
+        State::new(moment, self.material_at_start.clone(), self.pulls.clone())
     }
 
     /// The body's shape at rest, and its surface.
@@ -139,7 +142,7 @@ impl Session {
     /// Does what a page asks for, before the next step.
     ///
     /// # Errors
-    /// [`Error::Scene`], [`Error::NothingSaved`] or [`Error::Unsound`]; the state is then as before.
+    /// [`Error::Scene`] or [`Error::NothingSaved`]; the state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
             &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),
@@ -185,7 +188,7 @@ impl Session {
     }
 
     fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), SceneError> {
-        let anchor = self.check(vertex, target)?;
+        let anchor = anchor_for(&self.geometry, vertex, target)?;
         // One that holds already moves on; a new one begins where the vertex is.
         let holds = self.pulls.get(&number).filter(|drag| drag.vertex == vertex).map(|drag| drag.place);
         let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
@@ -195,29 +198,6 @@ impl Session {
         }
         self.pulls.insert(number, Drag { vertex, target, place });
         Ok(())
-    }
-
-    /// The point of the body that a pull holds, if there is that vertex and the target is not out of the
-    /// world.
-    fn check(&self, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
-        let anchor = self.geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
-            quantity: "the vertex of a pull",
-            value: vertex as f64,
-            requirement: "one of the surface",
-        })?;
-        let rest = &self.geometry.mesh;
-        let reach = REACH * rest.bounds().size()[1];
-        let place = anchor.position(&rest.positions);
-        // NaN is not near.
-        let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
-        match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
-            None => Ok(anchor),
-            Some((value, _)) => Err(SceneError::OutOfRange {
-                quantity: "a coordinate of a pull's target",
-                value,
-                requirement: "at most a hundred body heights from where the vertex is at rest",
-            }),
-        }
     }
 
     /// The material of that name, with the parameters that it had at the start, or else typical ones.
@@ -243,23 +223,47 @@ impl Session {
 
     /// Makes the state what it was. All or nothing.
     fn go_to(&mut self, state: &State) -> Result<(), Error> {
-        if !state.clock.is_sound() || state.clock.dt() != state.settings.dt {
-            return Err(Error::Unsound("its clock is wrong"));
-        }
-        let mut play = Play::new(&state.settings, &self.geometry)?;
-        play.resume(state.clock, &state.positions, &state.velocities)?;
-        if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&number| number >= MAX_DRAG) {
-            return Err(Error::Unsound("it has too many pulls"));
-        }
-        for drag in state.pulls.values() {
-            self.check(drag.vertex, drag.target)?;
-            self.check(drag.vertex, drag.place)?;
-        }
+        let play = play_of(state, &self.geometry)?;
         self.play = play;
-        self.settings = state.settings.clone();
+        self.settings = state.moment.settings().clone();
         self.material_at_start = state.material_at_start.clone();
         self.pulls = state.pulls.clone();
         Ok(())
+    }
+}
+
+/// The scene of a state in motion, if all of the state fits the body.
+fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
+    let play = state.moment.resume(geometry)?;
+    if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&number| number >= MAX_DRAG) {
+        return Err(SceneError::Unsound("it has too many pulls").into());
+    }
+    for drag in state.pulls.values() {
+        anchor_for(geometry, drag.vertex, drag.target)?;
+        anchor_for(geometry, drag.vertex, drag.place)?;
+    }
+    Ok(play)
+}
+
+/// The point of the body that a pull holds, if there is that vertex and the target is not out of the world.
+fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
+    let anchor = geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
+        quantity: "the vertex of a pull",
+        value: vertex as f64,
+        requirement: "one of the surface",
+    })?;
+    let rest = &geometry.mesh;
+    let reach = REACH * rest.bounds().size()[1];
+    let place = anchor.position(&rest.positions);
+    // NaN is not near.
+    let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
+    match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
+        None => Ok(anchor),
+        Some((value, _)) => Err(SceneError::OutOfRange {
+            quantity: "a coordinate of a pull's target",
+            value,
+            requirement: "at most a hundred body heights from where the vertex is at rest",
+        }),
     }
 }
 

@@ -4,33 +4,27 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use piola_scenes::clock::Clock;
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::output::write_whole;
-use piola_scenes::settings::Settings;
+use piola_scenes::moment::Moment;
+use piola_scenes::output::{Sealer, Unsealer, write_whole};
+use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
 /// The first field of a file, which names its format and version.
-const FORMAT: &str = "piola state 1";
+const FORMAT: &str = "piola state 2";
 
-/// A state that determines all steps to come, to the last bit. JSON keeps every bit of it.
+/// A state that determines all steps to come, to the last bit, with the pulls of pages at it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     format: Format,
-    /// The scene and its overrides, with material and time step as they are now.
-    pub settings: Settings,
+    /// The scene in motion, with material and time step as they are now.
+    pub moment: Moment,
     /// The material as it was at the start.
-    #[serde(rename = "energy_at_start")]
     pub material_at_start: MaterialSpec,
-    /// Number and time of the last step.
-    pub clock: Clock,
-    /// Position of each node, m.
-    pub positions: Vec<[f64; 3]>,
-    /// Velocity of each node, m/s.
-    pub velocities: Vec<[f64; 3]>,
     /// Pulls with the mouse, by their numbers.
     pub pulls: BTreeMap<u64, Drag>,
 }
@@ -70,15 +64,14 @@ impl TryFrom<String> for Format {
 }
 
 impl State {
-    pub(super) fn new(
-        settings: Settings,
-        material_at_start: MaterialSpec,
-        clock: Clock,
-        [positions, velocities]: [&[[f64; 3]]; 2],
-        pulls: BTreeMap<u64, Drag>,
-    ) -> Self {
-        let (positions, velocities) = (positions.to_vec(), velocities.to_vec());
-        Self { format: Format, settings, material_at_start, clock, positions, velocities, pulls }
+    pub(super) fn new(moment: Moment, material_at_start: MaterialSpec, pulls: BTreeMap<u64, Drag>) -> Self {
+        Self { format: Format, moment, material_at_start, pulls }
+    }
+
+    /// Takes the body from files, or, with `None`, that of the program.
+    #[must_use]
+    pub fn with_files(self, files: Option<Files>) -> Self {
+        Self { moment: self.moment.with_files(files), ..self }
     }
 
     /// Writes the file, which replaces an earlier one of the same name only once it is complete.
@@ -86,9 +79,9 @@ impl State {
     /// # Errors
     /// [`Error::Scene`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        // Numbers and strings: nothing that JSON could not say.
-        let mut text = serde_json::to_vec(self).unwrap_or_default();
-        text.push(b'\n');
+        let failed =
+            |source: serde_json::Error| SceneError::Write { path: path.into(), source: source.into() };
+        let text = Sealer::new().line(self).map_err(failed)?;
         Ok(write_whole(path, &text)?)
     }
 
@@ -97,7 +90,8 @@ impl State {
     /// # Errors
     /// [`Error::Unreadable`] or [`Error::NotState`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = fs::read(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
-        serde_json::from_slice(&text).map_err(|source| Error::NotState { path: path.into(), source })
+        let text =
+            fs::read_to_string(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
+        Unsealer::new().line(&text).map_err(|source| Error::NotState { path: path.into(), source })
     }
 }
