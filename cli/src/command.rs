@@ -6,7 +6,7 @@ use clap::{Parser, Subcommand};
 use piola::Inversion;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::Newton;
-use piola_scenes::run::Output;
+use piola_scenes::run::{Existing, Output};
 use piola_scenes::scene::{Amplitude, Body, SCENES, Scene, Start};
 use piola_scenes::settings::{Files, Settings};
 
@@ -60,9 +60,22 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
 
-    /// Folder for frame_NNNN.ply, frames.png and summary.json [default: out/SCENE].
+    /// Folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE].
+    ///
+    /// A run replaces or removes only files that earlier runs have written, which are listed in
+    /// piola-files.txt there, and an earlier run only by a complete one. The folder is refused if it holds
+    /// other files with names of results. Ctrl-C ends a run with the frames that it has.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Replace files in the folder that no run has written, where they have the names of results.
+    #[arg(long)]
+    force: bool,
+
+    /// Go on with the run in the folder, to the last bit as if it had not been interrupted; needs the options
+    /// that it was begun with, but for --frames and --threads.
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
 
     /// Write the tetrahedra as well, frame_NNNN.vtu with fields and frames.pvd with times, for ParaView.
     #[arg(long)]
@@ -175,7 +188,12 @@ impl Run {
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
         let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
-        Ok((settings, Output::new(folder).with_vtu(self.vtu)))
+        let existing = match (self.force, self.resume) {
+            (_, true) => Existing::Resume,
+            (true, false) => Existing::Replace,
+            (false, false) => Existing::Keep,
+        };
+        Ok((settings, Output::new(folder).with_vtu(self.vtu).with_existing(existing)))
     }
 }
 

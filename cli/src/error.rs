@@ -46,6 +46,12 @@ pub enum Error {
     /// A thread cannot be started.
     #[error("cannot start a thread: {0}")]
     Thread(#[source] io::Error),
+    /// Signals cannot be listened to.
+    #[error("cannot listen to signals: {0}")]
+    Signals(#[source] io::Error),
+    /// Standard output cannot be written to.
+    #[error("cannot write to standard output: {0}")]
+    StandardOutput(#[source] io::Error),
     /// A file cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Unreadable {
@@ -123,9 +129,13 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Thread(_)
+            | Self::Signals(_)
+            | Self::StandardOutput(_)
             | Self::Scene(
                 SceneError::Threads(_)
                 | SceneError::Write { .. }
+                | SceneError::Exchange { .. }
+                | SceneError::Interrupted
                 | SceneError::Equilibrium(_)
                 | SceneError::Step { .. },
             ) => 1,
@@ -154,6 +164,9 @@ impl Error {
                 "the number of frames" => " (--frames)",
                 "the amplitude" => " (--amplitude)",
                 "the number of threads" => " (--threads)",
+                "the number of pins" => " (--pin)",
+                "the stretch where the extension begins" => " (--inversion)",
+                "Young's modulus of the material" => " (--param)",
                 _ => "",
             }
             .into(),
@@ -164,6 +177,25 @@ impl Error {
             }
             SceneError::Pin { .. } => "; choose a place with --pin".into(),
             SceneError::Folder { .. } => "; name another one with --out".into(),
+            SceneError::ForeignFiles { .. } => {
+                "; name another folder with --out, or let the run replace what has the names of its own files \
+                 with --force"
+                    .into()
+            }
+            SceneError::Busy { .. } => ", or name another one with --out".into(),
+            SceneError::NothingToResume { .. } => "; leave out --resume, or name another one with --out".into(),
+            SceneError::Resume { .. } => {
+                "; give the options that it was begun with, or leave out --resume to begin anew".into()
+            }
+            SceneError::StartOutsideDomain { refusal: None, .. } => {
+                "; leave out --inversion refuse, or choose a scene that starts elsewhere".into()
+            }
+            SceneError::StartOutsideDomain { others, .. } => {
+                format!(
+                    "; choose a scene that starts elsewhere, such as `stretch`, or another --material: {}",
+                    others.join(", ")
+                )
+            }
             SceneError::Step { .. } => "; nothing was written".into(),
             _ => String::new(),
         }

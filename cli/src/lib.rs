@@ -10,77 +10,139 @@ pub mod error;
 mod materials;
 mod picture;
 pub mod render;
+mod signals;
 mod value;
 pub mod view;
 
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use piola_scenes::run::run;
+use piola_scenes::error::Error as SceneError;
+use piola_scenes::output::Ended;
+use piola_scenes::run::{Closed, Watch, run};
 
 use command::{Cli, Command, Run, View};
 use error::Error;
-use picture::{PICTURE_FILE, Picture};
+use signals::Signals;
 use view::Viewer;
 
-/// Parses the command line and obeys it; returns the exit status, 2 if the command line makes no sense.
+/// Parses the command line and obeys it; returns the exit status: 2 if the command line makes no sense, 1 if
+/// something failed on the way, and 128 with the number of a signal that has ended a run.
 #[must_use]
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().command {
-        None => play(Run::parse_from(["piola"])),
-        Some(Command::Run(arguments)) => play(*arguments),
-        Some(Command::View(arguments)) => serve(*arguments),
-        Some(Command::Materials) => {
-            say(materials::pages());
-            Ok(())
-        }
-        Some(Command::Curve(curve)) => curve.run().map(say),
-        Some(Command::Fit(fit)) => fit.run().map(say),
-        Some(Command::Check(check)) => check.run().map(say),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
+    let command = match Cli::try_parse() {
+        Ok(Cli { command }) => command.unwrap_or_else(|| Command::Run(Box::new(Run::parse_from(["piola"])))),
         Err(error) => {
-            let _ = writeln!(io::stderr(), "error: {error}{}", error.remedy());
-            ExitCode::from(error.exit_code())
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            return if heard(error.print()).is_ok() { code.into() } else { ExitCode::FAILURE };
         }
-    }
+    };
+    let result = match command {
+        Command::Run(arguments) => play(*arguments),
+        Command::View(arguments) => serve(*arguments).map(|()| ExitCode::SUCCESS),
+        Command::Materials => say(materials::pages()),
+        Command::Curve(curve) => curve.run().and_then(say),
+        Command::Fit(fit) => fit.run().and_then(say),
+        Command::Check(check) => check.run().and_then(say),
+    };
+    result.unwrap_or_else(|error| {
+        warn(format_args!("error: {error}{}", error.remedy()));
+        ExitCode::from(error.exit_code())
+    })
 }
 
-fn play(arguments: Run) -> Result<(), Error> {
+/// Runs a scene; the progress bar goes to standard error, and nowhere if that is no terminal.
+fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
-    // The bar goes to standard error, and nowhere if that is no terminal.
+    let signals = Signals::listen().map_err(Error::Signals)?;
     let bar = ProgressBar::new(settings.frames as u64).with_message(settings.scene.name);
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps") {
         bar.set_style(style);
     }
-    let mut picture = Picture::new(&settings);
-    let result = run(&settings, &output, &mut |snapshot| {
-        bar.set_position(snapshot.frame as u64);
-        picture.add(snapshot);
-    });
+    let result = run(&settings, &output, &mut Progress { bar: &bar, signals: &signals });
     bar.finish_and_clear();
-    let mut finished = result?;
-    let picture = picture.draw(&finished.geometry, &settings);
-    finished.folder.write(PICTURE_FILE, |file| picture.write_png(file).map_err(Into::into))?;
-    finished.folder.publish()?;
-    say(finished.summary);
-    say(format_args!("  surfaces, frames.png and summary.json are in {}", output.folder.display()));
-    Ok(())
+    let mut finished = match (result, signals.exit_code()) {
+        (Err(error @ SceneError::Interrupted), Some(code)) => {
+            warn(format_args!("error: {error}"));
+            return Ok(code.into());
+        }
+        (result, _) => result?,
+    };
+    picture::add(&mut finished, &settings);
+    report(finished.close()?, &output.folder, signals.exit_code())
+}
+
+/// Says what a run has left, and returns the exit status.
+fn report(closed: Closed, wanted: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
+    let Closed { summary, folder, leftovers } = closed;
+    let place = folder.display();
+    say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
+    for warning in &summary.warnings {
+        warn(format_args!("warning: {warning}"));
+    }
+    for leftover in leftovers {
+        let leftover = leftover.display();
+        warn(format_args!(
+            "note: {leftover} holds a run that was cut off; go on with it by --out {leftover} --resume, or delete it"
+        ));
+    }
+    if folder != wanted {
+        warn(format_args!("note: the earlier run in {} is as it was; this one is in {place}", wanted.display()));
+    }
+    let again = format_args!("; the same command with --out {place} --resume goes on from there").to_string();
+    let frames = summary.frames;
+    match summary.ended {
+        Ended::Interrupted => warn(format_args!("interrupted after {frames} steps{again}")),
+        Ended::Failed => warn(format_args!("error: {}{again}", summary.failures.join("; "))),
+        Ended::Finished if summary.failures.is_empty() => return Ok(ExitCode::SUCCESS),
+        Ended::Finished => warn(format_args!("error: {}", summary.failures.join("; "))),
+    }
+    Ok(signal.filter(|_| summary.ended == Ended::Interrupted).map_or(ExitCode::FAILURE, ExitCode::from))
+}
+
+/// Moves the progress bar, and ends the run when a signal has come.
+struct Progress<'a> {
+    bar: &'a ProgressBar,
+    signals: &'a Signals,
+}
+
+impl Watch for Progress<'_> {
+    fn frame(&mut self, frame: usize) {
+        self.bar.set_position(frame as u64);
+    }
+
+    fn stops(&mut self) -> bool {
+        self.signals.exit_code().is_some()
+    }
 }
 
 fn serve(arguments: View) -> Result<(), Error> {
     let viewer = Viewer::start(arguments.options()?)?;
-    say(format_args!("http://{}/ shows the scene; Ctrl-C ends it", viewer.address()));
+    say(format_args!("http://{}/ shows the scene; Ctrl-C ends it", viewer.address()))?;
     viewer.wait();
     Ok(())
 }
 
-/// Writes a text without its last line end, and a line end, to standard output; a reader who has gone away is
-/// no failure.
-fn say(text: impl Display) {
-    let _ = writeln!(io::stdout(), "{}", text.to_string().trim_end_matches('\n'));
+/// Writes a text without its last line end, and a line end, to standard output.
+fn say(text: impl Display) -> Result<ExitCode, Error> {
+    let mut out = io::stdout().lock();
+    let said = writeln!(out, "{}", text.to_string().trim_end_matches('\n')).and_then(|()| out.flush());
+    heard(said).map(|()| ExitCode::SUCCESS).map_err(Error::StandardOutput)
+}
+
+/// Forgives a reader who has gone away: no more was wanted.
+fn heard(said: io::Result<()>) -> io::Result<()> {
+    match said {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        said => said,
+    }
+}
+
+/// Writes a line to standard error, if anybody listens there.
+fn warn(line: impl Display) {
+    let _ = writeln!(io::stderr(), "{line}");
 }

@@ -1,68 +1,43 @@
-//! The frames of a run that its picture shows.
+//! The picture of a run.
 
-use piola_scenes::geometry::Geometry;
-use piola_scenes::measure;
-use piola_scenes::run::Snapshot;
+use std::io;
+
+use piola_scenes::output::PICTURE_FILE;
+use piola_scenes::run::Finished;
 use piola_scenes::settings::Settings;
 
-use crate::render::{Frame, Image, contact_sheet};
-
-/// The contact sheet.
-pub(crate) const PICTURE_FILE: &str = "frames.png";
+use crate::render::{Frame, contact_sheet};
 
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
-/// How many frames are kept in memory to choose the tiles from.
-const CANDIDATES: usize = 400;
 
-/// Frames of a run from which some are chosen at its end.
-pub(crate) struct Picture {
-    dt: f64,
-    last: usize,
-    /// Node positions of the frame before, m.
-    before: Vec<[f64; 3]>,
-    /// Sum over all steps of the mean distance that nodes have moved, m.
-    path: f64,
-    /// Candidates for tiles, and the path up to each. Only the frames that `stride` divides are kept, and the
-    /// last.
-    candidates: Vec<(Frame, f64)>,
-    stride: usize,
+/// Adds the picture to the files of a run.
+pub(crate) fn add(finished: &mut Finished, settings: &Settings) {
+    let frames: io::Result<Vec<Frame>> =
+        tiles(&finished.motion).into_iter().map(|frame| self::frame(finished, frame)).collect();
+    let triangles = finished.geometry.triangles.clone();
+    finished.add(PICTURE_FILE, |file| {
+        contact_sheet(&frames?, &triangles, &settings.body.style).write_png(file).map_err(io::Error::from)
+    });
 }
 
-impl Picture {
-    pub(crate) fn new(settings: &Settings) -> Self {
-        let (dt, last) = (settings.dt, settings.frames);
-        Self { dt, last, before: Vec::new(), path: 0.0, candidates: Vec::new(), stride: 1 }
-    }
-
-    pub(crate) fn add(&mut self, Snapshot { frame, nodes, surface }: Snapshot<'_>) {
-        self.path += measure::mean_distance(&self.before, nodes);
-        self.before.clear();
-        self.before.extend_from_slice(nodes);
-        if frame.is_multiple_of(self.stride) || frame == self.last {
-            let frame = Frame { number: frame, time: frame as f64 * self.dt, vertices: surface.to_vec() };
-            self.candidates.push((frame, self.path));
-        }
-        if self.candidates.len() > CANDIDATES {
-            self.stride *= 2;
-            self.candidates.retain(|(frame, _)| frame.number.is_multiple_of(self.stride));
-        }
-    }
-
-    pub(crate) fn draw(&self, geometry: &Geometry, settings: &Settings) -> Image {
-        // Half of the spacing follows time and half the motion, of which most may happen in few frames.
-        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-        let progress: Vec<_> = self
-            .candidates
-            .iter()
-            .map(|(frame, path)| share(frame.number as f64, self.last as f64) + share(*path, self.path))
-            .collect();
-        let chosen = evenly_spread(&progress, TILES);
-        let tiles: Vec<_> = chosen.into_iter().map(|index| self.candidates[index].0.clone()).collect();
-        contact_sheet(&tiles, &geometry.triangles, &settings.body.style)
-    }
+fn frame(finished: &Finished, number: usize) -> io::Result<Frame> {
+    let vertices = finished.surface_in(number)?;
+    Ok(Frame { number, time: number as f64 * finished.summary.dt, vertices })
 }
 
+/// Numbers of the frames for the tiles, from the mean distance that nodes have moved up to each frame.
+///
+/// Half of the spacing follows time and half the motion, of which most may happen in few frames.
+fn tiles(motion: &[f64]) -> Vec<usize> {
+    let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+    let last = motion.len().saturating_sub(1) as f64;
+    let way = motion.last().copied().unwrap_or_default();
+    let progress: Vec<_> = (0..motion.len())
+        .map(|frame| share(frame as f64, last) + share(motion[frame], way))
+        .collect();
+    evenly_spread(&progress, TILES)
+}
 /// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both
 /// ends among them.
 fn evenly_spread(progress: &[f64], count: usize) -> Vec<usize> {

@@ -65,7 +65,7 @@ pub enum Error {
         source: MaterialError,
     },
     /// A value of the settings is out of range.
-    #[error("{quantity} is {value}; it must be {requirement}")]
+    #[error("{quantity} is {}; it must be {requirement}", plain(*value))]
     OutOfRange {
         /// Name of the quantity, such as "the time step".
         quantity: &'static str,
@@ -73,6 +73,23 @@ pub enum Error {
         value: f64,
         /// Requirement that the value breaks.
         requirement: &'static str,
+    },
+    /// The body starts outside of the domain of its material.
+    #[error(
+        "the scene `{scene}` starts where `{material}` is not defined: its domain is {domain}{}",
+        refusal.as_ref().map(|reason| format!(", and it cannot be extended: {reason}")).unwrap_or_default()
+    )]
+    StartOutsideDomain {
+        /// Name of the scene.
+        scene: &'static str,
+        /// Name of the material.
+        material: &'static str,
+        /// Domain of the material.
+        domain: &'static str,
+        /// Reason why the material cannot be extended beyond its domain; `None` for one that can be.
+        refusal: Option<&'static str>,
+        /// Names of the materials that can start there, with typical parameters.
+        others: Vec<&'static str>,
     },
     /// A pin is neither a group of the mesh nor a box.
     #[error("`{pin}` is neither a group of the mesh (it has {}) nor a box; {source}", list(groups))]
@@ -117,6 +134,63 @@ pub enum Error {
         /// Error of the system.
         source: io::Error,
     },
+    /// The folder holds files with names of results that no run has written.
+    #[error("the folder {} holds files that piola has not written: {}", folder.display(), some(names))]
+    ForeignFiles {
+        /// The folder.
+        folder: PathBuf,
+        /// Names of the files.
+        names: Vec<String>,
+    },
+    /// Something that is no file has the name of a file to be written.
+    #[error("{} is not a regular file, and a file of that name is to be written; move it away", path.display())]
+    InTheWay {
+        /// What is in the way.
+        path: PathBuf,
+    },
+    /// Another run is writing to the folder.
+    #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file that is read would be written, too.
+    #[error("{} is to be read, and the run would write a file of that name", path.display())]
+    InputAsOutput {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The files of an earlier run cannot be replaced.
+    #[error(
+        "the earlier run in {} cannot be replaced and is as it was: {source}; the new one is in {}",
+        folder.display(),
+        kept.display()
+    )]
+    Exchange {
+        /// The folder of the earlier run.
+        folder: PathBuf,
+        /// The folder of the new run.
+        kept: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// There is no run to go on with.
+    #[error("the folder {} holds no run that could go on", folder.display())]
+    NothingToResume {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The run in the folder cannot go on with these settings.
+    #[error("the run in {} cannot go on: {reason}", folder.display())]
+    Resume {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A signal has ended the run before its first step.
+    #[error("the run was interrupted before its first step; nothing was written")]
+    Interrupted,
     /// Threads cannot be started.
     #[error("cannot start threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -144,13 +218,49 @@ pub enum Error {
         &'static str,
     ),
     /// A time step failed.
-    #[error("the step to frame {frame} failed: {source}")]
+    #[error("the step to frame {frame} failed: {}", explained(source))]
     Step {
         /// The frame it would have led to.
         frame: usize,
         /// Error of the solver.
         source: StepError,
     },
+}
+
+/// A failed step in the words of scenes, which have options and no `Inversion`.
+fn explained(error: &StepError) -> String {
+    match error {
+        StepError::Newton(NewtonError::Inadmissible { element, stretches }) => {
+            let [l1, l2, l3] = stretches.map(plain);
+            format!("element {element} is where its material is not defined: its stretches are {l1}, {l2}, {l3}")
+        }
+        StepError::Newton(NewtonError::NotPositive { .. }) => {
+            "the matrix is not positive definite to working precision: elements are too flat for the stretch where the \
+             extension begins, or the time step is too long"
+                .into()
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The first names in backquotes, and how many there are beside them.
+fn some(names: &[String]) -> String {
+    const SHOWN: usize = 4;
+    let shown = list(&names[..names.len().min(SHOWN)]);
+    match names.len().saturating_sub(SHOWN) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+/// A value in as few characters as show all its digits: 0.1, 20000, 1e308.
+#[must_use]
+pub fn plain(value: f64) -> String {
+    const LONG: usize = 10;
+    let digits = value.to_string();
+    if digits.len() <= LONG { return digits }
+    let scientific = format!("{value:e}");
+    if scientific.len() < digits.len() { scientific } else { digits }
 }
 
 /// Names in backquotes with commas, or "none".

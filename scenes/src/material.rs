@@ -97,6 +97,14 @@ impl MaterialSpec {
         self
     }
 
+    /// The stretch below which the material is extended, if one has been chosen.
+    pub(crate) fn extended_below(&self) -> Option<f64> {
+        match self.inversion {
+            Some(StoredInversion::Extend(epsilon)) => Some(epsilon),
+            _ => None,
+        }
+    }
+
     /// The material of a name with its typical parameters in the catalogue.
     ///
     /// # Errors
@@ -258,13 +266,18 @@ pub struct MaterialInfo {
     pub moduli: Moduli,
 }
 
+/// Names of all materials of the catalogue.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    CATALOGUE.iter().map(|entry| entry.name)
+}
+
 /// The entry of a name, in the catalogue's spelling or that of the declaration.
 fn find(material: &str) -> Result<&'static Entry, Error> {
     let matches =
         |entry: &&Entry| same_name(entry.name, material) || same_name(entry.description.name, material);
     CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
         name: material.into(),
-        known: CATALOGUE.iter().map(|entry| entry.name).collect(),
+        known: names().collect(),
     })
 }
 

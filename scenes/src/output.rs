@@ -1,4 +1,4 @@
-//! Files of a run: surfaces and a summary. All or nothing.
+//! Files of a run: surfaces, a summary, and a state from which the run can go on.
 //!
 //! This module knows files only: no bodies, no scenes.
 
@@ -10,9 +10,9 @@ mod vtu;
 mod whole;
 
 pub use folder::Folder;
-pub use ply::write_ply;
+pub use ply::{read_vertices, write_ply};
 pub use sealed::{SealError, Sealer, Unsealer};
-pub use summary::{FinalPlace, FinalState, Newton, Summary, TensileReading};
+pub use summary::{Ended, FinalPlace, FinalState, Newton, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
 pub use whole::write_whole;
 
@@ -31,5 +31,64 @@ pub fn cage_file(frame: usize) -> String {
 /// Name of the file with the times of the tetrahedra's files.
 pub const CAGES_FILE: &str = "frames.pvd";
 
+/// Name of the file with a picture of some frames.
+pub const PICTURE_FILE: &str = "frames.png";
+
+/// Name of the file with the state from which a run can go on.
+pub const STATE_FILE: &str = "state.json";
+
 /// Name of the file with the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
+
+/// Name of a file that keeps room on the disk while a run goes on.
+const RESERVE: &str = ".reserve";
+
+/// Names of the files of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Names {
+    /// Number of the last frame.
+    pub last_frame: usize,
+    /// Whether tetrahedra are written, too.
+    pub vtu: bool,
+}
+
+impl Names {
+    /// Whether the run writes a file of this name.
+    #[must_use]
+    pub fn contain(self, name: &str) -> bool {
+        match frame_number(name) {
+            Some((frame, is_cage)) => frame <= self.last_frame && (self.vtu || !is_cage),
+            None => is_result(name) && (self.vtu || name != CAGES_FILE),
+        }
+    }
+}
+
+/// Whether any run could have written a file of this name.
+fn is_result(name: &str) -> bool {
+    let name = name.strip_suffix(".new").unwrap_or(name);
+    [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE].contains(&name) || is_frame(name)
+}
+
+/// Whether it is a name that [`frame_file`] or [`cage_file`] gives.
+fn is_frame(name: &str) -> bool {
+    frame_number(name).is_some()
+}
+
+/// Number of a frame, and whether the file holds its tetrahedra.
+fn frame_number(name: &str) -> Option<(usize, bool)> {
+    let (digits, extension) = name.strip_prefix("frame_")?.split_once('.')?;
+    // As frame_file writes it: at least four digits, and no zero in front of more.
+    let is_number = digits.bytes().all(|byte| byte.is_ascii_digit())
+        && (digits.len() == 4 || digits.len() > 4 && !digits.starts_with('0'));
+    let is_cage = match extension {
+        "ply" => false,
+        "vtu" => true,
+        _ => return None,
+    };
+    digits.parse().ok().filter(|_| is_number).map(|number| (number, is_cage))
+}
+
+/// Orders names as a run writes the files.
+fn rank(name: &str) -> usize {
+    frame_number(name).map_or(usize::MAX, |(frame, _)| frame)
+}

@@ -1,5 +1,6 @@
 //! A scene in motion.
 
+use piola::batch::TileMaterial;
 use piola::material::Moduli;
 use piola::mesh::Anchor;
 use piola::mesh::{Bounds, TetMesh};
@@ -9,7 +10,7 @@ use piola::system::{Body, Part, Pins};
 use crate::clock::Clock;
 use crate::error::Error;
 use crate::geometry::Geometry;
-use crate::material::Parameters;
+use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::Newton;
 use crate::region;
 use crate::scene::Pull;
@@ -43,14 +44,10 @@ impl Play {
         settings.check()?;
         let mesh = &geometry.mesh;
         let info = settings.material.build()?;
-        let pins = pins(settings, mesh)?;
+        check_young(info.moduli)?;
         let young = info.moduli.young();
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
-        let part = Part { group: None, material: info.elements, density: settings.density };
-        let body = Body::from_parts(mesh, vec![part])?;
-        let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
-        let start = start::positions(settings.start, geometry, &pins);
-        simulation.set_positions(&start)?;
+        let simulation = at_start(settings, geometry, info.elements)?;
         Ok(Self {
             simulation,
             material: info.name,
@@ -60,6 +57,30 @@ impl Play {
             moduli: info.moduli,
             stiffness: stiffness(young, mesh),
             clock: Clock::new(settings.dt),
+        })
+    }
+
+    /// Checks that the material is defined where the body is.
+    ///
+    /// # Errors
+    /// [`Error::StartOutsideDomain`], with the materials that could start there.
+    pub fn check_start(&mut self, settings: &Settings, geometry: &Geometry) -> Result<(), Error> {
+        let has_energy = |simulation: &mut Simulation| simulation.energies().elastic.is_finite();
+        if has_energy(&mut self.simulation) {
+            return Ok(());
+        }
+        let description = settings.material.description()?;
+        let can_start = |name: &&str| {
+            let typical = MaterialSpec::typical(name).and_then(|material| material.build());
+            let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
+            other.is_ok_and(|mut simulation| has_energy(&mut simulation))
+        };
+        Err(Error::StartOutsideDomain {
+            scene: settings.scene.name,
+            material: self.material,
+            domain: description.domain,
+            refusal: description.refusal.filter(|_| !description.extends),
+            others: material::names().filter(can_start).collect(),
         })
     }
 
@@ -158,6 +179,29 @@ impl Play {
         self.clock = clock;
         Ok(report)
     }
+}
+
+/// Checks that forces on bodies of such a material stay in the range of f64, and their squares.
+fn check_young(moduli: Moduli) -> Result<(), Error> {
+    let (quantity, value) = ("Young's modulus of the material", moduli.young());
+    match value {
+        1e-12..=1e21 => Ok(()),
+        _ => Err(Error::OutOfRange { quantity, value, requirement: "from 1e-12 to 1e21 Pa" }),
+    }
+}
+
+/// The body of the settings before the first step.
+fn at_start(
+    settings: &Settings,
+    geometry: &Geometry,
+    material: Box<dyn TileMaterial<f64>>,
+) -> Result<Simulation, Error> {
+    let mesh = &geometry.mesh;
+    let pins = pins(settings, mesh)?;
+    let body = Body::from_parts(mesh, vec![Part { group: None, material, density: settings.density }])?;
+    let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
+    simulation.set_positions(&start::positions(settings.start, geometry, &pins))?;
+    Ok(simulation)
 }
 
 /// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,

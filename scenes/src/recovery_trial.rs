@@ -65,7 +65,7 @@ pub fn continue_trial(mut play: Play, frames: usize, geometry: &Geometry) -> Res
         }
     }
     if outcome.recovered.is_none() {
-        outcome.final_state = Some(find_equilibrium(&mut play, mesh)?);
+        outcome.final_state = Some(find_equilibrium(&mut play, mesh, &mut ())?);
     }
     Ok(outcome)
 }

@@ -1,24 +1,21 @@
 //! A scene played to its end, with files.
 
-use std::path::PathBuf;
-use std::time::{Duration, Instant};
-
-use piola::batch::TileMaterial;
+use std::fs::{self, File};
+use std::io::{self, BufReader, BufWriter};
+use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::fields;
 use crate::geometry::Geometry;
-use crate::measure;
-use crate::output::{CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_file, write_ply, write_pvd};
+use crate::output::{
+    CAGES_FILE, Ended, Folder, Names, SUMMARY_FILE, Summary, cage_file, frame_file, read_vertices, write_pvd,
+};
 use crate::play::Play;
 use crate::settings::Settings;
-use crate::statics::find_equilibrium;
-use crate::tensile_reading::read_specimen;
 
-/// Forces on a body that are together below this share of Young's modulus times the square of its size are
-/// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
-/// still.
-const NO_FORCE: f64 = 1e-11;
+mod course;
+mod progress;
+
+use course::Course;
 
 /// Files that a run leaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,13 +25,28 @@ pub struct Output {
     pub folder: PathBuf,
     /// Whether the tetrahedra are written with [`crate::fields`], too.
     pub vtu: bool,
+    /// Treatment of files that are in the folder already.
+    pub existing: Existing,
+}
+
+/// Treatment of files that are in a folder already.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Existing {
+    /// A complete run replaces an earlier one; files that no run has written are kept, and refused if they have
+    /// the name of a result.
+    #[default]
+    Keep,
+    /// A complete run replaces whatever files have the names of its own.
+    Replace,
+    /// The run in the folder goes on.
+    Resume,
 }
 
 impl Output {
     /// Surfaces and the summary, in a folder.
     #[must_use]
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), vtu: false }
+        Self { folder: folder.into(), vtu: false, existing: Existing::Keep }
     }
 
     /// Writes the tetrahedra as well, or not.
@@ -43,162 +55,128 @@ impl Output {
         self.vtu = vtu;
         self
     }
+
+    /// Chooses the treatment of files that are in the folder already.
+    #[must_use]
+    pub fn with_existing(mut self, existing: Existing) -> Self {
+        self.existing = existing;
+        self
+    }
 }
 
-/// The body in one frame of a run.
-#[derive(Clone, Copy, Debug)]
-pub struct Snapshot<'a> {
-    /// Number of the frame; 0 is the start.
-    pub frame: usize,
-    /// Positions of the nodes, m.
-    pub nodes: &'a [[f64; 3]],
-    /// Positions of the surface's vertices, m.
-    pub surface: &'a [[f32; 3]],
+/// Observer of a run, who may end it.
+pub trait Watch: Send {
+    /// Is called when the files of a frame have been written; 0 is the start.
+    fn frame(&mut self, frame: usize) {
+        let _ = frame;
+    }
+
+    /// Whether the run is to end with the frames that it has. Is asked before each step.
+    fn stops(&mut self) -> bool {
+        false
+    }
 }
 
-/// A run whose files are complete, but not yet in their place.
+/// An observer who does nothing.
+impl Watch for () {}
+
+/// A run whose summary can still be added to.
 #[derive(Debug)]
 pub struct Finished {
     /// Results of the run.
     pub summary: Summary,
-    /// The files: add others, then [publish](Folder::publish) them all.
-    pub folder: Folder,
     /// The body at rest, and its surface.
     pub geometry: Geometry,
+    /// Mean distance that nodes have moved up to each frame, m.
+    pub motion: Vec<f64>,
+    folder: Folder,
+    vtu: bool,
 }
 
-/// Plays a scene to its end, calling `on_frame` at the start and after every time step.
+/// A run whose files are all in their place.
+#[derive(Debug)]
+pub struct Closed {
+    /// Results of the run.
+    pub summary: Summary,
+    /// The folder with its files.
+    pub folder: PathBuf,
+    /// Folders in that of the run which hold runs that were cut off.
+    pub leftovers: Vec<PathBuf>,
+}
+
+/// Plays a scene to its end, or goes on with a run that was cut off.
+///
+/// Whatever ends it after the first step, the frames before are kept with a summary that says what happened.
 ///
 /// # Errors
-/// An error of the settings, the body, the folder, a step or a file. Then nothing is written.
-pub fn run(
-    settings: &Settings,
-    output: &Output,
-    on_frame: &mut dyn FnMut(Snapshot<'_>),
-) -> Result<Finished, Error> {
+/// An error of the settings, the body or the folder, and one of the first step or its files: nothing is written
+/// then. [`Error::Interrupted`] if `watch` stops the run before its first step.
+pub fn run(settings: &Settings, output: &Output, watch: &mut dyn Watch) -> Result<Finished, Error> {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings, &geometry)?;
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
-
-    let cages_of = if output.vtu { Some(settings.material.build()?.elements) } else { None };
-    let folder = Folder::prepare(&output.folder)?;
-    let mut files = Files { geometry: &geometry, folder, min_det_f: f64::INFINITY, cages_of, on_frame };
-    files.frame(0, &play)?;
-    let mesh = &geometry.mesh;
-    let pinned = play.simulation().pinned().len();
-    let start = play.simulation().positions();
-    let inverted_at_start = measure::inverted(&mesh.positions, start, &mesh.tets);
-    let starts_at_rest = measure::distance_from_rest(mesh, start, pinned) <= Summary::RECOVERED;
-    let no_force =
-        NO_FORCE * play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets).powf(2.0 / 3.0);
-    let mut stationary_start = false;
-
-    let mut times = Vec::with_capacity(settings.frames);
-    let mut iterations = 0;
-    let mut energy = 0.0;
-    for frame in 1..=settings.frames {
-        let clock = Instant::now();
-        let report = threads.install(|| play.step());
-        times.push(clock.elapsed());
-        let report = report?;
-        if frame == 1 {
-            stationary_start = !starts_at_rest && report.newton.first_residual <= no_force;
+    let names = Names { last_frame: settings.frames, vtu: output.vtu };
+    refuse_inputs(settings, &output.folder, names)?;
+    let course = match output.existing {
+        Existing::Resume => {
+            let folder = Folder::reopen(&output.folder, names)?;
+            Course::resume(settings, output, geometry, folder)?
         }
-        iterations += report.newton.iterations;
-        energy = report.energies.elastic;
-        files.frame(frame, &play)?;
-    }
-
-    let distance = measure::distance_from_rest(mesh, play.simulation().positions(), pinned);
-    let reading = match settings.scene.gauge {
-        Some(marks) => {
-            let material = settings.material.specimen()?;
-            Some(read_specimen(mesh, play.simulation(), marks, material.as_ref()))
+        existing => {
+            play.check_start(settings, &geometry)?;
+            let folder = Folder::prepare(&output.folder, names, existing == Existing::Replace)?;
+            Course::begin(settings, output, geometry, play, folder)?
         }
-        None => None,
     };
-    let recovered = distance <= Summary::RECOVERED;
-    let mut summary = Summary {
-        scene: settings.scene.name.into(),
-        material: play.material().into(),
-        parameters: play.parameters().clone(),
-        tets: mesh.tets.len(),
-        nodes: mesh.positions.len(),
-        surface_vertices: geometry.surface_vertices(),
-        frames: settings.frames,
-        dt: settings.dt,
-        newton_iterations_mean: iterations as f64 / settings.frames as f64,
-        inverted_at_start,
-        stationary_start,
-        min_det_f: files.min_det_f,
-        max_distance_from_rest: distance,
-        energy,
-        ms_per_step_median: 1e3 * median(&times).as_secs_f64(),
-        steps_per_second: settings.frames as f64 / times.iter().sum::<Duration>().as_secs_f64(),
-        newton: settings.newton,
-        recovered,
-        reading,
-        final_state: None,
+    course.play(watch)
+}
+
+/// Refuses a run that would write over one of the files that it reads.
+fn refuse_inputs(settings: &Settings, folder: &Path, names: Names) -> Result<(), Error> {
+    let Some(files) = &settings.files else { return Ok(()) };
+    let is_output = |path: &Path| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let inside = path.parent().and_then(|parent| real(parent).ok());
+        name.is_some_and(|name| names.contain(name)) && inside.is_some() && inside == real(folder).ok()
     };
-    if !recovered {
-        summary.final_state = Some(threads.install(|| find_equilibrium(&mut play, mesh))?);
+    match [Some(&files.mesh), files.surface.as_ref()].into_iter().flatten().find(|path| is_output(path)) {
+        Some(path) => Err(Error::InputAsOutput { path: path.clone() }),
+        None => Ok(()),
     }
-    let mut folder = files.folder;
-    if output.vtu {
-        let frames = (0..=settings.frames).map(|frame| (frame as f64 * settings.dt, cage_file(frame)));
-        folder.write(CAGES_FILE, |file| write_pvd(file, frames))?;
-    }
-    folder.write(SUMMARY_FILE, |file| summary.write_json(file))?;
-    Ok(Finished { summary, folder, geometry })
 }
 
-/// Writes the files of each frame, and measures it.
-struct Files<'a> {
-    geometry: &'a Geometry,
-    folder: Folder,
-    min_det_f: f64,
-    /// The material where tetrahedra are written, too.
-    cages_of: Option<Box<dyn TileMaterial<f64>>>,
-    on_frame: &'a mut dyn FnMut(Snapshot<'_>),
-}
+impl Finished {
+    /// Positions of the surface in a frame, m, as they were written.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn surface_in(&self, frame: usize) -> io::Result<Vec<[f32; 3]>> {
+        read_vertices(BufReader::new(File::open(self.folder.path().join(frame_file(frame)))?))
+    }
 
-impl Files<'_> {
-    fn frame(&mut self, frame: usize, play: &Play) -> Result<(), Error> {
-        let nodes = play.simulation().positions();
-        let mesh = &self.geometry.mesh;
-        self.min_det_f = self.min_det_f.min(measure::min_det_f(&mesh.positions, nodes, &mesh.tets));
-        let surface = self.geometry.surface_at(nodes);
-        self.folder.write(&frame_file(frame), |file| write_ply(file, &surface, &self.geometry.triangles))?;
-        if let Some(material) = &self.cages_of {
-            let write = |file: &mut _| fields::write(file, play.simulation(), material.as_ref());
-            self.folder.write(&cage_file(frame), write)?;
+    /// Adds a file to the run; one that cannot be written becomes a failure of the run.
+    pub fn add(&mut self, name: &str, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) {
+        if let Err(error) = self.folder.replace(name, content) {
+            self.summary.failures.push(error.to_string());
         }
-        (self.on_frame)(Snapshot { frame, nodes, surface: &surface });
-        Ok(())
     }
-}
 
-/// The median of times; the mean of the two in the middle if their number is even.
-fn median(times: &[Duration]) -> Duration {
-    let mut times = times.to_vec();
-    times.sort_unstable();
-    let middle = times.len() / 2;
-    match times.len() {
-        0 => Duration::ZERO,
-        odd if odd % 2 == 1 => times[middle],
-        _ => (times[middle - 1] + times[middle]) / 2,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn median_of_even_and_odd_counts() {
-        let times = |ms: &[u64]| median(&ms.iter().map(|&ms| Duration::from_millis(ms)).collect::<Vec<_>>());
-        assert_eq!(times(&[9, 1, 5]), Duration::from_millis(5));
-        assert_eq!(times(&[9, 1, 5, 7]), Duration::from_millis(6));
-        assert_eq!(times(&[]), Duration::ZERO);
+    /// Writes the summary, and puts all files in their place.
+    ///
+    /// # Errors
+    /// [`Error::Exchange`] if an earlier run cannot be replaced, and [`Error::Write`] if the summary cannot be
+    /// written. All frames are kept.
+    pub fn close(mut self) -> Result<Closed, Error> {
+        self.folder.release();
+        if self.vtu {
+            let dt = self.summary.dt;
+            let frames = (0..=self.summary.frames).map(|frame| (frame as f64 * dt, cage_file(frame)));
+            self.add(CAGES_FILE, |file| write_pvd(file, frames));
+        }
+        let Self { summary, mut folder, .. } = self;
+        let written = folder.replace(SUMMARY_FILE, |file| summary.write_json(file));
+        let leftovers = folder.leftovers().to_vec();
+        let folder = folder.finish(written.is_ok() && summary.ended == Ended::Finished)?;
+        written.map(|()| Closed { summary, folder, leftovers })
     }
 }

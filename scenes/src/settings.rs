@@ -10,7 +10,9 @@ use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
 
 /// More would take longer to start than any scene to run.
-const MAX_THREADS: usize = 1024;
+const MAX_THREADS: f64 = 1024.0;
+/// Each is looked for among all nodes.
+const MAX_PINS: f64 = 1000.0;
 
 /// Settings of a run: a scene and overrides of its defaults.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -118,26 +120,28 @@ impl Settings {
         self.files.as_ref().map_or(self.body.name.into(), |files| files.mesh.display().to_string())
     }
 
-    /// Checks that all values are in range.
+    /// Checks that all values are in range: a simulation of anything else would say nothing, or never end.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), Error> {
-        let positive = |value: f64| value.is_finite() && value > 0.0;
         let amplitude = match self.start {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
             _ => 0.0,
         };
-        let is_length = amplitude >= 0.0 && amplitude.is_finite();
-        for (is_in_range, quantity, value, requirement) in [
-            (positive(self.dt), "the time step", self.dt, "positive and finite"),
-            (positive(self.density), "the density", self.density, "positive and finite"),
-            (self.gravity.is_finite(), "the gravity", self.gravity, "finite"),
-            (self.frames > 0, "the number of frames", self.frames as f64, "at least 1"),
-            (is_length, "the amplitude", amplitude, "finite and not negative"),
-            (self.threads <= MAX_THREADS, "the number of threads", self.threads as f64, "at most 1024"),
+        let epsilon = self.material.extended_below().unwrap_or(0.5);
+        for (quantity, value, [low, high], requirement) in [
+            ("the time step", self.dt, [1e-12, 1e6], "from 1e-12 to 1e6 s"),
+            ("the density", self.density, [1e-9, 1e15], "from 1e-9 to 1e15 kg/m³"),
+            ("the gravity", self.gravity, [-1e9, 1e9], "from -1e9 to 1e9 m/s²"),
+            ("the number of frames", self.frames as f64, [1.0, 1e6], "from 1 to 1000000"),
+            ("the amplitude", amplitude, [0.0, 1e3], "from 0 to 1000 mean edge lengths"),
+            ("the stretch where the extension begins", epsilon, [1e-6, 1.0], "from 1e-6 to 1, or `refuse`"),
+            ("the number of threads", self.threads as f64, [0.0, MAX_THREADS], "at most 1024"),
+            ("the number of pins", self.pins.len() as f64, [0.0, MAX_PINS], "at most 1000"),
         ] {
-            if !is_in_range {
+            // NaN is in no range.
+            if !(low <= value && value <= high) {
                 return Err(Error::OutOfRange { quantity, value, requirement });
             }
         }

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::measure;
 use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
+use crate::run::Watch;
 
 /// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the
 /// calls before.
@@ -15,15 +16,24 @@ const ITERATIONS: usize = 10;
 
 /// Takes a body without inertia to the equilibrium that it is drawn to, and examines it there.
 ///
+/// Works in the rayon pool of the caller; between calls of statics, `watch` may stop it.
+///
 /// # Errors
-/// [`Error::Equilibrium`] if a force is not finite or memory does not suffice.
-pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh) -> Result<FinalState, Error> {
+/// [`Error::Equilibrium`] if a force is not finite or memory does not suffice, [`Error::Interrupted`].
+pub fn find_equilibrium(
+    play: &mut Play,
+    mesh: &TetMesh,
+    watch: &mut dyn Watch,
+) -> Result<FinalState, Error> {
     let simulation = play.simulation_mut();
     let settings = *simulation.settings();
     let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
     simulation.set_settings(settings.with_newton(newton))?;
     let mut newton_iterations = 0;
     for _ in 0..CALLS {
+        if watch.stops() {
+            return Err(Error::Interrupted);
+        }
         // If statics fails, the body stays where it is and is examined there.
         let Ok(report) = simulation.equilibrate() else { break };
         newton_iterations += report.newton.iterations;

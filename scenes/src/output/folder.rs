@@ -1,4 +1,9 @@
-//! A folder that gets all of a run's files at its end, or none.
+//! A folder with the files of a run, in which nothing of anybody else's is touched.
+//!
+//! Files are written as the run goes on, so that whatever ends it leaves a shorter run. Each is entered in a
+//! list in the folder before it is created: what is not in the list is somebody else's. A folder that holds an
+//! earlier run gets another folder inside it for the new one, which takes the place of the earlier run at the
+//! end, if it is complete; otherwise it stays where it is.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -6,140 +11,371 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// A folder that keeps its files aside, in a hidden folder inside it, until [`publish`](Self::publish) moves
-/// them into place.
-///
-/// Dropped before that, it leaves the target as it found it.
+use super::whole::{new_folder, sync_folder};
+use super::{Names, RESERVE, is_frame, is_result, rank};
+
+mod exchange;
+mod listing;
+
+use exchange::Moves;
+use listing::{LISTING, Listing};
+
+/// Beginning of the name of a folder for a new run beside an earlier one.
+const UNFINISHED: &str = "unfinished-";
+/// Beginning of the name of a folder for the files of an earlier run while they are being replaced.
+const REPLACED: &str = "replaced-";
+/// Room that is kept for the closing files of a run that has filled the disk, in bytes.
+const ROOM: usize = 64 * 1024;
+
+/// A folder that is being filled with the files of a run.
 #[derive(Debug)]
 pub struct Folder {
     target: PathBuf,
-    aside: PathBuf,
-    names: Vec<String>,
+    /// The folder that files are written to: the target, or a folder in it.
+    work: PathBuf,
+    listing: Listing,
+    /// An earlier run in the target.
+    earlier: Option<Earlier>,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
+    leftovers: Vec<PathBuf>,
+}
+
+/// Files in the target that a complete run takes the place of.
+#[derive(Debug)]
+struct Earlier {
+    listing: Listing,
+    /// Files that piola has not written, and that may be replaced nevertheless.
+    given_up: Vec<String>,
 }
 
 impl Folder {
-    /// Prepares a folder for files, creating it if it does not exist.
+    /// Prepares a folder for the files of a run, creating it if it does not exist.
+    ///
+    /// `names` are those of the files to come. Files with such names that no run has written are replaced at
+    /// the end if `force` says so.
     ///
     /// # Errors
-    /// [`Error::Folder`] if files cannot be written there.
-    pub fn prepare(target: &Path) -> Result<Self, Error> {
-        // The process number keeps two runs into one folder apart.
-        let aside = target.join(format!(".unfinished-{}", std::process::id()));
+    /// [`Error::ForeignFiles`] if the folder holds frames or results that no run has written and that may not be
+    /// replaced, [`Error::InTheWay`] if a file to come has the name of something that is no file,
+    /// [`Error::Busy`] if another run writes there, and [`Error::Folder`] if files cannot be written there. The
+    /// folder is then as it was.
+    pub fn prepare(target: &Path, names: Names, force: bool) -> Result<Self, Error> {
         let existed = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
-        let created = target.ancestors().take_while(existed).map(PathBuf::from).collect();
-        let folder = Self { target: target.into(), aside, names: Vec::new(), created };
-        match fs::create_dir_all(&folder.aside) {
-            Ok(()) => Ok(folder),
-            Err(source) => Err(Error::Folder { path: target.into(), source }),
+        let created: Vec<_> = target.ancestors().take_while(existed).map(PathBuf::from).collect();
+        let prepared = Self::prepare_created(target, names, force, created.clone());
+        if prepared.is_err() {
+            remove_folders(&created);
         }
+        prepared
+    }
+
+    fn prepare_created(
+        target: &Path,
+        names: Names,
+        force: bool,
+        created: Vec<PathBuf>,
+    ) -> Result<Self, Error> {
+        let failed = |source| Error::Folder { path: target.into(), source };
+        fs::create_dir_all(target).map_err(failed)?;
+        let listing = Listing::open(target)?;
+        let content = Content::of(target, listing.as_ref(), names)?;
+        if !force && !content.foreign.is_empty() {
+            return Err(Error::ForeignFiles { folder: target.into(), names: content.foreign });
+        }
+        let given_up: Vec<_> = content.foreign.into_iter().filter(|name| names.contain(name)).collect();
+        let is_free = content.frames == 0 && given_up.is_empty();
+        let (work, listing, earlier) = match listing {
+            // A list without files is what is left of a run that wrote none.
+            Some(listing) if is_free => (target.to_owned(), listing, None),
+            None if is_free => (target.to_owned(), Listing::create(target)?, None),
+            listing => {
+                let listing = listing.map_or_else(|| Listing::create(target), Ok)?;
+                let work = new_folder(target, UNFINISHED).map_err(failed)?;
+                (work.clone(), Listing::create(&work)?, Some(Earlier { listing, given_up }))
+            }
+        };
+        let mut folder =
+            Self { target: target.into(), work, listing, earlier, created, leftovers: content.leftovers };
+        if let Err(error) = folder.reserve() {
+            folder.abandon();
+            return Err(error);
+        }
+        Ok(folder)
+    }
+
+    /// Opens the folder of a run, to go on with it.
+    ///
+    /// # Errors
+    /// Like [`Folder::prepare`], and [`Error::NothingToResume`] if the folder holds no run.
+    pub fn reopen(target: &Path, names: Names) -> Result<Self, Error> {
+        let nothing = || Error::NothingToResume { folder: target.into() };
+        if !target.is_dir() {
+            return Err(nothing());
+        }
+        let listing = Listing::open(target)?.ok_or_else(nothing)?;
+        let content = Content::of(target, Some(&listing), names)?;
+        if !content.foreign.is_empty() {
+            return Err(Error::ForeignFiles { folder: target.into(), names: content.foreign });
+        }
+        let (target, leftovers) = (target.to_owned(), content.leftovers);
+        let mut folder =
+            Self { work: target.clone(), target, listing, earlier: None, created: Vec::new(), leftovers };
+        folder.reserve()?;
+        Ok(folder)
+    }
+
+    /// The folder that files are written to.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.work
+    }
+
+    /// Folders in this one that hold runs which were cut off.
+    #[must_use]
+    pub fn leftovers(&self) -> &[PathBuf] {
+        &self.leftovers
+    }
+
+    /// Whether the run has written a file of this name.
+    #[must_use]
+    pub fn contains(&self, name: &str) -> bool {
+        self.listing.contains(name) && self.work.join(name).is_file()
     }
 
     /// Writes one file, which `content` fills.
     ///
     /// # Errors
-    /// [`Error::Write`] if the disk is full or `content` fails.
+    /// [`Error::Write`] if the disk is full, `content` fails, or somebody else has written a file of that name
+    /// meanwhile. There is no such file then but that of somebody else.
     pub fn write(
         &mut self,
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
-        let written = File::create(self.aside.join(name)).and_then(|file| {
-            let mut file = BufWriter::new(file);
-            content(&mut file)?;
-            file.flush()
-        });
-        written.map_err(|source| self.failure(name, source))?;
-        self.names.push(name.into());
-        Ok(())
+        let path = self.work.join(name);
+        if self.listing.contains(name) {
+            // That of a run which goes on.
+            let _ = fs::remove_file(&path);
+        } else {
+            self.listing.add(name)?;
+        }
+        let file = File::options().write(true).create_new(true).open(&path).map_err(|source| {
+            self.listing.withdraw(name);
+            Error::Write { path: path.clone(), source }
+        })?;
+        let mut file = BufWriter::new(file);
+        let written = content(&mut file).and_then(|()| file.flush());
+        written.map_err(|source| {
+            let _ = fs::remove_file(&path);
+            Error::Write { path, source }
+        })
     }
 
-    /// Moves all files into place, over those of an earlier run; frames of an earlier, longer run are
-    /// removed.
+    /// Writes one file, which replaces that of an earlier moment of the run only once it is on the disk.
     ///
     /// # Errors
-    /// [`Error::Write`] if a file of that name cannot be replaced.
-    pub fn publish(mut self) -> Result<(), Error> {
-        for stale in fs::read_dir(&self.target).into_iter().flatten().flatten() {
-            let name = stale.file_name().to_string_lossy().into_owned();
-            if is_frame(&name) && !self.names.contains(&name) {
-                fs::remove_file(stale.path()).map_err(|source| self.failure(&name, source))?;
+    /// Like [`Folder::write`]; the file of an earlier moment stays.
+    pub fn replace(
+        &mut self,
+        name: &str,
+        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        let aside = format!("{name}.new");
+        self.write(&aside, |file| {
+            content(file)?;
+            file.flush()?;
+            file.get_ref().sync_all()
+        })?;
+        let is_own = self.listing.contains(name);
+        self.listing.add(name)?;
+        let [from, to] = [&aside, name].map(|name| self.work.join(name));
+        let moved = if is_own { fs::rename(&from, &to) } else { Moves::default().rename(from, to.clone()) };
+        moved.map_err(|source| Error::Write { path: to, source })
+    }
+
+    /// Ends a run, and returns the folder that holds its files.
+    ///
+    /// A complete run takes the place of an earlier one; one that is not complete leaves the earlier one as it
+    /// is.
+    ///
+    /// # Errors
+    /// [`Error::Exchange`] if the files of the earlier run cannot be replaced. Both runs are then whole, and the
+    /// error says where.
+    pub fn finish(mut self, is_complete: bool) -> Result<PathBuf, Error> {
+        self.release();
+        self.listing.tidy();
+        match self.earlier.take() {
+            Some(earlier) if is_complete => self.take_place(earlier),
+            Some(earlier) => {
+                earlier.leave(&self.target);
+                Ok(self.work)
+            }
+            None => Ok(self.work),
+        }
+    }
+
+    /// Makes room for the closing files of a run that has filled the disk.
+    pub fn release(&mut self) {
+        let _ = fs::remove_file(self.work.join(RESERVE));
+    }
+
+    /// Removes all files of the run, and its folder if that did not exist before.
+    pub fn abandon(self) {
+        for name in self.listing.names() {
+            let _ = fs::remove_file(self.work.join(name));
+        }
+        let _ = fs::remove_file(self.work.join(LISTING));
+        if self.work != self.target {
+            let _ = fs::remove_dir(&self.work);
+        }
+        if let Some(earlier) = self.earlier {
+            earlier.leave(&self.target);
+        }
+        remove_folders(&self.created);
+    }
+
+    fn reserve(&mut self) -> Result<(), Error> {
+        self.write(RESERVE, |file| file.write_all(&[0; ROOM]))
+    }
+
+    /// Moves the files of the earlier run away, the last first, and those of this one into their places, the
+    /// first first: at any moment, the target holds the beginning of one of them.
+    fn take_place(self, mut earlier: Earlier) -> Result<PathBuf, Error> {
+        let Self { target, work, listing, .. } = self;
+        let kept = |source| Error::Exchange { folder: target.clone(), kept: work.clone(), source };
+        let old = earlier.files(&target);
+        let new = sorted(listing.names());
+        let set_up = sync_all(&work, &new).and_then(|()| {
+            for name in &new {
+                nothing_in_the_way(&target.join(name), old.contains(name))?;
+            }
+            new_folder(&target, REPLACED)
+        });
+        let aside = match set_up {
+            Ok(aside) => aside,
+            Err(source) => {
+                earlier.leave(&target);
+                return Err(kept(source));
+            }
+        };
+        let mut moves = Moves::default();
+        let exchanged = (|| -> Result<(), Error> {
+            // Wherever this is cut off, each file is in the list of its folder.
+            let mut replaced = Listing::create(&aside)?;
+            for name in new.iter().chain(&old) {
+                earlier.listing.add(name)?;
+                replaced.add(name)?;
+            }
+            let rename = |moves: &mut Moves, name: &str, [from, to]: [&Path; 2]| {
+                moves.rename(from.join(name), to.join(name)).map_err(kept)
+            };
+            for name in old.iter().rev() {
+                if new.contains(name) {
+                    let permissions = fs::metadata(target.join(name)).map(|old| old.permissions());
+                    permissions.and_then(|old| fs::set_permissions(work.join(name), old)).map_err(kept)?;
+                }
+                rename(&mut moves, name, [&target, &aside])?;
+            }
+            for name in &new {
+                rename(&mut moves, name, [&work, &target])?;
+            }
+            fs::rename(work.join(LISTING), target.join(LISTING)).map_err(kept)
+        })();
+        if exchanged.is_err() {
+            moves.undo();
+            earlier.leave(&target);
+        } else {
+            sync_folder(&target);
+            for name in &old {
+                let _ = fs::remove_file(aside.join(name));
+            }
+            let _ = fs::remove_dir(&work);
+        }
+        let _ = fs::remove_file(aside.join(LISTING));
+        let _ = fs::remove_dir(&aside);
+        exchanged.map(|()| target)
+    }
+}
+
+impl Earlier {
+    /// Leaves the files as they are; a list that was made for files of somebody else goes.
+    fn leave(mut self, target: &Path) {
+        self.listing.tidy();
+        if self.listing.names().next().is_none() {
+            let _ = fs::remove_file(target.join(LISTING));
+        }
+    }
+
+    /// The files that exist, in the order in which a run writes them.
+    fn files(&self, target: &Path) -> Vec<String> {
+        let given_up = self.given_up.iter().map(String::as_str);
+        let names = self.listing.names().chain(given_up);
+        sorted(names.filter(|name| target.join(name).is_file()))
+    }
+}
+
+/// Content of a folder, as far as it concerns a run.
+struct Content {
+    /// Number of frames of an earlier run.
+    frames: usize,
+    /// Files with names that a run gives, and that no run has written.
+    foreign: Vec<String>,
+    /// Folders that hold runs which were cut off.
+    leftovers: Vec<PathBuf>,
+}
+
+impl Content {
+    fn of(folder: &Path, listing: Option<&Listing>, names: Names) -> Result<Self, Error> {
+        let failed = |source| Error::Folder { path: folder.into(), source };
+        let mut content = Self { frames: 0, foreign: Vec::new(), leftovers: Vec::new() };
+        for entry in fs::read_dir(folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            // Names that are not in UTF-8 are nobody's but the user's.
+            let Ok(name) = entry.file_name().into_string() else { continue };
+            let kind = entry.file_type().map_err(failed)?;
+            let is_own = listing.is_some_and(|listing| listing.contains(&name));
+            if is_result(&name) {
+                match (kind.is_file(), is_own) {
+                    (true, true) => content.frames += usize::from(is_frame(&name)),
+                    (true, false) => content.foreign.push(name),
+                    (false, is_own) if is_own || names.contain(&name) => {
+                        return Err(Error::InTheWay { path: entry.path() });
+                    }
+                    (false, _) => {}
+                }
+            } else if kind.is_dir() && [UNFINISHED, REPLACED].iter().any(|prefix| name.starts_with(prefix)) {
+                content.leftovers.extend(Some(entry.path()).filter(|path| path.join(LISTING).is_file()));
             }
         }
-        for name in &self.names {
-            fs::rename(self.aside.join(name), self.target.join(name))
-                .map_err(|source| self.failure(name, source))?;
-        }
-        self.created.clear();
-        Ok(())
-    }
-
-    fn failure(&self, name: &str, source: io::Error) -> Error {
-        Error::Write { path: self.target.join(name), source }
+        content.foreign.sort_unstable();
+        content.leftovers.sort_unstable();
+        Ok(content)
     }
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Nothing more can be done where cleaning up fails: the name of what stays says what it is.
-        let _ = fs::remove_dir_all(&self.aside);
-        for folder in &self.created {
-            let _ = fs::remove_dir(folder);
-        }
+/// Names in the order in which a run writes the files.
+fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut names: Vec<_> = names.map(String::from).collect();
+    names.sort_unstable_by(|one, other| rank(one).cmp(&rank(other)).then_with(|| one.cmp(other)));
+    names
+}
+
+fn sync_all(folder: &Path, names: &[String]) -> io::Result<()> {
+    names.iter().try_for_each(|name| File::open(folder.join(name))?.sync_all())
+}
+
+/// An error if there is a file that is not to be replaced.
+fn nothing_in_the_way(path: &Path, is_replaced: bool) -> io::Result<()> {
+    match is_replaced || fs::symlink_metadata(path).is_err() {
+        true => Ok(()),
+        false => Err(io::Error::other(format!("{} has appeared meanwhile", path.display()))),
     }
 }
 
-/// Whether it is a name that [`frame_file`](super::frame_file) or [`cage_file`](super::cage_file) gives.
-fn is_frame(name: &str) -> bool {
-    let digits =
-        name.strip_prefix("frame_").and_then(|rest| rest.strip_suffix(".ply").or(rest.strip_suffix(".vtu")));
-    digits.is_some_and(|digits| digits.len() >= 4 && digits.bytes().all(|byte| byte.is_ascii_digit()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names(folder: &Path) -> Vec<String> {
-        let mut names: Vec<_> = fs::read_dir(folder)
-            .expect("a folder")
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn nothing_appears_before_everything_is_there() -> Result<(), Box<dyn std::error::Error>> {
-        let scratch = tempfile::tempdir()?;
-        let target = scratch.path().join("a/b");
-        let mut folder = Folder::prepare(&target)?;
-        folder.write("frame_0000.ply", |file| file.write_all(b"new"))?;
-        assert!(!target.join("frame_0000.ply").exists(), "published too early");
-        drop(folder);
-        assert_eq!(names(scratch.path()), [""; 0], "an abandoned run leaves no folder");
-
-        fs::create_dir_all(&target)?;
-        for earlier in
-            ["frame_0000.ply", "frame_0007.ply", "frame_0003.vtu", "frame_of_mind.ply", "notes.txt"]
-        {
-            fs::write(target.join(earlier), "old")?;
-        }
-        let mut folder = Folder::prepare(&target)?;
-        folder.write("frame_0000.ply", |file| file.write_all(b"new"))?;
-        folder.publish()?;
-        assert_eq!(names(&target), ["frame_0000.ply", "frame_of_mind.ply", "notes.txt"]);
-        assert_eq!(fs::read_to_string(target.join("frame_0000.ply"))?, "new");
-        Ok(())
-    }
-
-    #[test]
-    fn a_file_in_the_way_is_an_error() -> Result<(), Box<dyn std::error::Error>> {
-        let scratch = tempfile::NamedTempFile::new()?;
-        let error = Folder::prepare(&scratch.path().join("sub")).err().map(|error| error.to_string());
-        let name = scratch.path().join("sub").display().to_string();
-        assert!(error.as_ref().is_some_and(|error| error.contains(&name)), "{error:?}");
-        Ok(())
+/// Removes folders that are empty.
+fn remove_folders(innermost_first: &[PathBuf]) {
+    for folder in innermost_first {
+        let _ = fs::remove_dir(folder);
     }
 }

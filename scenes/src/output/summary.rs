@@ -6,6 +6,8 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::plain;
+
 /// How far each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -16,6 +18,18 @@ pub enum Newton {
     Single,
     /// Until the residual is small.
     Full,
+}
+
+/// End of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ended {
+    /// All steps have been made.
+    Finished,
+    /// A signal has ended the run before its last step.
+    Interrupted,
+    /// A step has failed, or a file could not be written.
+    Failed,
 }
 
 /// Stretch and stress of an upright specimen in a testing machine.
@@ -116,8 +130,17 @@ pub struct Summary {
     pub nodes: usize,
     /// Number of vertices of the embedded surface.
     pub surface_vertices: usize,
-    /// Number of time steps; frame 0, before the first of them, is not counted.
+    /// Number of time steps that have been made; frame 0, before the first of them, is not counted.
     pub frames: usize,
+    /// Number of time steps that were to be made.
+    pub frames_wanted: usize,
+    /// End of the run.
+    pub ended: Ended,
+    /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
+    /// that could not be examined.
+    pub failures: Vec<String>,
+    /// Properties of the mesh that may not be meant.
+    pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
     /// Newton iterations per step, on average.
@@ -133,10 +156,10 @@ pub struct Summary {
     pub max_distance_from_rest: f64,
     /// Elastic energy of the final frame, J.
     pub energy: f64,
-    /// Median time of a step in the solver, ms.
-    pub ms_per_step_median: f64,
-    /// Steps per second of solver time.
-    pub steps_per_second: f64,
+    /// Median time of a step in the solver, ms; since the last interruption, `None` without a step.
+    pub ms_per_step_median: Option<f64>,
+    /// Steps per second of solver time; since the last interruption, `None` without a step.
+    pub steps_per_second: Option<f64>,
     /// How far each step was solved.
     pub newton: Newton,
     /// Whether the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
@@ -144,8 +167,7 @@ pub struct Summary {
     /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reading: Option<TensileReading>,
-    /// Equilibrium of a body that has not recovered.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Equilibrium of a body that has not recovered at the end of all steps; `None` for others.
     pub final_state: Option<FinalState>,
 }
 
@@ -166,7 +188,7 @@ impl Summary {
 /// A value in five digits.
 fn short(value: f64) -> String {
     let digits = format!("{value:.4e}");
-    digits.parse::<f64>().map_or(digits, |rounded| rounded.to_string())
+    digits.parse().map_or(digits, plain)
 }
 
 impl fmt::Display for Summary {
@@ -184,12 +206,17 @@ impl fmt::Display for Summary {
         if self.stationary_start {
             writeln!(f, "  stationary start: no force acts on the body where it starts, and it stays there")?;
         }
-        writeln!(
-            f,
-            "  {frames} steps of {dt:.4} s, {:.1} a second ({:.2} ms each, {:.2} Newton iterations)",
-            self.steps_per_second, self.ms_per_step_median, self.newton_iterations_mean
-        )?;
-        writeln!(f, "  smallest det F  {:.4}", self.min_det_f)?;
+        write!(f, "  {frames} steps of {} s", short(dt))?;
+        if let (Some(steps), Some(ms)) = (self.steps_per_second, self.ms_per_step_median) {
+            let iterations = self.newton_iterations_mean;
+            write!(f, ", {steps:.1} a second ({ms:.2} ms each, {iterations:.2} Newton iterations)")?;
+        }
+        match self.ended {
+            Ended::Finished => writeln!(f)?,
+            Ended::Interrupted => writeln!(f, "; interrupted, {} were to be made", self.frames_wanted)?,
+            Ended::Failed => writeln!(f, "; failed, {} were to be made", self.frames_wanted)?,
+        }
+        writeln!(f, "  smallest det F  {}", short(self.min_det_f))?;
         writeln!(f, "  elastic energy  {:.3e} J at the end", self.energy)?;
         if let Some(TensileReading { stretch, nominal_stress, uniaxial_stress }) = self.reading {
             writeln!(

@@ -1,22 +1,148 @@
 //! Files that appear whole or not at all.
 
-use std::fs;
-use std::path::Path;
+use std::fs::{self, File, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// Writes a file that replaces an earlier one of the same name only once it is complete.
+/// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk.
+///
+/// A replaced file keeps its permissions, and its owner where the system allows it. A symbolic link stays, and
+/// the file that it leads to is replaced. A device, a pipe or a file descriptor, such as /dev/stdout, is written
+/// into.
 ///
 /// # Errors
-/// [`Error::Write`].
+/// [`Error::Write`]; an earlier file is then as it was.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
-    // The process number keeps two programs with the same file apart.
-    let mut aside = path.as_os_str().to_owned();
-    aside.push(format!(".unfinished-{}", std::process::id()));
-    let written = fs::write(&aside, content).and_then(|()| fs::rename(&aside, path));
-    written.map_err(|source| {
-        // Where this fails too, the name of what stays says what it is.
-        let _ = fs::remove_file(&aside);
-        Error::Write { path: path.into(), source }
-    })
+    write(path, content).map_err(|source| Error::Write { path: path.into(), source })
+}
+
+fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    match fs::canonicalize(path) {
+        Ok(real) => {
+            let earlier = fs::metadata(&real)?;
+            if earlier.is_file() && !is_descriptor(path) {
+                replace(&real, content, Some(&earlier))
+            } else {
+                File::options().write(true).open(path)?.write_all(content)
+            }
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        // A link to a file that does not exist yet; what is begun through it can only be finished through it.
+        Err(_) if path.is_symlink() => {
+            let mut file = File::create(path)?;
+            file.write_all(content)?;
+            file.sync_all()
+        }
+        Err(_) => replace(path, content, None),
+    }
+}
+
+/// Whether a path leads to something that is open already: another file in its place would reach nobody.
+fn is_descriptor(path: &Path) -> bool {
+    path.starts_with("/dev") || path.starts_with("/proc")
+}
+
+/// Writes a file beside its place, and moves it there.
+fn replace(path: &Path, content: &[u8], earlier: Option<&Metadata>) -> io::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut aside = new_file().tempfile_in(folder)?;
+    if let Some(earlier) = earlier {
+        keep_owner(aside.path(), earlier);
+        aside.as_file().set_permissions(earlier.permissions())?;
+    }
+    aside.write_all(content)?;
+    aside.as_file().sync_all()?;
+    aside.persist(path)?;
+    sync_folder(folder);
+    Ok(())
+}
+
+/// Temporary files with the permissions that new files have.
+fn new_file() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".piola-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
+}
+
+/// Gives a file the owner of an earlier one; only root can, and everybody else is the owner in most cases.
+#[cfg_attr(not(unix), expect(unused_variables, reason = "files have no numeric owners there"))]
+fn keep_owner(path: &Path, earlier: &Metadata) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, chown};
+        let _ = chown(path, Some(earlier.uid()), Some(earlier.gid()));
+    }
+}
+
+/// Makes the names in a folder as durable as the files; systems that cannot do so do it in their own time.
+pub(super) fn sync_folder(folder: &Path) {
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+}
+
+/// A new folder in another one, with a name that nobody else has.
+pub(super) fn new_folder(inside: &Path, prefix: &str) -> io::Result<PathBuf> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(prefix);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    Ok(builder.tempdir_in(inside)?.keep())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type TestResult = Result<(), Box<dyn std::error::Error>>;
+
+    #[test]
+    fn a_file_is_replaced_and_nothing_is_left_beside_it() -> TestResult {
+        let scratch = tempfile::tempdir()?;
+        let path = scratch.path().join("map.svg");
+        for content in ["one", "another"] {
+            write_whole(&path, content.as_bytes())?;
+            assert_eq!(fs::read_to_string(&path)?, content);
+        }
+        assert_eq!(fs::read_dir(scratch.path())?.count(), 1);
+        assert!(write_whole(&scratch.path().join("no/map.svg"), b"").is_err());
+        assert!(write_whole(scratch.path(), b"").is_err(), "a folder");
+        Ok(())
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_and_links_stay_and_pipes_are_written_into() -> TestResult {
+        use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+
+        let scratch = tempfile::tempdir()?;
+        let [file, link, hanging, pipe] = ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
+        fs::write(&file, "old")?;
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
+        symlink("file", &link)?;
+        write_whole(&link, b"new")?;
+        assert_eq!(fs::read_to_string(&file)?, "new");
+        assert_eq!(fs::metadata(&file)?.permissions().mode() & 0o777, 0o600);
+        assert!(link.is_symlink());
+
+        symlink("made", &hanging)?;
+        write_whole(&hanging, b"first")?;
+        assert_eq!(fs::read_to_string(scratch.path().join("made"))?, "first");
+        assert!(hanging.is_symlink());
+
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status()?.success());
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read_to_string(pipe)
+        });
+        write_whole(&pipe, b"through")?;
+        assert_eq!(reader.join().expect("a reader that ends")?, "through");
+        assert!(fs::symlink_metadata(&pipe)?.file_type().is_fifo());
+        Ok(())
+    }
 }

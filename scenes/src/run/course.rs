@@ -1,0 +1,284 @@
+//! A run from frame to frame.
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::time::{Duration, Instant};
+
+use piola::batch::TileMaterial;
+use piola::step::StepReport;
+use rayon::ThreadPool;
+
+use super::progress::{MAX_LENGTH, Pace, Progress, Saved};
+use super::{Finished, Output, Watch};
+use crate::error::Error;
+use crate::fields;
+use crate::geometry::Geometry;
+use crate::measure;
+use crate::moment::Moment;
+use crate::output::{Ended, FinalState, Folder, STATE_FILE, Summary, cage_file, frame_file, write_ply};
+use crate::play::Play;
+use crate::settings::Settings;
+use crate::statics::find_equilibrium;
+use crate::tensile_reading::read_specimen;
+
+/// Forces on a body that are together below this share of Young's modulus times the square of its size are
+/// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
+/// still.
+const NO_FORCE: f64 = 1e-11;
+
+/// A run between its first frame and its last.
+pub(super) struct Course<'a> {
+    settings: &'a Settings,
+    geometry: Geometry,
+    play: Play,
+    threads: ThreadPool,
+    folder: Folder,
+    /// The material where tetrahedra are written, too.
+    cages_of: Option<Box<dyn TileMaterial<f64>>>,
+    progress: Progress,
+    /// Positions of the nodes in the last frame that was written, m.
+    positions: Vec<[f64; 3]>,
+    /// Times of the steps since the run has begun or gone on.
+    times: Vec<Duration>,
+    failures: Vec<String>,
+}
+
+impl<'a> Course<'a> {
+    /// A run that begins, with its frame 0.
+    pub(super) fn begin(
+        settings: &'a Settings,
+        output: &Output,
+        geometry: Geometry,
+        play: Play,
+        folder: Folder,
+    ) -> Result<Self, Error> {
+        let mesh = &geometry.mesh;
+        let simulation = play.simulation();
+        let start = simulation.positions();
+        let starts_at_rest =
+            measure::distance_from_rest(mesh, start, simulation.pinned().len()) <= Summary::RECOVERED;
+        let progress = Progress {
+            inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
+            // Until the forces of the first step are known.
+            stationary_start: !starts_at_rest,
+            min_det_f: f64::INFINITY,
+            newton_iterations: 0,
+            energy: 0.0,
+            motion: Vec::new(),
+        };
+        let mut course = Self::new(settings, output, geometry, play, folder, progress)?;
+        match course.write_frame(0) {
+            Ok(()) => Ok(course),
+            Err(error) => Err(course.abandon(error)),
+        }
+    }
+
+    /// A run that goes on from its last state.
+    pub(super) fn resume(
+        settings: &'a Settings,
+        output: &Output,
+        geometry: Geometry,
+        folder: Folder,
+    ) -> Result<Self, Error> {
+        let refused = |reason| Error::Resume { folder: output.folder.clone(), reason };
+        let path = folder.path().join(STATE_FILE);
+        let mut text = String::new();
+        let read = File::open(&path).and_then(|file| file.take(MAX_LENGTH).read_to_string(&mut text));
+        read.map_err(|_| Error::NothingToResume { folder: output.folder.clone() })?;
+        let saved = Saved::read(text.trim_end_matches('\n'), settings, output.vtu).map_err(refused)?;
+        let play = saved.moment.resume(&geometry)?;
+        for frame in 0..=play.clock().frame() {
+            if !folder.contains(&frame_file(frame)) {
+                return Err(refused(format!("{} is missing", frame_file(frame))));
+            }
+        }
+        Self::new(settings, output, geometry, play, folder, saved.progress)
+    }
+
+    fn new(
+        settings: &'a Settings,
+        output: &Output,
+        geometry: Geometry,
+        play: Play,
+        folder: Folder,
+        progress: Progress,
+    ) -> Result<Self, Error> {
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
+        let material = if output.vtu { Some(settings.material.build()?) } else { None };
+        Ok(Self {
+            settings,
+            positions: play.simulation().positions().to_vec(),
+            geometry,
+            play,
+            threads,
+            folder,
+            cages_of: material.map(|material| material.elements),
+            progress,
+            times: Vec::new(),
+            failures: Vec::new(),
+        })
+    }
+
+    /// Plays the scene to its end.
+    pub(super) fn play(mut self, watch: &mut dyn Watch) -> Result<Finished, Error> {
+        let mut ended = Ended::Finished;
+        let mut pace = Pace::new();
+        let first = self.play.clock().frame() + 1;
+        watch.frame(first - 1);
+        for frame in first..=self.settings.frames {
+            let made = if watch.stops() { Err(Error::Interrupted) } else { self.step(frame, &mut pace) };
+            match made {
+                Ok(()) => watch.frame(frame),
+                Err(error) if frame == 1 => return Err(self.abandon(error)),
+                Err(Error::Interrupted) => {
+                    ended = Ended::Interrupted;
+                    break;
+                }
+                Err(error) => {
+                    self.failures.push(error.to_string());
+                    ended = Ended::Failed;
+                    break;
+                }
+            }
+        }
+        // Where a file could not be written, the state of an earlier frame stays.
+        if self.play.clock().frame() + 1 == self.progress.motion.len() {
+            self.save_state().unwrap_or_else(|error| self.failures.push(error.to_string()));
+        }
+        Ok(self.finish(ended, watch))
+    }
+
+    /// Makes a step and writes its files.
+    fn step(&mut self, frame: usize, pace: &mut Pace) -> Result<(), Error> {
+        let clock = Instant::now();
+        let report = self.threads.install(|| self.play.step())?;
+        self.times.push(clock.elapsed());
+        self.write_frame(frame)?;
+        self.note(frame, &report);
+        if pace.is_due() {
+            let since = Instant::now();
+            self.save_state()?;
+            pace.written(since);
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, frame: usize, report: &StepReport) {
+        if frame == 1 {
+            let mesh = &self.geometry.mesh;
+            let size = measure::total_volume(&mesh.positions, &mesh.tets).cbrt();
+            let no_force = NO_FORCE * self.play.moduli().young() * size * size;
+            self.progress.stationary_start &= report.newton.first_residual <= no_force;
+        }
+        self.progress.step(report);
+    }
+
+    fn write_frame(&mut self, frame: usize) -> Result<(), Error> {
+        let simulation = self.play.simulation();
+        let (nodes, mesh) = (simulation.positions(), &self.geometry.mesh);
+        let surface = self.geometry.surface_at(nodes);
+        let triangles = &self.geometry.triangles;
+        self.folder.write(&frame_file(frame), |file| write_ply(file, &surface, triangles))?;
+        if let Some(material) = &self.cages_of {
+            self.folder.write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
+        }
+        let distance = measure::mean_distance(&self.positions, nodes);
+        self.progress.frame(distance, measure::min_det_f(&mesh.positions, nodes, &mesh.tets));
+        self.positions.copy_from_slice(nodes);
+        Ok(())
+    }
+
+    fn save_state(&mut self) -> Result<(), Error> {
+        let moment = Moment::of(self.settings, &self.geometry, &self.play);
+        let saved = Saved::new(self.cages_of.is_some(), moment, self.progress.clone());
+        self.folder.replace(STATE_FILE, |file| file.write_all(&saved.to_line()?))
+    }
+
+    /// Leaves nothing of a run that has made no step.
+    fn abandon(self, error: Error) -> Error {
+        self.folder.abandon();
+        error
+    }
+
+    fn finish(mut self, mut ended: Ended, watch: &mut dyn Watch) -> Finished {
+        let pinned = self.play.simulation().pinned().len();
+        let distance = measure::distance_from_rest(&self.geometry.mesh, &self.positions, pinned);
+        let recovered = distance <= Summary::RECOVERED;
+        let reading = self.settings.scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
+            let material = self.settings.material.specimen();
+            let material = material.map_err(|error| self.failures.push(error.to_string())).ok()?;
+            Some(read_specimen(&self.geometry.mesh, self.play.simulation(), marks, material.as_ref()))
+        });
+        let final_state = match ended {
+            Ended::Finished if !recovered => self.examine(watch).unwrap_or_else(|error| {
+                match error {
+                    Error::Interrupted => ended = Ended::Interrupted,
+                    error => self.failures.push(error.to_string()),
+                }
+                None
+            }),
+            _ => None,
+        };
+        let frames = self.progress.motion.len() - 1;
+        let total: Duration = self.times.iter().sum();
+        let Self { settings, geometry, play, folder, progress, .. } = self;
+        let summary = Summary {
+            scene: settings.scene.name.into(),
+            material: play.material().into(),
+            parameters: play.parameters().clone(),
+            tets: geometry.mesh.tets.len(),
+            nodes: geometry.mesh.positions.len(),
+            surface_vertices: geometry.surface_vertices(),
+            frames,
+            frames_wanted: settings.frames,
+            ended,
+            failures: self.failures,
+            warnings: Vec::new(),
+            dt: settings.dt,
+            newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
+            inverted_at_start: progress.inverted_at_start,
+            stationary_start: progress.stationary_start,
+            min_det_f: progress.min_det_f,
+            max_distance_from_rest: distance,
+            energy: progress.energy,
+            ms_per_step_median: median(&self.times).map(|time| 1e3 * time.as_secs_f64()),
+            steps_per_second: (!self.times.is_empty()).then(|| self.times.len() as f64 / total.as_secs_f64()),
+            newton: settings.newton,
+            recovered,
+            reading,
+            final_state,
+        };
+        Finished { summary, geometry, motion: progress.motion, folder, vtu: self.cages_of.is_some() }
+    }
+
+    /// The equilibrium that the body is drawn to.
+    fn examine(&mut self, watch: &mut dyn Watch) -> Result<Option<FinalState>, Error> {
+        let Self { play, geometry, threads, .. } = self;
+        threads.install(|| find_equilibrium(play, &geometry.mesh, watch)).map(Some)
+    }
+}
+
+/// The median of times; the mean of the two in the middle if their number is even.
+fn median(times: &[Duration]) -> Option<Duration> {
+    let mut times = times.to_vec();
+    times.sort_unstable();
+    let middle = times.len() / 2;
+    match times.len() {
+        0 => None,
+        odd if odd % 2 == 1 => Some(times[middle]),
+        _ => Some((times[middle - 1] + times[middle]) / 2),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn median_of_even_and_odd_counts() {
+        let times = |ms: &[u64]| median(&ms.iter().map(|&ms| Duration::from_millis(ms)).collect::<Vec<_>>());
+        assert_eq!(times(&[9, 1, 5]), Some(Duration::from_millis(5)));
+        assert_eq!(times(&[9, 1, 5, 7]), Some(Duration::from_millis(6)));
+        assert_eq!(times(&[]), None);
+    }
+}

@@ -1,0 +1,134 @@
+//! Figures of a run so far, and the state from which it goes on.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use piola::step::StepReport;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::error::{Error, plain};
+use crate::measure;
+use crate::moment::Moment;
+use crate::output::{Sealer, Unsealer};
+use crate::settings::Settings;
+
+/// Time between states on the disk, at least: so much of a run that is killed must be computed again.
+const PAUSE: Duration = Duration::from_secs(1);
+/// Time between states on the disk, as a multiple of the time that it takes to write one.
+const SHARE: u32 = 20;
+/// A longer file is no state of a run, in bytes.
+pub(super) const MAX_LENGTH: u64 = 1 << 32;
+
+/// Figures of a run so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Progress {
+    pub(super) inverted_at_start: usize,
+    pub(super) stationary_start: bool,
+    pub(super) min_det_f: f64,
+    pub(super) newton_iterations: usize,
+    /// Elastic energy in the last frame, J.
+    pub(super) energy: f64,
+    /// Mean distance that nodes have moved up to each frame, m.
+    pub(super) motion: Vec<f64>,
+}
+
+impl Progress {
+    /// Figures of a frame: the mean distance that nodes have moved since the one before, and the smallest
+    /// det F.
+    pub(super) fn frame(&mut self, distance: f64, min_det_f: f64) {
+        self.motion.push(self.motion.last().unwrap_or(&0.0) + distance);
+        self.min_det_f = self.min_det_f.min(min_det_f);
+    }
+
+    pub(super) fn step(&mut self, report: &StepReport) {
+        self.newton_iterations += report.newton.iterations;
+        self.energy = report.energies.elastic;
+    }
+}
+
+/// A state of a run, from which it goes on as if it had not been interrupted.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Saved {
+    format: Format,
+    pub(super) vtu: bool,
+    pub(super) moment: Moment,
+    pub(super) progress: Progress,
+}
+
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+enum Format {
+    #[serde(rename = "piola run 1")]
+    One,
+}
+
+impl Saved {
+    pub(super) fn new(vtu: bool, moment: Moment, progress: Progress) -> Self {
+        Self { format: Format::One, vtu, moment, progress }
+    }
+
+    /// The state as one line with a checksum.
+    pub(super) fn to_line(&self) -> std::io::Result<Vec<u8>> {
+        Ok(Sealer::new().line(self)?)
+    }
+
+    /// Reads a state, and checks that a run with these settings can go on from it.
+    pub(super) fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Self, String> {
+        let saved: Self = Unsealer::new().line(text).map_err(|error| format!("its state cannot be read: {error}"))?;
+        let frame = saved.moment.clock().frame();
+        let motion = &saved.progress.motion;
+        if motion.len() != frame + 1 || !motion.iter().all(|way| way.is_finite()) {
+            return Err("its state names other frames than it has".into());
+        }
+        if saved.vtu != vtu {
+            let option = if vtu { "without" } else { "with" };
+            return Err(format!("it was begun {option} --vtu"));
+        }
+        if frame > settings.frames {
+            return Err(format!("it has {frame} frames already, and {} are wanted", settings.frames));
+        }
+        match difference(saved.moment.settings(), settings) {
+            Some(difference) => Err(difference),
+            None => Ok(saved),
+        }
+    }
+}
+
+/// The first setting in which two runs differ, apart from the number of frames and threads, which change no bit
+/// of a frame.
+fn difference(before: &Settings, now: &Settings) -> Option<String> {
+    let values = |settings: &Settings| match serde_json::to_value(settings) {
+        Ok(Value::Object(values)) => values,
+        _ => serde_json::Map::new(),
+    };
+    let (before, now) = (values(before), values(now));
+    let differs = |name: &&String| !["frames", "threads"].contains(&name.as_str()) && before.get(*name) != now.get(*name);
+    let name = now.keys().find(differs)?;
+    let text = |values: &serde_json::Map<String, Value>| values.get(name).map(Value::to_string).unwrap_or_default();
+    Some(format!("its setting `{name}` was {}, and is {} now", text(&before), text(&now)))
+}
+
+/// When the next state is to be written.
+#[derive(Debug)]
+pub(super) struct Pace {
+    last: Instant,
+    took: Duration,
+}
+
+impl Pace {
+    pub(super) fn new() -> Self {
+        Self { last: Instant::now(), took: Duration::ZERO }
+    }
+
+    pub(super) fn is_due(&self) -> bool {
+        self.last.elapsed() >= PAUSE.max(SHARE * self.took)
+    }
+
+    /// Notes that a state has been written, since a moment.
+    pub(super) fn written(&mut self, since: Instant) {
+        self.took = since.elapsed();
+        self.last = Instant::now();
+    }
+}
