@@ -91,7 +91,10 @@ fn report(closed: Closed, wanted: &Path, signal: Option<u8>) -> Result<ExitCode,
         ));
     }
     if folder != wanted {
-        warn(format_args!("note: the earlier run in {} is as it was; this one is in {place}", wanted.display()));
+        warn(format_args!(
+            "note: the earlier run in {} is as it was; this one is in {place}",
+            wanted.display()
+        ));
     }
     let again = format_args!("; the same command with --out {place} --resume goes on from there").to_string();
     let frames = summary.frames;

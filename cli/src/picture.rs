@@ -33,9 +33,8 @@ fn tiles(motion: &[f64]) -> Vec<usize> {
     let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
     let last = motion.len().saturating_sub(1) as f64;
     let way = motion.last().copied().unwrap_or_default();
-    let progress: Vec<_> = (0..motion.len())
-        .map(|frame| share(frame as f64, last) + share(motion[frame], way))
-        .collect();
+    let progress: Vec<_> =
+        (0..motion.len()).map(|frame| share(frame as f64, last) + share(motion[frame], way)).collect();
     evenly_spread(&progress, TILES)
 }
 /// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 22] = [
     "scene",
     "material",
     "parameters",
@@ -14,6 +14,10 @@ const KEYS: [&str; 18] = [
     "nodes",
     "surface_vertices",
     "frames",
+    "frames_wanted",
+    "ended",
+    "failures",
+    "warnings",
     "dt",
     "newton_iterations_mean",
     "inverted_at_start",
@@ -52,23 +56,23 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     let object = summary.as_object().expect("an object");
     // A body that is not back is looked at.
-    let is_examined = object["recovered"] == false;
-    assert_eq!(object.contains_key("final_state"), is_examined, "{text}");
-    assert_eq!(object.len(), KEYS.len() + more.len() + usize::from(is_examined), "{text}");
+    assert_eq!(object["final_state"].is_null(), object["recovered"] == true, "{text}");
+    assert_eq!(object.len(), KEYS.len() + more.len() + 1, "{text}");
     for key in KEYS.iter().chain(more) {
         // What is not finite would be null.
         assert!(object.get(*key).is_some_and(|value| !value.is_null()), "`{key}` in {text}");
     }
     assert_eq!(object["scene"], scene);
-    assert_eq!(object["frames"], frames);
+    assert_eq!((&object["frames"], &object["frames_wanted"]), (&frames.into(), &frames.into()));
+    assert_eq!((&object["ended"], &object["failures"]), (&"finished".into(), &Value::Array(vec![])));
     let picture = fs::read(out.join("frames.png")).expect("a picture");
     assert!(picture.starts_with(b"\x89PNG") && picture.len() > 20_000, "{} bytes", picture.len());
     for frame in 0..=frames {
         let surface = fs::read(out.join(format!("frame_{frame:04}.ply"))).expect("a surface");
         assert!(surface.starts_with(b"ply\n"));
     }
-    // Surfaces, picture and summary, and nothing else.
-    assert_eq!(fs::read_dir(&out).expect("a folder").count() as u64, frames + 1 + 2);
+    // Surfaces, picture, summary, state and the list of files, and nothing else.
+    assert_eq!(fs::read_dir(&out).expect("a folder").count() as u64, frames + 1 + 4);
     summary
 }
 

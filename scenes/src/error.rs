@@ -258,7 +258,9 @@ fn some(names: &[String]) -> String {
 pub fn plain(value: f64) -> String {
     const LONG: usize = 10;
     let digits = value.to_string();
-    if digits.len() <= LONG { return digits }
+    if digits.len() <= LONG {
+        return digits;
+    }
     let scientific = format!("{value:e}");
     if scientific.len() < digits.len() { scientific } else { digits }
 }

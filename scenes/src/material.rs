@@ -275,10 +275,10 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
 fn find(material: &str) -> Result<&'static Entry, Error> {
     let matches =
         |entry: &&Entry| same_name(entry.name, material) || same_name(entry.description.name, material);
-    CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
-        name: material.into(),
-        known: names().collect(),
-    })
+    CATALOGUE
+        .iter()
+        .find(matches)
+        .ok_or_else(|| Error::UnknownMaterial { name: material.into(), known: names().collect() })
 }
 
 /// Whether two names agree in letters and digits, ignoring case.

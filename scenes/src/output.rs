@@ -43,6 +43,9 @@ pub const SUMMARY_FILE: &str = "summary.json";
 /// Name of a file that keeps room on the disk while a run goes on.
 const RESERVE: &str = ".reserve";
 
+/// Name of a file that is being written.
+const PARTIAL: &str = ".partial";
+
 /// Names of the files of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Names {
@@ -65,8 +68,7 @@ impl Names {
 
 /// Whether any run could have written a file of this name.
 fn is_result(name: &str) -> bool {
-    let name = name.strip_suffix(".new").unwrap_or(name);
-    [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE].contains(&name) || is_frame(name)
+    [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE, PARTIAL].contains(&name) || is_frame(name)
 }
 
 /// Whether it is a name that [`frame_file`] or [`cage_file`] gives.

@@ -135,7 +135,8 @@ fn refuse_inputs(settings: &Settings, folder: &Path, names: Names) -> Result<(),
     let Some(files) = &settings.files else { return Ok(()) };
     let is_output = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str());
-        let real = |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+        let real =
+            |path: &Path| fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
         let inside = path.parent().and_then(|parent| real(parent).ok());
         name.is_some_and(|name| names.contain(name)) && inside.is_some() && inside == real(folder).ok()
     };

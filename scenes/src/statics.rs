@@ -20,11 +20,7 @@ const ITERATIONS: usize = 10;
 ///
 /// # Errors
 /// [`Error::Equilibrium`] if a force is not finite or memory does not suffice, [`Error::Interrupted`].
-pub fn find_equilibrium(
-    play: &mut Play,
-    mesh: &TetMesh,
-    watch: &mut dyn Watch,
-) -> Result<FinalState, Error> {
+pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut dyn Watch) -> Result<FinalState, Error> {
     let simulation = play.simulation_mut();
     let settings = *simulation.settings();
     let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);

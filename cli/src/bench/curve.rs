@@ -52,6 +52,10 @@ pub(crate) struct Curve {
 
 /// Rows of a table unless another number is given.
 const ROWS: usize = 11;
+/// More rows than anybody reads, and few enough to be computed in seconds.
+const MAX_ROWS: usize = 100_000;
+/// Stretches, and shears, beyond which stresses of most materials leave the range of f64.
+const MAX_STRETCH: f64 = 1e6;
 
 impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
@@ -81,9 +85,10 @@ impl Curve {
                 _ => [0.5, 3.0],
             };
             let (from, to) = (self.from.unwrap_or(least), self.to.unwrap_or(greatest));
-            check_range(mode, from, to)?;
+            let rows = self.rows.unwrap_or(ROWS);
+            check_range(mode, from, to, rows)?;
             if has_range || measured.is_empty() {
-                let controls = spaced(from, to, self.rows.unwrap_or(ROWS));
+                let controls = spaced(from, to, rows);
                 text += &table(specimen, volume, mode, &controls, &[]);
             } else {
                 let controls: Vec<_> = measured.iter().map(|point| point.control).collect();
@@ -106,12 +111,17 @@ impl Curve {
     }
 }
 
-fn check_range(mode: Mode, from: f64, to: f64) -> Result<(), SceneError> {
-    let finite = if mode == Mode::SimpleShear { "finite" } else { "positive and finite" };
+fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneError> {
+    let (least, allowed) = match mode {
+        Mode::SimpleShear => (-MAX_STRETCH, "from -1e6 to 1e6"),
+        _ => (1.0 / MAX_STRETCH, "from 1e-6 to 1e6"),
+    };
+    let is_allowed = |stretch: f64| (least..=MAX_STRETCH).contains(&stretch);
     for (is_in_range, quantity, value, requirement) in [
-        (mode.allows(from), "--from", from, finite),
-        (mode.allows(to), "--to", to, finite),
+        (is_allowed(from), "--from", from, allowed),
+        (is_allowed(to), "--to", to, allowed),
         (from < to, "--to", to, "above --from"),
+        ((1..=MAX_ROWS).contains(&rows), "--rows", rows as f64, "from 1 to 100000"),
     ] {
         if !is_in_range {
             return Err(SceneError::OutOfRange { quantity, value, requirement });

@@ -7,7 +7,7 @@ use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::{Error as SceneError, plain};
 
 use super::{FINE, Material, as_options, draw, measured_range, measurements, rounded, spaced, titled};
 use crate::error::Error;
@@ -89,7 +89,7 @@ impl Fit {
         let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
         text += &format!("  {}\n", options(&fit.values));
         for number in &fit.numbers {
-            text += &format!("  {:12} {:<14}", number.name, rounded(number.value));
+            text += &format!("  {:12} {:<14}", number.name, plain(rounded(number.value)));
             match (number.standing, number.error) {
                 (Standing::Free, Some(error)) => {
                     text += &format!(" ± {error:.1e} ({:.1} %)\n", 100.0 * (error / number.value).abs());

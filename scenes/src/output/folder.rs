@@ -12,10 +12,12 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 
 use super::whole::{new_folder, sync_folder};
-use super::{Names, RESERVE, is_frame, is_result, rank};
+use super::{Names, PARTIAL, RESERVE, is_frame, is_result, rank};
 
 mod exchange;
 mod listing;
+#[cfg(test)]
+mod tests;
 
 use exchange::Moves;
 use listing::{LISTING, Listing};
@@ -143,55 +145,51 @@ impl Folder {
         self.listing.contains(name) && self.work.join(name).is_file()
     }
 
-    /// Writes one file, which `content` fills.
+    /// Writes one file, which `content` fills. It appears when it is complete, in place of one that the run has
+    /// written before.
     ///
     /// # Errors
     /// [`Error::Write`] if the disk is full, `content` fails, or somebody else has written a file of that name
-    /// meanwhile. There is no such file then but that of somebody else.
+    /// meanwhile. The folder is then as it was.
     pub fn write(
         &mut self,
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
-        let path = self.work.join(name);
-        if self.listing.contains(name) {
-            // That of a run which goes on.
-            let _ = fs::remove_file(&path);
-        } else {
-            self.listing.add(name)?;
-        }
-        let file = File::options().write(true).create_new(true).open(&path).map_err(|source| {
-            self.listing.withdraw(name);
-            Error::Write { path: path.clone(), source }
-        })?;
-        let mut file = BufWriter::new(file);
-        let written = content(&mut file).and_then(|()| file.flush());
+        self.listing.add(PARTIAL)?;
+        let [partial, path] = [PARTIAL, name].map(|name| self.work.join(name));
+        let is_own = self.listing.contains(name);
+        self.listing.add(name)?;
+        let written = File::create(&partial).and_then(|file| {
+            let mut file = BufWriter::new(file);
+            content(&mut file)?;
+            file.flush()?;
+            nothing_in_the_way(&path, is_own)?;
+            fs::rename(&partial, &path)
+        });
         written.map_err(|source| {
-            let _ = fs::remove_file(&path);
+            let _ = fs::remove_file(&partial);
+            if !is_own {
+                self.listing.withdraw(name);
+            }
             Error::Write { path, source }
         })
     }
 
-    /// Writes one file, which replaces that of an earlier moment of the run only once it is on the disk.
+    /// Writes one file, which is on the disk before it replaces one that the run has written before.
     ///
     /// # Errors
-    /// Like [`Folder::write`]; the file of an earlier moment stays.
+    /// Like [`Folder::write`].
     pub fn replace(
         &mut self,
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
-        let aside = format!("{name}.new");
-        self.write(&aside, |file| {
+        self.write(name, |file| {
             content(file)?;
             file.flush()?;
             file.get_ref().sync_all()
-        })?;
-        let is_own = self.listing.contains(name);
-        self.listing.add(name)?;
-        let [from, to] = [&aside, name].map(|name| self.work.join(name));
-        let moved = if is_own { fs::rename(&from, &to) } else { Moves::default().rename(from, to.clone()) };
-        moved.map_err(|source| Error::Write { path: to, source })
+        })
     }
 
     /// Ends a run, and returns the folder that holds its files.

@@ -92,7 +92,9 @@ pub(super) fn new_folder(inside: &Path, prefix: &str) -> io::Result<PathBuf> {
     builder.prefix(prefix);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    Ok(builder.tempdir_in(inside)?.keep())
+    let folder = builder.tempdir_in(inside)?.keep();
+    // As it was given, not from the root on.
+    Ok(folder.file_name().map_or(folder.clone(), |name| inside.join(name)))
 }
 
 #[cfg(test)]
@@ -121,7 +123,8 @@ mod tests {
         use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
 
         let scratch = tempfile::tempdir()?;
-        let [file, link, hanging, pipe] = ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
+        let [file, link, hanging, pipe] =
+            ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
         fs::write(&file, "old")?;
         fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
         symlink("file", &link)?;

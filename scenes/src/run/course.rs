@@ -180,7 +180,8 @@ impl<'a> Course<'a> {
         let triangles = &self.geometry.triangles;
         self.folder.write(&frame_file(frame), |file| write_ply(file, &surface, triangles))?;
         if let Some(material) = &self.cages_of {
-            self.folder.write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
+            self.folder
+                .write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
         }
         let distance = measure::mean_distance(&self.positions, nodes);
         self.progress.frame(distance, measure::min_det_f(&mesh.positions, nodes, &mesh.tets));
@@ -213,7 +214,10 @@ impl<'a> Course<'a> {
             Ended::Finished if !recovered => self.examine(watch).unwrap_or_else(|error| {
                 match error {
                     Error::Interrupted => ended = Ended::Interrupted,
-                    error => self.failures.push(error.to_string()),
+                    Error::Equilibrium(_) => self.failures.push(error.to_string()),
+                    error => {
+                        self.failures.push(format!("the equilibrium at the end cannot be examined: {error}"));
+                    }
                 }
                 None
             }),

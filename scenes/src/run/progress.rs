@@ -1,14 +1,11 @@
 //! Figures of a run so far, and the state from which it goes on.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use piola::step::StepReport;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::error::{Error, plain};
-use crate::measure;
 use crate::moment::Moment;
 use crate::output::{Sealer, Unsealer};
 use crate::settings::Settings;
@@ -76,7 +73,8 @@ impl Saved {
 
     /// Reads a state, and checks that a run with these settings can go on from it.
     pub(super) fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Self, String> {
-        let saved: Self = Unsealer::new().line(text).map_err(|error| format!("its state cannot be read: {error}"))?;
+        let saved: Self =
+            Unsealer::new().line(text).map_err(|error| format!("its state cannot be read: {error}"))?;
         let frame = saved.moment.clock().frame();
         let motion = &saved.progress.motion;
         if motion.len() != frame + 1 || !motion.iter().all(|way| way.is_finite()) {
@@ -104,31 +102,35 @@ fn difference(before: &Settings, now: &Settings) -> Option<String> {
         _ => serde_json::Map::new(),
     };
     let (before, now) = (values(before), values(now));
-    let differs = |name: &&String| !["frames", "threads"].contains(&name.as_str()) && before.get(*name) != now.get(*name);
+    let differs = |name: &&String| {
+        !["frames", "threads"].contains(&name.as_str()) && before.get(*name) != now.get(*name)
+    };
     let name = now.keys().find(differs)?;
-    let text = |values: &serde_json::Map<String, Value>| values.get(name).map(Value::to_string).unwrap_or_default();
+    let text =
+        |values: &serde_json::Map<String, Value>| values.get(name).map(Value::to_string).unwrap_or_default();
     Some(format!("its setting `{name}` was {}, and is {} now", text(&before), text(&now)))
 }
 
 /// When the next state is to be written.
 #[derive(Debug)]
 pub(super) struct Pace {
-    last: Instant,
+    /// The first state is due at once.
+    last: Option<Instant>,
     took: Duration,
 }
 
 impl Pace {
     pub(super) fn new() -> Self {
-        Self { last: Instant::now(), took: Duration::ZERO }
+        Self { last: None, took: Duration::ZERO }
     }
 
     pub(super) fn is_due(&self) -> bool {
-        self.last.elapsed() >= PAUSE.max(SHARE * self.took)
+        self.last.is_none_or(|last| last.elapsed() >= PAUSE.max(SHARE * self.took))
     }
 
     /// Notes that a state has been written, since a moment.
     pub(super) fn written(&mut self, since: Instant) {
         self.took = since.elapsed();
-        self.last = Instant::now();
+        self.last = Some(Instant::now());
     }
 }

@@ -46,7 +46,10 @@ mod tests {
         moves.rename(path("b"), path("a"))?;
         assert!(moves.rename(path("a"), path("c")).is_err(), "something is in the way");
         moves.undo();
-        assert_eq!((fs::read_to_string(path("a"))?, fs::read_to_string(path("b"))?), ("a".into(), "b".into()));
+        assert_eq!(
+            (fs::read_to_string(path("a"))?, fs::read_to_string(path("b"))?),
+            ("a".into(), "b".into())
+        );
         Ok(())
     }
 }

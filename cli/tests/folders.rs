@@ -1,0 +1,217 @@
+//! Files in the folder of a run: nobody else's are touched, and whatever ends a run leaves what it has made.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+    command.current_dir(folder).args(arguments);
+    command
+}
+
+fn piola(folder: &Path, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().expect("the command starts")
+}
+
+/// Runs a small body into the folder `out`.
+fn run(folder: &Path, more: &[&str]) -> Output {
+    piola(folder, &[&["run", "horse", "--body", "bar", "--out", "out"], more].concat())
+}
+
+#[track_caller]
+fn assert_code(output: &Output, code: i32) {
+    assert_eq!(output.status.code(), Some(code), "{}", stderr(output));
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The content of all files in a folder, by name.
+fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
+    let files = files.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file()));
+    files
+        .map(|entry| {
+            let name = entry.file_name().into_string().expect("UTF-8");
+            (name, fs::read(entry.path()).expect("a file"))
+        })
+        .collect()
+}
+
+fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).expect("a summary")).expect("JSON")
+}
+
+#[test]
+fn files_of_others_are_refused_before_the_first_step() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let out = scratch.path().join("out");
+    fs::create_dir(&out).expect("a folder");
+    for name in ["frame_0001.ply", "frame_0042.ply", "frame_20240101.vtu", "frames.png", "README"] {
+        fs::write(out.join(name), "mine").expect("a file");
+    }
+    let before = content(&out);
+    // So many steps would take minutes.
+    let output = run(scratch.path(), &["--frames", "100000"]);
+    assert_code(&output, 2);
+    for word in ["`frame_0001.ply`", "`frames.png`", "--force", "--out"] {
+        assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
+    }
+    assert_eq!(content(&out), before);
+
+    assert_code(&run(scratch.path(), &["--frames", "2", "--force"]), 0);
+    let after = content(&out);
+    for name in ["frame_0042.ply", "frame_20240101.vtu", "README"] {
+        assert_eq!(after[name], b"mine", "{name} is no file of this run");
+    }
+    assert!(after["frame_0001.ply"].starts_with(b"ply\n") && after["frames.png"].starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn what_is_no_file_is_in_the_way_of_runs_that_reach_it() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let out = scratch.path().join("out");
+    fs::create_dir_all(out.join("frame_0009.ply")).expect("a folder");
+    let output = run(scratch.path(), &["--frames", "100000", "--force"]);
+    assert_code(&output, 2);
+    assert!(stderr(&output).contains("frame_0009.ply") && content(&out).is_empty(), "{}", stderr(&output));
+    assert_code(&run(scratch.path(), &["--frames", "2"]), 0);
+
+    fs::create_dir(out.join("summary.json.d")).expect("a folder with another name");
+    fs::remove_file(out.join("summary.json")).expect("a file");
+    fs::create_dir(out.join("summary.json")).expect("a folder");
+    let before = content(&out);
+    assert_code(&run(scratch.path(), &["--frames", "1"]), 2);
+    assert_eq!(content(&out), before);
+}
+
+#[test]
+fn a_run_replaces_an_earlier_one_without_a_trace() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let [out, fresh] = ["out", "fresh"].map(|name| scratch.path().join(name));
+    assert_code(&run(scratch.path(), &["--frames", "4", "--vtu"]), 0);
+    assert_code(&run(scratch.path(), &["--frames", "2"]), 0);
+    assert_code(&run(scratch.path(), &["--frames", "2", "--out", "fresh"]), 2);
+    assert_code(
+        &piola(scratch.path(), &["run", "horse", "--body", "bar", "--frames", "2", "--out", "fresh"]),
+        0,
+    );
+    let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
+    assert_eq!(names(&out), names(&fresh));
+    assert_eq!(fs::read_dir(&out).expect("a folder").count(), names(&out).len(), "no folders are left");
+}
+
+#[test]
+fn an_input_is_no_output() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    fs::write(scratch.path().join("frame_0001.ply"), "v 0 0 0\n").expect("a file");
+    let node = "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+    fs::write(scratch.path().join("one.node"), node).expect("a file");
+    fs::write(scratch.path().join("one.ele"), "1 4\n1 1 2 3 4\n").expect("a file");
+    let surface = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(scratch.path().join("frame_0000.ply"), surface).expect("a file");
+    let arguments =
+        ["run", "point", "--mesh", "one.ele", "--surface", "frame_0000.ply", "--out", ".", "--force"];
+    let output = piola(scratch.path(), &arguments);
+    assert_code(&output, 2);
+    assert!(stderr(&output).contains("frame_0000.ply is to be read"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(scratch.path().join("frame_0000.ply")).expect("a file"), surface);
+}
+
+/// Whether two runs have the same frames, picture and results, times of solving apart.
+#[track_caller]
+fn assert_same(one: &Path, other: &Path) {
+    let (mut first, mut second) = (content(one), content(other));
+    for files in [&mut first, &mut second] {
+        for name in ["summary.json", "piola-files.txt"] {
+            files.remove(name);
+        }
+    }
+    assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
+    for (name, bytes) in first {
+        assert!(second[&name] == bytes, "{name} differs");
+    }
+    let results = |folder: &Path| {
+        let mut summary = summary(folder);
+        let object = summary.as_object_mut().expect("an object");
+        object.retain(|name, _| !["ms_per_step_median", "steps_per_second"].contains(&name.as_str()));
+        summary
+    };
+    assert_eq!(results(one), results(other));
+}
+
+#[test]
+fn a_run_goes_on_to_the_last_bit() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let dinosaur = |newton: &str, more: &[&str]| {
+        let whole = ["run", "dinosaur", "--newton", newton, "--material", "ogden", "--vtu"];
+        assert_code(&piola(scratch.path(), &[&whole[..], more].concat()), 0);
+    };
+    for newton in ["single", "full"] {
+        let parts = format!("parts-{newton}");
+        dinosaur(newton, &["--frames", "3", "--out", &parts]);
+        dinosaur(newton, &["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
+        dinosaur(newton, &["--frames", "8", "--out", &parts, "--resume"]);
+        dinosaur(newton, &["--frames", "8", "--out", newton]);
+        assert_same(&scratch.path().join(parts), &scratch.path().join(newton));
+    }
+}
+
+#[test]
+fn only_the_same_run_goes_on() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let refused = |more: &[&str], words: &[&str]| {
+        let output = run(scratch.path(), more);
+        assert_code(&output, 2);
+        for word in words {
+            assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
+        }
+    };
+    refused(&["--resume"], &["no run", "--resume"]);
+    assert_code(&run(scratch.path(), &["--frames", "3"]), 0);
+    let before = content(&scratch.path().join("out"));
+    refused(&["--frames", "4", "--resume", "--dt", "0.01"], &["`dt`", "0.01"]);
+    refused(&["--frames", "4", "--resume", "--gravity", "1"], &["`gravity`"]);
+    refused(&["--frames", "4", "--resume", "--vtu"], &["--vtu"]);
+    refused(&["--frames", "2", "--resume"], &["3 frames already", "2 are wanted"]);
+    refused(&["--resume", "--force"], &["--force"]);
+    assert_eq!(content(&scratch.path().join("out")), before);
+
+    // A state that was changed by a bit, and a frame that is missing.
+    let path = scratch.path().join("out/state.json");
+    let state = fs::read(&path).expect("a state");
+    for bit in (0..8 * state.len()).step_by(4099) {
+        let mut changed = state.clone();
+        changed[bit / 8] ^= 1 << (bit % 8);
+        fs::write(&path, changed).expect("a file");
+        let output = run(scratch.path(), &["--frames", "4", "--resume"]);
+        assert_code(&output, 2);
+    }
+    fs::write(&path, state).expect("a file");
+    fs::remove_file(scratch.path().join("out/frame_0001.ply")).expect("a frame");
+    refused(&["--frames", "4", "--resume"], &["frame_0001.ply is missing"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let full = || Stdio::from(fs::File::options().write(true).open("/dev/full").expect("/dev/full"));
+    let mut sheets: Vec<Vec<&str>> = vec![vec!["materials"], vec!["--help"], vec!["curve", "gent"]];
+    sheets.push(vec!["run", "horse", "--body", "bar", "--frames", "1"]);
+    for arguments in sheets {
+        let output = command(scratch.path(), &arguments).stdout(full()).stderr(Stdio::piped()).output();
+        let output = output.expect("the command starts");
+        assert_code(&output, 1);
+    }
+    // A reader who goes away has seen enough.
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let output = command(scratch.path(), &["materials"]).stdout(writer).output().expect("the command starts");
+    assert_code(&output, 0);
+}
