@@ -3,7 +3,9 @@
 // `npm test` uses target/debug/piola and Debian's chromium; PIOLA and CHROMIUM name others. Screenshots go to target/page/.
 
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import { open, view } from "./viewer.mjs";
@@ -11,17 +13,20 @@ import { open, view } from "./viewer.mjs";
 const TIP_OF_TAIL = 5; // a vertex of the dinosaur's surface
 const shots = fileURLToPath(new URL("../../target/page/", import.meta.url));
 const patience = { timeout: 60_000 };
+const scratch = mkdtempSync(join(tmpdir(), "piola-page-"));
+const recording = join(scratch, "recording.jsonl");
 let viewer, browser, page, faults;
 
 before(async () => {
   mkdirSync(shots, { recursive: true });
-  viewer = await view("dinosaur");
+  viewer = await view("dinosaur", "--record", recording);
   ({ browser, page, faults } = await open(viewer));
 });
 
 after(async () => {
   await browser?.close();
   viewer?.stop();
+  rmSync(scratch, { recursive: true, force: true });
 });
 
 const figures = () => page.evaluate(() => globalThis.piola.figures());
@@ -148,7 +153,38 @@ test("pause, step, reset, wireframe, by keys and buttons", async () => {
   await until(() => !globalThis.piola.figures().paused);
 });
 
+test("without the token there is no page, but a word on where it is", async () => {
+  const stranger = await browser.newPage();
+  const answer = await stranger.goto(viewer.origin);
+  assert.equal(answer.status(), 403);
+  assert.match(await stranger.textContent("body"), /Open the address that `piola view` has printed/);
+  await stranger.close();
+});
+
 test("nothing went wrong on the way", () => {
   assert.deepEqual(faults, []);
   assert.ok(viewer.isRunning());
+});
+
+test("a recording is played back until the page takes over", async () => {
+  const replay = await view("--replay", recording);
+  const watching = await open(replay);
+  const at = watching.page;
+  try {
+    await at.locator("#take-over:visible").waitFor();
+    await at.waitForFunction(() => document.getElementById("trouble").textContent.includes("played back"));
+    await at.screenshot({ path: `${shots}replay.png` });
+    await at.click("#reset");
+    await at.waitForFunction(() => document.getElementById("trouble").textContent.includes("take over"));
+    await at.click("#take-over");
+    await at.locator("#take-over").waitFor({ state: "hidden" });
+    await at.waitForFunction(() => !globalThis.piola.figures().replays);
+    await at.click("#pause");
+    await at.click("#reset");
+    await at.waitForFunction(() => globalThis.piola.figures().frame === 0);
+    assert.deepEqual(watching.faults, []);
+  } finally {
+    await watching.browser.close();
+    replay.stop();
+  }
 });

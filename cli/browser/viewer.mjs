@@ -18,8 +18,10 @@ export async function view(...args) {
   });
   const [line] = await Promise.race([once(createInterface(child.stdout), "line"), ended]);
   ended.catch(() => {}); // when it is stopped
+  const address = line.match(/http:\S+/)[0];
   return {
-    address: line.match(/http:\S+/)[0],
+    address,
+    origin: new URL(address).origin,
     isRunning: () => child.exitCode === null && child.signalCode === null,
     stop: () => child.kill(),
     /** Memory in use, MiB. */
@@ -46,7 +48,7 @@ export async function open(viewer) {
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("request", (request) => {
     const url = request.url();
-    if (!url.startsWith(viewer.address) && !url.startsWith("data:")) faults.push(`a request to ${url}`);
+    if (!url.startsWith(viewer.origin) && !url.startsWith("data:")) faults.push(`a request to ${url}`);
   });
   await page.goto(viewer.address);
   await page.waitForFunction(() => globalThis.piola?.positions() && globalThis.piola.figures());

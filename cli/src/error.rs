@@ -78,6 +78,34 @@ pub enum Error {
         /// Reason.
         reason: String,
     },
+    /// A recording is as long as one can be.
+    #[error("a recording has at most {0}")]
+    RecordingFull(
+        /// The limit.
+        &'static str,
+    ),
+    /// The file of a recording to be made holds something else.
+    #[error(
+        "{}: holds something else than a recording, and is left as it is; name another file with --record",
+        path.display()
+    )]
+    NotRecordedOver {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file that is to be written is also read, or written by two.
+    #[error("{} is named by {one} and by {other}, which would overwrite it; name another file", path.display())]
+    NamedTwice {
+        /// The file, as the second option spells it.
+        path: PathBuf,
+        /// The option that names it first.
+        one: &'static str,
+        /// The option that would overwrite it.
+        other: &'static str,
+    },
+    /// The system gives no random number for the page's token.
+    #[error("cannot make a token for the page: {0}")]
+    Random(#[source] getrandom::Error),
     /// There is no state to go back to.
     #[error("no state has been saved yet")]
     NothingSaved,
@@ -129,6 +157,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Thread(_)
+            | Self::Random(_)
             | Self::Signals(_)
             | Self::StandardOutput(_)
             | Self::Scene(

@@ -125,7 +125,7 @@ impl Watch for Progress<'_> {
 
 fn serve(arguments: View) -> Result<(), Error> {
     let viewer = Viewer::start(arguments.options()?)?;
-    say(format_args!("http://{}/ shows the scene; Ctrl-C ends it", viewer.address()))?;
+    say(format_args!("{} shows the scene; Ctrl-C ends it", viewer.url()))?;
     viewer.wait();
     Ok(())
 }

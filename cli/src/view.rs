@@ -2,15 +2,18 @@
 //!
 //! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
 //! acts; `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between
-//! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server` and
-//! `request` decide who comes in, and `page` is what they get. [`state`] and [`recording`] are the files.
+//! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server`, `request`
+//! and `token` decide who comes in, `patience` how long one that is silent stays, and `page` is what they
+//! get. [`state`] and [`recording`] are the files.
 //!
-//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. There is no other
-//! protection: anyone who can open the page on this machine can pull.
+//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. A random token in the
+//! [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
+//! pull, and save to the file that was named at the start. Of files the page is told that name, and no path.
 
 mod connection;
 mod driver;
 mod page;
+mod patience;
 pub mod protocol;
 pub mod recording;
 mod request;
@@ -18,6 +21,7 @@ mod server;
 pub mod session;
 mod show;
 pub mod state;
+mod token;
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
@@ -31,13 +35,17 @@ use piola_scenes::error::Error as SceneError;
 use piola_scenes::settings::Settings;
 
 use crate::error::Error;
+use patience::Patience;
 use recording::{Recorder, Recording};
+use request::Door;
 use server::Server;
 use session::Session;
 use state::State;
+use token::Token;
 
-/// Orders that wait for the driver; a connection with more of them waits itself.
-const ORDERS: usize = 256;
+/// Orders that wait for the driver; connections with more of them wait themselves, in turn. A page waits
+/// behind so many orders of others, and one of each connection.
+const ORDERS: usize = 16;
 
 /// Settings of a viewer.
 #[derive(Clone, Debug)]
@@ -98,6 +106,7 @@ pub enum Begin {
 #[derive(Debug)]
 pub struct Viewer {
     address: SocketAddr,
+    token: Token,
     is_over: Arc<AtomicBool>,
     server: Option<JoinHandle<()>>,
 }
@@ -106,8 +115,8 @@ impl Viewer {
     /// Starts to play and to serve.
     ///
     /// # Errors
-    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], or that of a file that
-    /// cannot be written.
+    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], [`Error::Random`], or that
+    /// of a file that cannot be written.
     pub fn start(options: Options) -> Result<Self, Error> {
         let (session, replay) = match options.begin {
             Begin::Scene(settings) => (Session::new(*settings)?, None),
@@ -117,30 +126,39 @@ impl Viewer {
         let no_port = |source| Error::Port { port: options.port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(no_port)?;
         let address = listener.local_addr().map_err(no_port)?;
-        let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
-
+        let token = Token::new()?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
         let topology = show::topology(session.geometry());
-        let first = connection::after(session.pulls().map(|(drag, _)| drag));
+        let recorded = replay.iter().flat_map(Recording::drags);
+        let first = connection::after(session.pulls().map(|(drag, _)| drag).chain(recorded));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
+        let door = Door { port: address.port(), token: token.clone() };
+        // It replaces an earlier recording, and so comes after everything that may fail but threads.
+        let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
         let driver = Driver::new(session, threads, options.save, recorder, replay);
-        let server =
-            Server { listener, port: address.port(), topology, orders, is_over: is_over.clone(), first };
+        let patience = Patience::default();
+        let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
             thread::Builder::new().name(name.into()).spawn(work).map_err(Error::Thread)
         };
         // The driver ends when the server and all its connections have.
         start("driver", Box::new(move || driver.run(&taken)))?;
         let server = Some(start("server", Box::new(move || server.run()))?);
-        Ok(Self { address, is_over, server })
+        Ok(Self { address, token, is_over, server })
     }
 
-    /// Address of the page.
+    /// Address at which it listens.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// Address of the page, with the token that opens it.
+    #[must_use]
+    pub fn url(&self) -> String {
+        format!("http://{}/?token={}", self.address, self.token)
     }
 
     /// Serves until the process is ended from outside.

@@ -13,8 +13,11 @@ export function connect(on) {
   let acts = false; // whether acts have been sent since the last frame
   const pending = new Map(); // by what they change, the last wins
 
+  // The secret of the address that the program has printed opens the line, too.
+  const token = new URLSearchParams(location.search).get("token") ?? "";
+
   const open = () => {
-    socket = new WebSocket(`ws://${location.host}/socket`);
+    socket = new WebSocket(`ws://${location.host}/socket?token=${encodeURIComponent(token)}`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       looks = acts = false;

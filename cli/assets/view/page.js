@@ -7,6 +7,7 @@ import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 
 const COUNTED = 2000; // ms over which pictures are counted
+const BROKEN = "The line to the program is broken. Is it still running? A new one prints a new address.";
 const FIT = 1.6; // distance of the eye, in diagonals of the body
 
 const canvas = document.getElementById("stage");
@@ -31,7 +32,7 @@ const link = connect({
     if (figures.pulls.length > 0) document.getElementById("hint").classList.add("known");
   },
   refused: (refusal) => panel.refuse(refusal),
-  line: (isOpen, reason) => panel.trouble(isOpen ? null : reason || "The line to the program is broken; is it still running?"),
+  line: (isOpen, reason) => panel.trouble(isOpen ? null : reason || BROKEN),
 });
 const panel = new Panel(link, (isVisible) => {
   stage.cage.visible = isVisible;

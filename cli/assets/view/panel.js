@@ -25,6 +25,7 @@ export class Panel {
     click("let-go", () => link.act({ release_all: {} }));
     click("save", () => link.act({ save: {} }));
     click("restore", () => link.act({ restore: {} }));
+    click("take-over", () => link.run({ take_over: {} }));
     byId("real-time").addEventListener("change", ({ target }) => {
       link.run({ pace: { real_time: target.checked } });
     });
@@ -33,7 +34,7 @@ export class Panel {
       this.link.act({ material: { name: target.value, as_stiff: byId("as-stiff").checked } });
     });
     const keys = {
-      " ": "pause", ".": "step", r: "reset", l: "let-go", s: "save", b: "restore", f: "real-time", w: "wireframe",
+      " ": "pause", ".": "step", r: "reset", l: "let-go", s: "save", b: "restore", t: "take-over", f: "real-time", w: "wireframe",
     };
     window.addEventListener("keydown", (event) => {
       const isTyping = event.target.matches?.("input:not([type=checkbox]):not([type=range]), select");
@@ -129,35 +130,46 @@ export class Panel {
   /** What changes with each step. */
   setFigures(figures) {
     this.figures = figures;
-    const { inverted, min_det_f, replays } = figures;
+    const { inverted, replays } = figures;
     byId("pause-text").textContent = figures.paused ? "Go on" : "Pause";
     byId("pause").classList.toggle("on", figures.paused);
+    byId("take-over").hidden = !replays;
     byId("let-go").disabled = figures.pulls.length === 0;
     byId("real-time").checked = figures.real_time;
-    byId("time").textContent = `${figures.time.toFixed(2)} s, step ${figures.frame}`;
-    byId("speed").textContent = figures.steps_per_second === null ? "–" : figures.steps_per_second.toFixed(0);
+    byId("time").textContent = `${fixed(figures.time, 2)} s, step ${figures.frame}`;
+    byId("speed").textContent = fixed(figures.steps_per_second, 0);
     byId("newton").textContent = figures.newton_iterations;
-    byId("det").textContent = min_det_f.toFixed(3);
+    byId("det").textContent = fixed(figures.min_det_f, 3);
     byId("inverted").textContent = inverted;
     for (const id of ["det", "inverted"]) byId(id).parentElement.classList.toggle("alarm", inverted > 0);
-    byId("from-rest").textContent = figures.from_rest.toFixed(figures.from_rest < 0.01 ? 4 : 2);
-    byId("energy").textContent = joules(figures.elastic_energy);
+    byId("from-rest").textContent = fixed(figures.from_rest, figures.from_rest < 0.01 ? 4 : 2);
+    byId("energy").textContent = figures.elastic_energy === null ? "–" : joules(figures.elastic_energy);
+    this.show("recording-ended", figures.recording_ended);
     this.trouble(figures.trouble ?? this.notice ?? (replays ? "A recording is played back." : null));
   }
 
   setFramesPerSecond(frames) {
-    byId("frames").textContent = frames === null ? "–" : frames.toFixed(0);
+    byId("frames").textContent = fixed(frames, 0);
   }
 
   /** A word on what went wrong, or null. */
   trouble(reason) {
-    byId("trouble").hidden = reason === null;
-    byId("trouble").textContent = reason === null ? "" : capital(reason);
+    this.show("trouble", reason);
+  }
+
+  show(id, reason) {
+    byId(id).hidden = reason === null;
+    byId(id).textContent = reason === null ? "" : capital(reason);
   }
 }
 
 function capital(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** A number with so many digits behind the point, or a dash for one that JSON cannot say. */
+function fixed(number, digits) {
+  return number === null ? "–" : number.toFixed(digits);
 }
 
 function subscript(number) {

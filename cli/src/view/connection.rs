@@ -3,8 +3,7 @@
 //! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
 //! in long ones.
 
-use std::io::{self, ErrorKind, Read};
-use std::net::TcpStream;
+use std::io::Read;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
 use std::time::{Duration, Instant};
@@ -15,6 +14,7 @@ use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
 use tungstenite::{Bytes, Error as SocketError, Message as Envelope, WebSocket};
 
 use super::driver::{Answer, Order};
+use super::patience::{Patience, TimedStream, is_silence};
 use super::protocol::{Act, Message};
 
 /// The longest message that makes sense is a long list of parameters.
@@ -26,24 +26,21 @@ const DRAGS: u64 = 1 << 32;
 const TURN: Duration = Duration::from_millis(3);
 /// How long a page that does not may wait for anything else.
 const LONG_TURN: Duration = Duration::from_millis(200);
-/// A page that takes nothing for so long is given up.
-const PATIENCE: Duration = Duration::from_secs(10);
 /// How long the last words of a page that is shut out are listened to, so that it gets to hear why.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
 pub(super) fn serve(
-    mut stream: TcpStream,
+    mut stream: TimedStream,
+    patience: Patience,
     response: &Response,
     number: u64,
     topology: Bytes,
     orders: &SyncSender<Order>,
 ) {
-    let greeting = stream
-        .set_write_timeout(Some(PATIENCE))
-        .and_then(|()| stream.set_nodelay(true))
-        .map_err(SocketError::from)
-        .and_then(|()| write_response(&mut stream, response));
+    stream.allow(patience.answer);
+    let greeting = stream.stream().set_nodelay(true).map_err(SocketError::from);
+    let greeting = greeting.and_then(|()| write_response(&mut stream, response));
     if greeting.is_err() {
         return;
     }
@@ -55,8 +52,19 @@ pub(super) fn serve(
     let (answer, answers) = channel();
     let drags = number * DRAGS..(number + 1) * DRAGS;
     let _leave = Leave { drags: drags.clone(), orders };
-    let mut connection =
-        Connection { socket, drags, orders, answer, answers, waits: false, seen: 0, revision: 0 };
+    let mut connection = Connection {
+        socket,
+        patience,
+        heard: Instant::now(),
+        is_pinged: false,
+        drags,
+        orders,
+        answer,
+        answers,
+        waits: false,
+        seen: 0,
+        revision: 0,
+    };
     if connection.send(Envelope::Binary(topology)).is_ok() {
         let end = connection.talk();
         connection.part(end);
@@ -82,7 +90,12 @@ pub(super) fn after(drags: impl Iterator<Item = u64>) -> u64 {
 }
 
 struct Connection<'a> {
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<TimedStream>,
+    patience: Patience,
+    /// When the page last sent a message or answered a ping.
+    heard: Instant,
+    /// Whether it has been asked for a sign of life since then.
+    is_pinged: bool,
     drags: Range<u64>,
     orders: &'a SyncSender<Order>,
     answer: Sender<Answer>,
@@ -105,7 +118,7 @@ enum End {
 impl Connection<'_> {
     fn talk(&mut self) -> End {
         loop {
-            if let Err(end) = self.listen().and_then(|()| self.reply()) {
+            if let Err(end) = self.listen().and_then(|()| self.reply()).and_then(|()| self.ping()) {
                 return end;
             }
         }
@@ -114,8 +127,13 @@ impl Connection<'_> {
     /// Takes one message, or none in this turn.
     fn listen(&mut self) -> Result<(), End> {
         let turn = if self.waits { TURN } else { LONG_TURN };
-        self.socket.get_ref().set_read_timeout(Some(turn)).map_err(|_| End::Gone)?;
-        match self.socket.read() {
+        self.socket.get_mut().allow(turn);
+        let read = self.socket.read();
+        if read.is_ok() {
+            self.heard = Instant::now();
+            self.is_pinged = false;
+        }
+        match read {
             Ok(Envelope::Text(text)) => {
                 let message = Message::parse(&text);
                 self.order(message.map_err(|reason| End::Because(CloseCode::Policy, reason))?)
@@ -178,7 +196,21 @@ impl Connection<'_> {
         Ok(())
     }
 
+    /// Asks a page that is silent for a sign of life, and gives it up if there is none.
+    fn ping(&mut self) -> Result<(), End> {
+        let silence = self.heard.elapsed();
+        if silence > self.patience.silence {
+            return Err(End::Because(CloseCode::Away, "the page has given no sign of life".into()));
+        }
+        if silence > self.patience.ping && !self.is_pinged {
+            self.is_pinged = true;
+            self.send(Envelope::Ping(Bytes::new()))?;
+        }
+        Ok(())
+    }
+
     fn send(&mut self, envelope: Envelope) -> Result<(), End> {
+        self.socket.get_mut().allow(self.patience.answer);
         self.socket.send(envelope).map_err(|_| End::Gone)
     }
 
@@ -187,23 +219,13 @@ impl Connection<'_> {
     fn part(&mut self, end: End) {
         let End::Because(code, reason) = end else { return };
         let reason = reason.chars().take(100).collect::<String>();
+        self.socket.get_mut().allow(LAST_WORDS);
         if self.socket.close(Some(CloseFrame { code, reason: reason.into() })).is_err() {
             return;
         }
         // The bytes themselves: a socket must not be read on after an error.
         let stream = self.socket.get_mut();
-        let (deadline, mut words) = (Instant::now() + LAST_WORDS, [0; 4096]);
-        while Instant::now() < deadline {
-            match stream.read(&mut words) {
-                Ok(0) => return,
-                Ok(_) => {}
-                Err(error) if is_silence(&error) => {}
-                Err(_) => return,
-            }
-        }
+        let mut words = [0; 4096];
+        while stream.read(&mut words).is_ok_and(|count| count > 0) {}
     }
-}
-
-fn is_silence(error: &io::Error) -> bool {
-    matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted)
 }

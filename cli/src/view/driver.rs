@@ -4,11 +4,13 @@
 //! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one
 //! that does not ask nothing is made and nothing is kept.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
+use piola_scenes::error::Error as SceneError;
 use rayon::ThreadPool;
 use tungstenite::Utf8Bytes;
 
@@ -18,8 +20,9 @@ use super::session::Session;
 use super::show::{self, Frame, FrameStats};
 use crate::error::Error;
 
-/// Most orders that are taken between two steps.
-const ORDERS: usize = 256;
+/// How long orders may be taken between two steps, and acts of a recording between two looks at the orders. A
+/// single one takes as long as it takes.
+const TURN: Duration = Duration::from_millis(20);
 /// Number of steps over which the speed is averaged.
 const TIMED: usize = 32;
 /// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real
@@ -75,7 +78,9 @@ pub(super) struct Driver {
     /// Counts the states that could be seen.
     state: u64,
     revision: u64,
+    /// Scene and material in words, and whether they have changed since.
     setup: Utf8Bytes,
+    is_setup_stale: bool,
 }
 
 impl Driver {
@@ -99,31 +104,38 @@ impl Driver {
             state: 1,
             revision: 0,
             setup: Utf8Bytes::default(),
+            is_setup_stale: true,
         }
     }
 
     /// Plays until every sender of orders is gone.
     pub(super) fn run(mut self, orders: &Receiver<Order>) {
-        self.set_up();
-        self.play_back();
         loop {
             match self.wait(orders) {
                 Ok(order) => self.obey(order),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
             }
-            for order in orders.try_iter().take(ORDERS) {
+            let start = Instant::now();
+            while start.elapsed() < TURN
+                && let Ok(order) = orders.try_recv()
+            {
                 self.obey(order);
             }
-            if self.is_due() {
+            if self.is_replay_due() {
+                self.play_back();
+            } else if self.is_due() {
                 self.step();
             }
             self.answer();
         }
     }
 
-    /// The next order, or a time-out when a step is due.
+    /// The next order, or a time-out when a step or a recording is due.
     fn wait(&self, orders: &Receiver<Order>) -> Result<Order, RecvTimeoutError> {
+        if self.is_replay_due() {
+            return orders.recv_timeout(Duration::ZERO);
+        }
         if self.stats.paused {
             return orders.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
@@ -148,8 +160,8 @@ impl Driver {
         match order {
             Order::Act { act, answer } => {
                 let result = match self.replay {
-                    Some(_) => Err("a recording is played back; wait for its end".into()),
-                    None => self.act(&act).map_err(|error| error.to_string()),
+                    Some(_) => Err("a recording is played back; take over, or wait for its end".into()),
+                    None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| for_page(&error)),
                 };
                 if let Err(reason) = result {
                     // A connection that has ended needs no answer.
@@ -164,9 +176,14 @@ impl Driver {
             Order::Run(Run::Step {}) => {
                 self.stats.paused = true;
                 self.stats.trouble = None;
-                self.step();
+                // Before the step come the acts that were recorded before it.
+                self.play_back();
+                if !self.is_replay_due() {
+                    self.step();
+                }
             }
             Order::Run(Run::Pace { real_time }) => self.stats.real_time = real_time,
+            Order::Run(Run::TakeOver {}) => self.replay = None,
             Order::Look { seen, answer } => {
                 self.lookers.push((seen, answer));
                 return;
@@ -185,7 +202,7 @@ impl Driver {
         self.state += 1;
     }
 
-    /// Does an act, and writes it to recording and file.
+    /// Does an act, and records it.
     fn act(&mut self, act: &Act) -> Result<(), Error> {
         self.session.apply(act)?;
         let steps = self.session.steps();
@@ -193,15 +210,16 @@ impl Driver {
         if matches!(act, Act::Reset {} | Act::Restore {} | Act::Material { .. } | Act::Parameter { .. }) {
             self.stats.trouble = None;
         }
-        if let Act::Save {} = act
-            && let (Some(path), Some(state)) = (&self.save, self.session.saved())
-        {
-            state.write(path)?;
-        }
-        if !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {}) {
-            self.set_up();
-        }
+        self.is_setup_stale |= !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {});
         Ok(())
+    }
+
+    /// Writes the state that a page has saved. Acts of a recording write no files.
+    fn save(&self, act: &Act) -> Result<(), Error> {
+        match (act, &self.save, self.session.saved()) {
+            (Act::Save {}, Some(path), Some(state)) => state.write(path),
+            _ => Ok(()),
+        }
     }
 
     fn step(&mut self) {
@@ -226,7 +244,6 @@ impl Driver {
         }
         let steps = self.session.steps();
         self.record(|recorder| recorder.stepped(steps));
-        self.play_back();
         self.state += 1;
 
         let now = Instant::now();
@@ -234,13 +251,23 @@ impl Driver {
         self.before = if self.stats.real_time && due + LAG > now { due } else { now };
     }
 
-    /// Does the recorded acts before the step to come, and pauses at the end of the recording.
+    /// Whether a recording has acts to be done before the step to come, or has come to its end.
+    fn is_replay_due(&self) -> bool {
+        let steps = self.session.steps();
+        self.replay.as_ref().is_some_and(|recording| recording.is_due(steps) || recording.is_over(steps))
+    }
+
+    /// Does recorded acts before the step to come, as many as a page can wait for, and pauses at the end of
+    /// the recording.
     fn play_back(&mut self) {
         let Some(mut recording) = self.replay.take() else { return };
-        let steps = self.session.steps();
-        while let Some(act) = recording.next_before(steps) {
+        let (steps, start) = (self.session.steps(), Instant::now());
+        while start.elapsed() < TURN
+            && let Some(act) = recording.next_before(steps)
+        {
             if let Err(error) = self.act(&act) {
-                self.stats.trouble = Some(format!("the recording asks for what is refused: {error}"));
+                self.stats.trouble =
+                    Some(format!("the recording asks for what is refused: {}", for_page(&error)));
             }
         }
         if recording.is_over(steps) {
@@ -248,6 +275,7 @@ impl Driver {
         } else {
             self.replay = Some(recording);
         }
+        self.state += 1;
     }
 
     fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), Error>) {
@@ -255,20 +283,21 @@ impl Driver {
             && let Err(error) = write(recorder)
         {
             self.recorder = None;
-            self.stats.trouble = Some(format!("the recording ends here: {error}"));
+            self.stats.recording_ended = Some(format!("the recording ends here: {}", for_page(&error)));
         }
-    }
-
-    fn set_up(&mut self) {
-        let file = self.save.as_ref().map(|path| path.display().to_string());
-        self.setup = show::setup(&self.session, file.as_deref());
-        self.revision += 1;
     }
 
     /// Sends the present state to the connections that have not seen it.
     fn answer(&mut self) {
         if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
             return;
+        }
+        if self.is_setup_stale {
+            // The page is told no more of this machine than the name of its file.
+            let file = self.save.as_deref().map(name_of);
+            self.setup = show::setup(&self.session, file.as_deref());
+            self.revision += 1;
+            self.is_setup_stale = false;
         }
         self.stats.replays = self.replay.is_some();
         let frame = Frame {
@@ -283,4 +312,19 @@ impl Driver {
             let _ = looker.send(Answer::Frame(frame.clone()));
         }
     }
+}
+
+/// Message of an error for a page: of a file the name, and of the system's error the kind, which names no
+/// path.
+fn for_page(error: &Error) -> String {
+    match error {
+        Error::Scene(SceneError::Write { path, source }) => {
+            format!("cannot write {}: {}", name_of(path), source.kind())
+        }
+        error => error.to_string(),
+    }
+}
+
+fn name_of(path: &Path) -> Cow<'_, str> {
+    path.file_name().unwrap_or_default().to_string_lossy()
 }

@@ -86,6 +86,19 @@ pub enum Run {
         /// Whether to keep to real time.
         real_time: bool,
     },
+    /// Ends a recording that is played back; what it pulls, it pulls until it is released.
+    TakeOver {},
+}
+
+impl Act {
+    /// Number of the drag that it is about, if it is about one.
+    #[must_use]
+    pub fn drag(&self) -> Option<u64> {
+        match self {
+            &Self::Pull { drag, .. } | &Self::Release { drag } => Some(drag),
+            _ => None,
+        }
+    }
 }
 
 impl Message {

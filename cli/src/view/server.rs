@@ -1,29 +1,28 @@
 //! The server: connections to 127.0.0.1, a limited number at a time and each on a thread of its own.
 
 use std::io::Write;
-use std::net::{Shutdown, TcpListener, TcpStream};
+use std::net::{Shutdown, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::thread;
-use std::time::Duration;
 
 use tungstenite::Bytes;
 
 use super::connection;
 use super::driver::Order;
 use super::page;
-use super::request::{self, Denied, Request};
+use super::patience::{Patience, TimedStream};
+use super::request::{self, Denied, Door, Request};
 
 /// A browser opens half a dozen for the files of a page and keeps one.
 const MAX_CONNECTIONS: usize = 32;
-/// For writing a file.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Everything that connections need.
 pub(super) struct Server {
     pub(super) listener: TcpListener,
-    pub(super) port: u16,
+    pub(super) door: Door,
+    pub(super) patience: Patience,
     pub(super) topology: Bytes,
     pub(super) orders: SyncSender<Order>,
     /// Whether no more connections are to be taken.
@@ -42,18 +41,25 @@ impl Server {
             }
             // A connection that fails before it begins concerns no other.
             let Ok(stream) = stream else { continue };
+            let mut stream = TimedStream::new(stream);
             let slot = ConnectionSlot::take(&open);
             if slot.is_none() {
-                answer(
-                    stream,
-                    page::denied(Denied("503 Service Unavailable", "there are too many connections")),
-                );
+                let denied = Denied("503 Service Unavailable", "there are too many connections");
+                answer(&mut stream, page::denied(denied), self.patience);
                 continue;
             }
-            let (port, topology, orders) = (self.port, self.topology.clone(), self.orders.clone());
+            let (door, topology, orders) = (self.door.clone(), self.topology.clone(), self.orders.clone());
+            let patience = self.patience;
             let talk = move || {
                 let _slot = slot;
-                greet(stream, number, port, topology, &orders);
+                match request::read(&mut stream, patience.request, &door) {
+                    None => {}
+                    Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path), patience),
+                    Some(Ok(Request::Socket(response))) => {
+                        connection::serve(stream, patience, &response, number, topology, &orders);
+                    }
+                    Some(Err(denied)) => answer(&mut stream, page::denied(denied), patience),
+                }
             };
             // Where the system has no thread left, the browser sees a connection that ends.
             let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
@@ -77,21 +83,121 @@ impl Drop for ConnectionSlot {
     }
 }
 
-/// Answers the first request of a connection.
-fn greet(mut stream: TcpStream, number: u64, port: u16, topology: Bytes, orders: &SyncSender<Order>) {
-    match request::read(&mut stream, port) {
-        None => {}
-        Some(Ok(Request::File { path })) => answer(stream, page::file(&path)),
-        Some(Ok(Request::Socket(response))) => connection::serve(stream, &response, number, topology, orders),
-        Some(Err(denied)) => answer(stream, page::denied(denied)),
-    }
+/// Writes an answer; if it is not read, nothing is lost.
+fn answer(stream: &mut TimedStream, (header, content): (String, &'static str), patience: Patience) {
+    stream.allow(patience.answer);
+    let _ = stream
+        .write_all(header.as_bytes())
+        .and_then(|()| stream.write_all(content.as_bytes()))
+        .and_then(|()| stream.stream().shutdown(Shutdown::Write));
 }
 
-/// Writes an answer; if it is not read, nothing is lost.
-fn answer(mut stream: TcpStream, (header, content): (String, &'static str)) {
-    let _ = stream
-        .set_write_timeout(Some(PATIENCE))
-        .and_then(|()| stream.write_all(header.as_bytes()))
-        .and_then(|()| stream.write_all(content.as_bytes()))
-        .and_then(|()| stream.shutdown(Shutdown::Write));
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+    use std::net::{Ipv4Addr, SocketAddr, TcpStream};
+    use std::sync::mpsc::{Receiver, sync_channel};
+    use std::time::{Duration, Instant};
+
+    use tungstenite::client::IntoClientRequest;
+    use tungstenite::{Message, WebSocket};
+
+    use super::super::token::Token;
+    use super::*;
+
+    /// A server that waits for milliseconds, to which nobody gives a body.
+    fn serve() -> (SocketAddr, Token, Receiver<Order>) {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
+        let address = listener.local_addr().expect("an address");
+        let door = Door { port: address.port(), token: Token::new().expect("a system") };
+        let token = door.token.clone();
+        let patience = Patience {
+            request: Duration::from_millis(100),
+            answer: Duration::from_millis(100),
+            ping: Duration::from_millis(100),
+            silence: Duration::from_millis(500),
+        };
+        let (orders, taken) = sync_channel(256);
+        let (topology, is_over) = (Bytes::from_static(b"body"), Arc::default());
+        let server = Server { listener, door, patience, topology, orders, is_over, first: 0 };
+        thread::spawn(move || server.run());
+        (address, token, taken)
+    }
+
+    fn page(address: SocketAddr, token: &Token) -> WebSocket<TcpStream> {
+        let stream = TcpStream::connect(address).expect("somebody listens");
+        stream.set_read_timeout(Some(Duration::from_secs(20))).expect("a socket");
+        let uri = format!("ws://{address}/socket?token={token}");
+        let mut request = uri.into_client_request().expect("a request");
+        let origin = format!("http://{address}").parse().expect("an origin");
+        request.headers_mut().insert("Origin", origin);
+        let (mut socket, _) = tungstenite::client(request, stream).expect("a socket");
+        assert_eq!(socket.read().expect("topology").into_data(), "body");
+        socket
+    }
+
+    /// Reads until the other side closes the line.
+    fn time_to_the_end(stream: &mut TcpStream) -> Duration {
+        stream.set_read_timeout(Some(Duration::from_secs(20))).expect("a socket");
+        let start = Instant::now();
+        let _ = stream.read_to_end(&mut Vec::new());
+        start.elapsed()
+    }
+
+    /// Ten times the longest of the times above: a machine may be busy.
+    const SOON: Duration = Duration::from_secs(5);
+
+    #[test]
+    fn connections_that_say_nothing_or_never_end_are_closed() {
+        let (address, _, _taken) = serve();
+        for word in ["", "GET / HTTP/1.1\r\nHost"] {
+            let mut stream = TcpStream::connect(address).expect("somebody listens");
+            stream.write_all(word.as_bytes()).expect("somebody reads");
+            assert!(time_to_the_end(&mut stream) < SOON, "{word}");
+        }
+        // A byte now and then is no request either.
+        let mut stream = TcpStream::connect(address).expect("somebody listens");
+        let start = Instant::now();
+        while stream.write_all(b"G").is_ok() {
+            assert!(start.elapsed() < SOON, "a request without end is listened to");
+            thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    #[test]
+    fn a_page_that_answers_pings_stays_and_others_are_closed() {
+        let (address, token, _taken) = serve();
+        let mut alive = page(address, &token);
+        let dead = page(address, &token);
+        // One that drops bytes of a message without end.
+        let mut dripping = page(address, &token);
+        dripping.get_mut().write_all(&[0x81, 0xfe, 0x10, 0x00, 0, 0, 0, 0]).expect("somebody reads");
+        let drip = thread::spawn(move || {
+            let start = Instant::now();
+            while start.elapsed() < SOON && dripping.get_mut().write_all(b"a").is_ok() {
+                thread::sleep(Duration::from_millis(10));
+            }
+            start.elapsed()
+        });
+        let mut dead = dead.into_inner();
+        let dead = thread::spawn(move || time_to_the_end(&mut dead));
+        let (start, mut pings) = (Instant::now(), 0);
+        while start.elapsed() < Duration::from_secs(2) {
+            // Reading answers.
+            assert!(matches!(alive.read(), Ok(Message::Ping(_))));
+            pings += 1;
+        }
+        assert!(pings > 2, "{pings} pings");
+        let _ = alive.flush();
+        alive.send(Message::text("nonsense")).expect("somebody reads");
+        let told = loop {
+            match alive.read().expect("the reason") {
+                Message::Ping(_) => {}
+                told => break told,
+            }
+        };
+        assert!(matches!(told, Message::Close(Some(close)) if close.reason.contains("expected")));
+        assert!(dead.join().expect("no panic") < SOON, "a dead page is kept");
+        assert!(drip.join().expect("no panic") < SOON, "a page that never ends its message is kept");
+    }
 }

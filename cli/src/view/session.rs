@@ -15,13 +15,11 @@ use piola_scenes::play::Play;
 use piola_scenes::settings::Settings;
 
 use super::protocol::Act;
-use super::state::{Drag, State};
+use super::state::{Drag, MAX_DRAG, State};
 use crate::error::Error;
 
 /// Most pulls at a time; people have fewer fingers.
 const MAX_PULLS: usize = 64;
-/// Bound of the numbers of drags in files, above which there are others for drags to come.
-const MAX_DRAG: u64 = 1 << 62;
 /// Greatest distance of a pull's target from where the vertex is at rest, in body heights.
 const REACH: f64 = 100.0;
 /// Greatest speed of a drag, in body heights per second.
@@ -235,8 +233,11 @@ impl Session {
 /// The scene of a state in motion, if all of the state fits the body.
 fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
     let play = state.moment.resume(geometry)?;
-    if state.pulls.len() > MAX_PULLS || state.pulls.keys().any(|&number| number >= MAX_DRAG) {
-        return Err(SceneError::Unsound("it has too many pulls").into());
+    if state.pulls.len() > MAX_PULLS {
+        return Err(SceneError::Unsound("it has more than 64 pulls").into());
+    }
+    if state.pulls.keys().any(|&number| number >= MAX_DRAG) {
+        return Err(SceneError::Unsound("the number of a pull is 2^62 or more").into());
     }
     for drag in state.pulls.values() {
         anchor_for(geometry, drag.vertex, drag.target)?;

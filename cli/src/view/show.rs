@@ -46,8 +46,10 @@ pub(super) struct FrameStats {
     pub(super) newton_iterations: usize,
     /// Energies after the last step, J.
     pub(super) energies: Energies,
-    /// Why the last step failed, or the last file could not be written.
+    /// Why the last step failed, or an act of a recording was refused.
     pub(super) trouble: Option<String>,
+    /// Why nothing is recorded any more.
+    pub(super) recording_ended: Option<String>,
 }
 
 /// Triangles of the surface and edges of the tetrahedra, as a binary message.
@@ -137,6 +139,7 @@ pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
         "kinetic_energy": stats.energies.kinetic,
         "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
         "trouble": stats.trouble,
+        "recording_ended": stats.recording_ended,
     });
     json!({ "figures": figures }).to_string().into()
 }

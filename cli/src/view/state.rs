@@ -1,7 +1,8 @@
 //! Files with the state of a body in motion.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use piola_scenes::error::Error as SceneError;
@@ -15,6 +16,10 @@ use crate::error::Error;
 
 /// The first field of a file, which names its format and version.
 const FORMAT: &str = "piola state 2";
+/// The longest file that is written or read, in bytes: a state of two million nodes, or hours of acts.
+pub(super) const MAX_LENGTH: u64 = 256 << 20;
+/// Bound of the numbers of drags in files, above which there are others for drags to come.
+pub(super) const MAX_DRAG: u64 = 1 << 62;
 
 /// A state that determines all steps to come, to the last bit, with the pulls of pages at it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -79,19 +84,41 @@ impl State {
     /// # Errors
     /// [`Error::Scene`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let failed =
-            |source: serde_json::Error| SceneError::Write { path: path.into(), source: source.into() };
-        let text = Sealer::new().line(self).map_err(failed)?;
+        let failed = |source| SceneError::Write { path: path.into(), source };
+        let text = Sealer::new().line(self).map_err(|error| failed(error.into()))?;
+        if text.len() as u64 > MAX_LENGTH {
+            return Err(
+                failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")).into()
+            );
+        }
         Ok(write_whole(path, &text)?)
     }
 
-    /// Reads a file. Whether the state fits its scene is checked where a session resumes it.
+    /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`] or [`Error::NotState`].
+    /// [`Error::Unreadable`], or like [`State::parse`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text =
-            fs::read_to_string(path).map_err(|source| Error::Unreadable { path: path.into(), source })?;
-        Unsealer::new().line(&text).map_err(|source| Error::NotState { path: path.into(), source })
+        Self::parse(&text_of(path)?, path)
     }
+
+    /// Parses the text of a file; `path` is for messages. Whether the state fits its scene is checked where a
+    /// session resumes it.
+    ///
+    /// # Errors
+    /// [`Error::NotState`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
+        Unsealer::new().line(text).map_err(|source| Error::NotState { path: path.into(), source })
+    }
+}
+
+/// Content of a state or a recording.
+pub(super) fn text_of(path: &Path) -> Result<String, Error> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
+    let read = read.and_then(|length| match length as u64 > MAX_LENGTH {
+        true => Err(io::Error::new(ErrorKind::FileTooLarge, "it is longer than 256 MiB")),
+        false => Ok(text),
+    });
+    read.map_err(|source| Error::Unreadable { path: path.into(), source })
 }

@@ -1,0 +1,83 @@
+//! How long the viewer waits for the other side of a connection, and a stream that waits no longer.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+/// Times after which a connection is given up: it holds one of a few places.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patience {
+    /// For all of a request; a browser sends it at once.
+    pub(super) request: Duration,
+    /// For taking one answer, frame or message; on one machine that is a matter of milliseconds.
+    pub(super) answer: Duration,
+    /// Silence of a page after which it is asked for a sign of life. One that is paused may say nothing for
+    /// hours.
+    pub(super) ping: Duration,
+    /// Silence after which a page is given up. A browser answers a ping by itself, even for a page in the
+    /// background or one that computes; while the machine sleeps, this clock stands still.
+    pub(super) silence: Duration,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self {
+            request: Duration::from_secs(5),
+            answer: Duration::from_secs(10),
+            ping: Duration::from_secs(20),
+            silence: Duration::from_secs(60),
+        }
+    }
+}
+
+/// A connection whose reads and writes end by a set time together, however slowly the other side goes.
+#[derive(Debug)]
+pub(super) struct TimedStream {
+    stream: TcpStream,
+    until: Instant,
+}
+
+impl TimedStream {
+    /// A connection without any time yet.
+    pub(super) fn new(stream: TcpStream) -> Self {
+        Self { stream, until: Instant::now() }
+    }
+
+    /// Gives this much time to the reads and writes to come, from now on.
+    pub(super) fn allow(&mut self, time: Duration) {
+        self.until = Instant::now() + time;
+    }
+
+    pub(super) fn stream(&self) -> &TcpStream {
+        &self.stream
+    }
+
+    fn left(&self) -> io::Result<Duration> {
+        let left = self.until.saturating_duration_since(Instant::now());
+        // What systems say when a read or a write takes too long.
+        if left.is_zero() { Err(ErrorKind::WouldBlock.into()) } else { Ok(left) }
+    }
+}
+
+impl Read for TimedStream {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.stream.set_read_timeout(Some(self.left()?))?;
+        self.stream.read(bytes)
+    }
+}
+
+impl Write for TimedStream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.set_write_timeout(Some(self.left()?))?;
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
+}
+
+/// Whether a read or a write has ended because its time was over.
+pub(super) fn is_silence(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut)
+}

@@ -1,0 +1,67 @@
+//! The secret that opens the page: whoever was given the printed address has it.
+
+use std::fmt;
+
+use data_encoding::HEXLOWER;
+use subtle::ConstantTimeEq;
+
+use crate::error::Error;
+
+/// A random number of 128 bits, as hexadecimal digits.
+#[derive(Clone)]
+pub(super) struct Token(String);
+
+impl Token {
+    /// A number that nobody can guess.
+    ///
+    /// # Errors
+    /// [`Error::Random`].
+    pub(super) fn new() -> Result<Self, Error> {
+        let mut bytes = [0; 16];
+        getrandom::fill(&mut bytes).map_err(Error::Random)?;
+        Ok(Self(HEXLOWER.encode(&bytes)))
+    }
+
+    /// Whether a request with this query, the part of an address behind `?`, names the token, and once. How
+    /// long the answer takes does not depend on how much of it is right.
+    pub(super) fn is_in(&self, query: Option<&str>) -> bool {
+        let mut tokens = query.unwrap_or_default().split('&').filter_map(|pair| pair.strip_prefix("token="));
+        match (tokens.next(), tokens.next()) {
+            (Some(token), None) => token.as_bytes().ct_eq(self.0.as_bytes()).into(),
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl fmt::Debug for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Token")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_token_itself_opens() {
+        let (token, other) = (Token::new().expect("a system"), Token::new().expect("a system"));
+        assert_eq!(token.0.len(), 32);
+        assert!(token.is_in(Some(&format!("token={token}"))));
+        assert!(token.is_in(Some(&format!("a=b&token={token}"))));
+        for query in ["", "token", "token=", &token.0, &format!("token={other}"), &format!("token={token}0")]
+        {
+            assert!(!token.is_in(Some(query)), "{query}");
+        }
+        assert!(!token.is_in(Some(&format!("token={other}&token={token}"))), "which of them counts?");
+        assert!(!token.is_in(Some(&format!("token={}", token.0.to_uppercase() + "A"))));
+        assert!(!token.is_in(None));
+        assert_eq!(format!("{token:?}"), "Token", "secrets are not for logs");
+    }
+}
