@@ -4,7 +4,7 @@ mod check;
 mod curve;
 mod fit;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use piola_laboratory::chart;
@@ -15,6 +15,7 @@ use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 
 use crate::error::Error;
+use crate::overlap::refuse_overlaps;
 
 pub(crate) use check::Check;
 pub(crate) use curve::Curve;
@@ -40,9 +41,21 @@ impl Material {
     }
 }
 
+/// Whether measured points are those of the program.
+fn is_treloar(file: &Path) -> bool {
+    file.as_os_str().eq_ignore_ascii_case("treloar")
+}
+
+/// Refuses to draw over the measured points.
+fn keep_data(data: Option<&PathBuf>, svg: Option<&PathBuf>) -> Result<(), Error> {
+    let data = data.filter(|file| !is_treloar(file)).map(|file| ("--data", file.clone()));
+    let svg = svg.map(|file| ("--svg", file.clone()));
+    refuse_overlaps(data, svg)
+}
+
 /// Measured points from a file, or Treloar's.
 fn measurements(file: &Path) -> Result<Measurements, Error> {
-    if file.as_os_str().eq_ignore_ascii_case("treloar") {
+    if is_treloar(file) {
         return Measurements::read(TRELOAR_1944).map_err(Error::bench);
     }
     let path = file.to_owned();

@@ -12,6 +12,7 @@ use piola_scenes::settings::{Files, Settings};
 
 use crate::bench::{Check, Curve, Fit};
 use crate::error::Error;
+use crate::overlap::refuse_overlaps;
 use crate::view::recording::Recording;
 use crate::view::state::State;
 use crate::view::{Begin, Options};
@@ -33,7 +34,8 @@ pub(crate) enum Command {
     Run(Box<Run>),
     /// Show a scene in a browser, to be pulled with the mouse.
     ///
-    /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it.
+    /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it. The address has a random token,
+    /// without which nobody gets in: give it to those who may pull, and to nobody else.
     #[command(after_help = scenes())]
     View(Box<View>),
     /// List the materials with formula, parameters and typical values of them, domain and small-strain
@@ -92,7 +94,8 @@ pub(crate) struct View {
     #[arg(long, default_value_t = 8017)]
     port: u16,
 
-    /// File for the state that the page's button saves [default: kept in memory].
+    /// File for the state that the page's button saves; a recording that is played back writes none [default:
+    /// kept in memory].
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 
@@ -101,11 +104,12 @@ pub(crate) struct View {
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     load: Option<PathBuf>,
 
-    /// Record every pull and every change in a file.
+    /// Record every pull and every change in a file; only an earlier recording is overwritten.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
-    /// Play a recording back, which names its scene and options like a state; at its end the page takes over.
+    /// Play a recording back, which names its scene and options like a state; the page takes over at its end,
+    /// or when its button is pressed.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
 }
@@ -200,6 +204,7 @@ impl Run {
 impl View {
     /// Options of the viewer.
     pub(crate) fn options(self) -> Result<Options, Error> {
+        self.refuse_overlaps()?;
         let begin = match (&self.load, &self.replay) {
             (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
             (Some(path), _) => {
@@ -212,6 +217,26 @@ impl View {
             }
         };
         Ok(Options::new(begin).with_port(self.port).with_save(self.save).with_record(self.record))
+    }
+
+    /// Refuses to write over files that are read. A state may be saved to the file that it was loaded from.
+    fn refuse_overlaps(&self) -> Result<(), Error> {
+        let Choice { mesh, surface, .. } = &self.choice;
+        // TetGen's files are two, either of which may be named.
+        let is_tetgen = |mesh: &&PathBuf| mesh.extension().is_some_and(|end| end == "node" || end == "ele");
+        let tetgen = mesh.as_ref().filter(is_tetgen);
+        let beside = |extension| tetgen.map(|mesh| mesh.with_extension(extension));
+        let named = |option, file: &Option<PathBuf>| file.clone().map(|file| (option, file));
+        let inputs = [
+            named("--mesh", mesh),
+            named("--mesh", &beside("node")),
+            named("--mesh", &beside("ele")),
+            named("--surface", surface),
+            named("--replay", &self.replay),
+        ];
+        let (save, record) = (named("--save", &self.save), named("--record", &self.record));
+        refuse_overlaps(named("--load", &self.load), record.clone())?;
+        refuse_overlaps(inputs.into_iter().flatten(), [save, record].into_iter().flatten())
     }
 }
 

@@ -8,6 +8,7 @@ mod bench;
 mod command;
 pub mod error;
 mod materials;
+mod overlap;
 mod picture;
 pub mod render;
 mod signals;

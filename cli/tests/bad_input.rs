@@ -10,11 +10,16 @@ fn piola(folder: &Path, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(arguments).output().expect("the command starts")
 }
 
-fn files_in(folder: &Path) -> Vec<PathBuf> {
-    fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect()
+/// Files with their content.
+fn files_in(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let paths = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut files: Vec<_> = paths.map(|path| (path.clone(), fs::read(path).unwrap_or_default())).collect();
+    files.sort();
+    files
 }
 
-/// Runs `piola` in a folder with these files; `guilty` must all be in its message, and no file may be new.
+/// Runs `piola` in a folder with these files; `guilty` must all be in its message, and no file may be new or
+/// changed.
 #[track_caller]
 fn check(files: &[(&str, String)], arguments: &[&str], guilty: &[&str]) {
     let folder = tempfile::tempdir().expect("a scratch folder");
@@ -158,6 +163,29 @@ fn files_of_the_viewer_that_are_none() {
     let recording = ("pulls.jsonl", String::new());
     check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
     check(&[], &["view", "--port", "65536"], &["65536"]);
+}
+
+#[test]
+fn files_that_are_named_twice() {
+    let files = [
+        good_mesh(),
+        ("data.csv", "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.5\n".into()),
+        ("file.node", String::new()),
+        ("file.ele", String::new()),
+    ];
+    let twice = |arguments: &[&str], guilty: &[&str]| check(&files, arguments, guilty);
+    twice(&["view", "--replay", "r.jsonl", "--record", "./r.jsonl"], &["--replay", "--record", "r.jsonl"]);
+    twice(&["view", "--load", "s.json", "--record", "s.json"], &["--load", "--record"]);
+    twice(&["view", "--save", "s.json", "--record", "s.json"], &["--save", "--record"]);
+    twice(&["view", "--mesh", "cage.msh", "--save", "cage.msh"], &["--mesh", "--save"]);
+    twice(&["view", "--mesh", "file.node", "--record", "file.ele"], &["--mesh", "--record"]);
+    twice(&["view", "--mesh", "cage.msh", "--surface", "x.obj", "--record", "x.obj"], &["--surface"]);
+    twice(&["curve", "gent", "--data", "data.csv", "--svg", "data.csv"], &["--data", "--svg"]);
+    twice(&["fit", "gent", "--data", "data.csv", "--svg", "./data.csv"], &["--data", "--svg"]);
+    // Loading a state and saving the next one there is what a state is for.
+    twice(&["view", "--load", "data.csv", "--save", "data.csv"], &["data.csv", "not a saved state"]);
+    // Somebody's file is not recorded over, whatever it is.
+    twice(&["view", "twist", "--port", "0", "--record", "data.csv"], &["data.csv", "something else"]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
-use super::{FINE, Material, as_options, draw, measured_range, measurements, spaced, titled};
+use super::{FINE, Material, as_options, draw, keep_data, measured_range, measurements, spaced, titled};
 use crate::error::Error;
 
 /// Stresses are in Pa.
@@ -60,6 +60,7 @@ const MAX_STRETCH: f64 = 1e6;
 impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
+        keep_data(self.data.as_ref(), self.svg.as_ref())?;
         let material = self.material.spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;

@@ -9,7 +9,9 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};
 use piola_scenes::error::{Error as SceneError, plain};
 
-use super::{FINE, Material, as_options, draw, measured_range, measurements, rounded, spaced, titled};
+use super::{
+    FINE, Material, as_options, draw, keep_data, measured_range, measurements, rounded, spaced, titled,
+};
 use crate::error::Error;
 
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
@@ -59,6 +61,7 @@ pub(crate) struct Fit {
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
+        keep_data(Some(&self.data), self.svg.as_ref())?;
         let spec = self.material.spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
