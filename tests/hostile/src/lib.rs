@@ -1,0 +1,209 @@
+//! Hostile files: for each reader of piola, a judge who takes any bytes, and mutations of good files.
+//!
+//! A judge feeds bytes to the reader and lets the program work with what it has read, for a step or a chart.
+//! Whatever the bytes are, there is no panic, no message without a word or with control characters of the file
+//! in it, and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated seeds,
+//! and `fuzz/` with what libFuzzer thinks of.
+
+pub mod mutation;
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use piola_cli::view::recording::Recording;
+use piola_cli::view::session::Session;
+use piola_cli::view::state::State;
+use piola_laboratory::chart::{self, Curve};
+use piola_laboratory::curve::{Volume, sweep};
+use piola_laboratory::data::Measurements;
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::output::Sealer;
+use piola_scenes::run::{Output, run};
+use piola_scenes::scene::HORSE;
+use piola_scenes::settings::{Files, Settings};
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+/// Steps of a recording that are played, and acts.
+const PLAYED: u64 = 20;
+
+/// A kind of file that piola reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Format {
+    /// Name of the folder with its seeds.
+    pub name: &'static str,
+    /// Feeds bytes to the reader, in a folder for files; whether it has taken them.
+    ///
+    /// Panics if the reader or what follows it does what it must not do.
+    pub judge: fn(&Path, &[u8]) -> bool,
+}
+
+/// Every kind of file that piola reads.
+pub const FORMATS: &[Format] = &[
+    Format { name: "msh", judge: msh },
+    Format { name: "tetgen", judge: tetgen },
+    Format { name: "obj", judge: obj },
+    Format { name: "csv", judge: csv },
+    Format { name: "state", judge: state },
+    Format { name: "recording", judge: recording },
+];
+
+/// The folder with the seeds of a format.
+#[must_use]
+pub fn seeds(format: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds").join(format)
+}
+
+/// Tetrahedra of Gmsh.
+pub fn msh(scratch: &Path, bytes: &[u8]) -> bool {
+    let mesh = write(scratch, "body.msh", bytes);
+    play(scratch, Files { mesh, surface: None })
+}
+
+/// Tetrahedra of TetGen: nodes, a line `# elements`, elements.
+pub fn tetgen(scratch: &Path, bytes: &[u8]) -> bool {
+    const BORDER: &[u8] = b"# elements\n";
+    let at = bytes.windows(BORDER.len()).position(|window| window == BORDER);
+    let (nodes, elements) = bytes.split_at(at.unwrap_or(bytes.len()));
+    write(scratch, "body.node", nodes);
+    let mesh = write(scratch, "body.ele", elements);
+    play(scratch, Files { mesh, surface: None })
+}
+
+/// A surface in a cube of tetrahedra.
+pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
+    let surface = write(scratch, "skin.obj", bytes);
+    play(scratch, Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: Some(surface) })
+}
+
+/// Measured points, beside the curves of a material in a chart.
+pub fn csv(_: &Path, bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let data = match Measurements::read(text) {
+        Ok(data) => data,
+        Err(error) => return refused(&error),
+    };
+    let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.specimen()).expect("a material");
+    let curves: Vec<_> = data
+        .modes()
+        .map(|mode| {
+            let controls: Vec<_> = data.of(mode).map(|point| point.control).collect();
+            Curve { mode, points: sweep(&*specimen, mode, Volume::Free, &controls) }
+        })
+        .collect();
+    for response in curves.iter().flat_map(|curve| &curve.points) {
+        match response {
+            Ok(response) => assert!(response.stress.is_finite(), "{response:?}"),
+            Err(error) => drop(refused(error)),
+        }
+    }
+    let agreement = data.agreement(&*specimen, Volume::Free);
+    let compared = agreement.as_ref().ok().map(|agreement| (&data, agreement));
+    match chart::draw("gent", "typical", &curves, compared) {
+        Ok(svg) => assert!(!svg.contains("NaN") && !svg.contains("\"inf"), "{svg}"),
+        Err(error) => drop(refused(&error)),
+    }
+    true
+}
+
+/// A state of the viewer, as it is or sealed anew.
+pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
+    let Some(text) = sealed(bytes) else { return false };
+    let state = match State::parse(&text, scratch) {
+        Ok(state) => state.with_files(cube()),
+        Err(error) => return refused(&error),
+    };
+    match Session::resume(state) {
+        Ok(mut session) => {
+            step(&mut session);
+            true
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+/// A recording of the viewer, as it is or sealed anew.
+pub fn recording(scratch: &Path, bytes: &[u8]) -> bool {
+    let Some(text) = sealed(bytes) else { return false };
+    let mut recording = match Recording::parse(&text, scratch) {
+        Ok(recording) => recording.with_files(cube()),
+        Err(error) => return refused(&error),
+    };
+    let mut session = match Session::resume(recording.start().clone()) {
+        Ok(session) => session,
+        Err(error) => return refused(&error),
+    };
+    for steps in 0..PLAYED {
+        for _ in 0..PLAYED {
+            let Some(act) = recording.next_before(steps) else { break };
+            session.apply(&act).unwrap_or_else(|error| drop(refused(&error)));
+        }
+        step(&mut session);
+    }
+    true
+}
+
+/// The cube that states are of.
+fn cube() -> Option<Files> {
+    Some(Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None })
+}
+
+/// The text with checksums that belong to it, so that more than checksums is tested: a line that is JSON has its
+/// content sealed again, unless the first byte of the text is `!`.
+fn sealed(bytes: &[u8]) -> Option<String> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    if let Some(as_it_is) = text.strip_prefix('!') {
+        return Some(as_it_is.into());
+    }
+    let mut sealer = Sealer::new();
+    let seal = |line: &str| {
+        let line: std::collections::BTreeMap<String, &RawValue> = serde_json::from_str(line).ok()?;
+        String::from_utf8(sealer.line(line.get("content")?).ok()?).ok()
+    };
+    let lines: Option<Vec<_>> = text.lines().map(seal).collect();
+    Some(lines.map_or(text.into(), |lines| lines.concat()))
+}
+
+fn write(scratch: &Path, name: &str, bytes: &[u8]) -> PathBuf {
+    let path = scratch.join(name);
+    fs::write(&path, bytes).expect("a file in a scratch folder");
+    path
+}
+
+/// Plays a step of a body with all files of a run.
+fn play(scratch: &Path, files: Files) -> bool {
+    let settings = Settings::new(&HORSE).with_files(Some(files)).with_frames(1);
+    let finished = match run(&settings, &Output::new(scratch.join("out")).with_vtu(true), &mut ()) {
+        Ok(finished) => finished,
+        Err(error) => return refused(&error),
+    };
+    let summary = serde_json::to_value(&finished.summary).expect("JSON");
+    for (name, value) in summary.as_object().expect("an object") {
+        // In JSON, what is not finite is null; a body that has recovered is not examined.
+        assert!(*value != Value::Null || ["final_state", "reading"].contains(&name.as_str()), "{summary}");
+    }
+    let surface = finished.surface_in(1).expect("a surface");
+    assert!(surface.as_flattened().iter().all(|x| x.is_finite()), "{surface:?}");
+    finished.close().unwrap_or_else(|error| panic!("{error}"));
+    true
+}
+
+fn step(session: &mut Session) {
+    match session.step() {
+        Ok(_) => {
+            let positions = session.play().simulation().positions().as_flattened();
+            assert!(positions.iter().all(|x| x.is_finite()), "a step has led out of the world");
+            assert!(session.play().clock().time().is_finite());
+        }
+        Err(error) => drop(refused(&error)),
+    }
+}
+
+/// Checks the message of an error.
+fn refused(error: &dyn Error) -> bool {
+    let message = error.to_string();
+    assert!(!message.is_empty(), "{error:?}");
+    assert!(!message.chars().any(char::is_control), "control characters in {message:?}");
+    false
+}
