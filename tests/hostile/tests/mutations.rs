@@ -1,6 +1,7 @@
 //! Mutated files of each format: no panic, no hang, no result that is not finite.
 //!
-//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` says.
+//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` says. `PIOLA_BLESS=1` writes
+//! the seeds of the viewer's files anew, after their format has changed.
 
 use std::any::Any;
 use std::fs;
@@ -8,8 +9,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use piola::random::Random;
+use piola_cli::view::protocol::Act;
+use piola_cli::view::recording::Recorder;
+use piola_cli::view::session::Session;
 use piola_hostile::mutation::mutated;
 use piola_hostile::{FORMATS, Format, seeds};
+use piola_scenes::scene::HORSE;
+use piola_scenes::settings::{Files, Settings};
 
 /// Longer than any small file may take, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -21,7 +27,8 @@ fn count() -> usize {
 #[track_caller]
 fn check(name: &str) {
     let Format { judge, .. } = FORMATS.iter().find(|format| format.name == name).expect("a format");
-    let mut files: Vec<_> = fs::read_dir(seeds(name)).expect("seeds").map(|file| file.expect("a file").path()).collect();
+    let mut files: Vec<_> =
+        fs::read_dir(seeds(name)).expect("seeds").map(|file| file.expect("a file").path()).collect();
     files.sort();
     let files: Vec<_> = files.iter().map(|path| fs::read(path).expect("a seed")).collect();
     let scratch = tempfile::tempdir().expect("a scratch folder");
@@ -60,3 +67,38 @@ macro_rules! formats {
 }
 
 formats!(msh, tetgen, obj, csv, state, recording);
+
+/// Seeds of the viewer's files, which have checksums: a cube that is pulled, let go, and changed.
+#[test]
+fn seeds_of_the_viewer() {
+    if std::env::var_os("PIOLA_BLESS").is_none() {
+        return;
+    }
+    let (mut session, scratch) = (cube_in_motion(), tempfile::tempdir().expect("a scratch folder"));
+    let path = scratch.path().join("recording");
+    let mut recorder = Recorder::begin(&path, session.state()).expect("a recording");
+    for act in acts() {
+        session.apply(&act).expect("an act");
+        recorder.act(session.steps(), &act).expect("an act");
+        session.step().expect("a step");
+    }
+    recorder.end(session.steps()).expect("an end");
+    session.state().write(&seeds("state").join("cube.json")).expect("a state");
+    fs::copy(path, seeds("recording").join("cube.jsonl")).expect("a recording");
+}
+
+fn cube_in_motion() -> Session {
+    let files = Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None };
+    Session::new(Settings::new(&HORSE).with_files(Some(files))).expect("a session")
+}
+
+fn acts() -> [Act; 6] {
+    [
+        Act::Pull { drag: 1, vertex: 3, target: [1.0, 1.5, -0.25] },
+        Act::Material { name: "gent".into(), as_stiff: true },
+        Act::Parameter { name: "jm".into(), values: vec![50.0] },
+        Act::TimeStep { seconds: 0.02 },
+        Act::Save {},
+        Act::Release { drag: 1 },
+    ]
+}

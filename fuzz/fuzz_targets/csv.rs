@@ -1,0 +1,14 @@
+//! Measured points in CSV files: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//!
+//! ```sh
+//! cargo +nightly fuzz run -s none -O csv fuzz/corpus/csv fuzz/seeds/csv
+//! ```
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    piola_hostile::csv(scratch.path(), bytes);
+});

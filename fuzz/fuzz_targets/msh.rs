@@ -1,0 +1,14 @@
+//! Tetrahedra of Gmsh: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//!
+//! ```sh
+//! cargo +nightly fuzz run -s none -O msh fuzz/corpus/msh fuzz/seeds/msh
+//! ```
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    piola_hostile::msh(scratch.path(), bytes);
+});

@@ -1,0 +1,14 @@
+//! Surfaces in OBJ files: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//!
+//! ```sh
+//! cargo +nightly fuzz run -s none -O obj fuzz/corpus/obj fuzz/seeds/obj
+//! ```
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    piola_hostile::obj(scratch.path(), bytes);
+});
