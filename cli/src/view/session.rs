@@ -50,7 +50,7 @@ impl Session {
         let material = settings.material.explicit()?;
         let settings = settings.with_material(material);
         let geometry = Geometry::load(&settings)?;
-        let play = Play::new(&settings, &geometry)?;
+        let play = at_start(&settings, &geometry)?;
         let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
         Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None, steps: 0 })
     }
@@ -168,7 +168,7 @@ impl Session {
                 Ok(())
             }
             Act::Reset {} => {
-                self.play = Play::new(&self.settings, &self.geometry)?;
+                self.play = at_start(&self.settings, &self.geometry)?;
                 self.pulls.clear();
                 Ok(())
             }
@@ -266,6 +266,13 @@ fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<An
             requirement: "at most a hundred body heights from where the vertex is at rest",
         }),
     }
+}
+
+/// The body where the scene starts, if its material is defined there.
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, SceneError> {
+    let mut play = Play::new(settings, geometry)?;
+    play.check_start(settings, geometry)?;
+    Ok(play)
 }
 
 /// From one point to another, but at most so far.
