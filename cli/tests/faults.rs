@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 use piola::random::Random;
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
-const KILLS: usize = 6;
+const KILLS: usize = 4;
 /// After one kill of so many, the run goes on to its end, and another one replaces it.
-const SEQUELS: usize = 3;
+const SEQUELS: usize = 4;
 /// Steps of a run of a cube: together about as long as the picture at its end.
 const FRAMES: usize = 1500;
 /// A cube of six tetrahedra around its diagonal.
@@ -183,11 +183,11 @@ fn killed_at_any_moment() {
 }
 
 /// A signal ends a run as a shorter one with a summary, whenever it comes: every 50 ms of a run if
-/// `PIOLA_KILLS` is set, otherwise every 300 ms.
+/// `PIOLA_KILLS` is set, otherwise every 500 ms.
 #[test]
 fn interrupted_at_every_moment() {
     let runs = Runs::new();
-    let pause = if std::env::var_os("PIOLA_KILLS").is_some() { 50 } else { 300 };
+    let pause = if std::env::var_os("PIOLA_KILLS").is_some() { 50 } else { 500 };
     for turn in 1.. {
         let scratch = runs.folder(false);
         let came = kill(start(scratch.path(), "0.03"), turn * Duration::from_millis(pause), "INT");
