@@ -279,3 +279,26 @@ impl DragSprings {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Body, HORSE};
+
+    #[test]
+    fn no_step_leads_beyond_all_time() {
+        let settings = Settings::new(&HORSE).with_body(Body::BAR);
+        let geometry = Geometry::load(&settings).expect("a body of the program");
+        let mut play = Play::new(&settings, &geometry).expect("a scene that plays");
+        let late = r#"{"frame":1,"dt":1e300,"since_frame":1,"since_time":1.7976931348623157e308}"#;
+        let late: Clock = serde_json::from_str(late).expect("a clock");
+        let velocities = vec![[0.0; 3]; geometry.mesh.positions.len()];
+        play.resume(late, &geometry.mesh.positions, &velocities).expect("a state of the body");
+        let refused = play.step().map(drop).expect_err("no time is left");
+        assert!(
+            matches!(refused, Error::OutOfRange { quantity: "the time after the step", .. }),
+            "{refused}"
+        );
+        assert_eq!(play.clock(), late);
+    }
+}
