@@ -21,7 +21,7 @@ use page::{Page, parts};
 
 /// For each of the two rounds.
 const ROUND: Duration = Duration::from_secs(3);
-/// The longest that a frame may take meanwhile; a step of the bar takes milliseconds, and all share the cores.
+/// The longest that a frame may take meanwhile. A step of the bar takes milliseconds; all share the cores.
 const FRAME: Duration = Duration::from_secs(3);
 /// What allocators may keep, MiB, for threads that come and go. If each of the tens of thousands of messages
 /// below were kept, that would be far more.
