@@ -24,7 +24,8 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::Ended;
-use piola_scenes::run::{Closed, Watch, run};
+use piola_scenes::run::{Closed, run};
+use piola_scenes::watch::Watch;
 
 use command::{Cli, Command, Run, View};
 use error::Error;

@@ -1,4 +1,5 @@
-//! Measured points in CSV files: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! Measured points in CSV files: whatever they are, the reader and what follows it keep what `piola_hostile`
+//! says.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O csv fuzz/corpus/csv fuzz/seeds/csv

@@ -1,4 +1,5 @@
-//! Recordings of the viewer: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! Recordings of the viewer: whatever they are, the reader and what follows it keep what `piola_hostile`
+//! says.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O recording fuzz/corpus/recording fuzz/seeds/recording

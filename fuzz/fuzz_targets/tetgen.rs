@@ -1,4 +1,5 @@
-//! Tetrahedra of TetGen, nodes and elements in one text: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! Tetrahedra of TetGen, nodes and elements in one text: whatever they are, the reader and what follows it
+//! keep what `piola_hostile` says.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O tetgen fuzz/corpus/tetgen fuzz/seeds/tetgen

@@ -145,7 +145,7 @@ pub enum Error {
     /// Something that is no file has the name of a file to be written.
     #[error("{} is not a regular file, and a file of that name is to be written; move it away", path.display())]
     InTheWay {
-        /// What is in the way.
+        /// Path of what is in the way.
         path: PathBuf,
     },
     /// Another run is writing to the folder.

@@ -23,6 +23,7 @@ pub mod scene;
 pub mod settings;
 pub mod statics;
 pub mod tensile_reading;
+pub mod watch;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -11,6 +11,7 @@ use crate::output::{
 };
 use crate::play::Play;
 use crate::settings::Settings;
+use crate::watch::Watch;
 
 mod course;
 mod progress;
@@ -32,8 +33,8 @@ pub struct Output {
 /// Treatment of files that are in a folder already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// A complete run replaces an earlier one; files that no run has written are kept, and refused if they have
-    /// the name of a result.
+    /// A complete run replaces an earlier one; files that no run has written are kept, and refused if they
+    /// have the name of a result.
     #[default]
     Keep,
     /// A complete run replaces whatever files have the names of its own.
@@ -64,22 +65,6 @@ impl Output {
     }
 }
 
-/// Observer of a run, who may end it.
-pub trait Watch: Send {
-    /// Is called when the files of a frame have been written; 0 is the start.
-    fn frame(&mut self, frame: usize) {
-        let _ = frame;
-    }
-
-    /// Whether the run is to end with the frames that it has. Is asked before each step.
-    fn stops(&mut self) -> bool {
-        false
-    }
-}
-
-/// An observer who does nothing.
-impl Watch for () {}
-
 /// A run whose summary can still be added to.
 #[derive(Debug)]
 pub struct Finished {
@@ -109,8 +94,8 @@ pub struct Closed {
 /// Whatever ends it after the first step, the frames before are kept with a summary that says what happened.
 ///
 /// # Errors
-/// An error of the settings, the body or the folder, and one of the first step or its files: nothing is written
-/// then. [`Error::Interrupted`] if `watch` stops the run before its first step.
+/// An error of the settings, the body or the folder, and one of the first step or its files: nothing is
+/// written then. [`Error::Interrupted`] if `watch` stops the run before its first step.
 pub fn run(settings: &Settings, output: &Output, watch: &mut dyn Watch) -> Result<Finished, Error> {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings, &geometry)?;
@@ -165,8 +150,8 @@ impl Finished {
     /// Writes the summary, and puts all files in their place.
     ///
     /// # Errors
-    /// [`Error::Exchange`] if an earlier run cannot be replaced, and [`Error::Write`] if the summary cannot be
-    /// written. All frames are kept.
+    /// [`Error::Exchange`] if an earlier run cannot be replaced, and [`Error::Write`] if the summary cannot
+    /// be written. All frames are kept.
     pub fn close(mut self) -> Result<Closed, Error> {
         self.folder.release();
         if self.vtu {

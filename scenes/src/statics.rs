@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::measure;
 use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
-use crate::run::Watch;
+use crate::watch::Watch;
 
 /// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the
 /// calls before.

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::output::{Sealer, Unsealer};
+use piola_scenes::output::{SealError, Sealer, Unsealer};
 use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
 
@@ -130,7 +130,7 @@ impl Recorder {
         let length = self.length + text.len() as u64;
         check_length(length)?;
         if let Err(source) = self.file.write_all(text) {
-            // Where even this fails, the last line is cut off, and reading says so.
+            // Where even this fails, the last line is cut off, and reading leaves it out.
             let _ = self.file.set_len(self.length);
             return Err(SceneError::Write { path: self.path.clone(), source }.into());
         }
@@ -176,8 +176,8 @@ impl Recording {
         Self::parse(&text_of(path)?, path)
     }
 
-    /// Parses the text of a recording; `path` is for messages. One that ends after any of its lines, as an
-    /// interrupted viewer leaves it, is whole.
+    /// Parses the text of a recording; `path` is for messages. One that ends after any of its lines, or in
+    /// the middle of one, as an interrupted viewer leaves it, is played up to there.
     ///
     /// # Errors
     /// [`Error::NotRecording`].
@@ -187,11 +187,13 @@ impl Recording {
         let mut start = None;
         let (mut acts, mut until) = (VecDeque::new(), 0);
         for (line, text) in (1..).zip(text.split_inclusive('\n')) {
-            if !text.ends_with('\n') {
-                let reason = "the line is cut off; without it, the file can be played up to here";
-                return Err(failure(line, reason.into()));
-            }
-            let steps = match unsealer.line(text).map_err(|error| failure(line, error.to_string()))? {
+            let is_last = !text.ends_with('\n');
+            let content = match unsealer.line(text) {
+                // A viewer that was ended while it wrote.
+                Err(SealError::NotJson(error)) if is_last && error.is_eof() => break,
+                content => content.map_err(|error| failure(line, error.to_string()))?,
+            };
+            let steps = match content {
                 Line::Start(state) if line == 1 => {
                     start = Some(*state);
                     continue;

@@ -1,9 +1,9 @@
 //! A folder with the files of a run, in which nothing of anybody else's is touched.
 //!
 //! Files are written as the run goes on, so that whatever ends it leaves a shorter run. Each is entered in a
-//! list in the folder before it is created: what is not in the list is somebody else's. A folder that holds an
-//! earlier run gets another folder inside it for the new one, which takes the place of the earlier run at the
-//! end, if it is complete; otherwise it stays where it is.
+//! list in the folder before it is created: what is not in the list is somebody else's. A folder that holds
+//! an earlier run gets another folder inside it for the new one, which takes the place of the earlier run at
+//! the end, if it is complete; otherwise it stays where it is.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -58,10 +58,10 @@ impl Folder {
     /// the end if `force` says so.
     ///
     /// # Errors
-    /// [`Error::ForeignFiles`] if the folder holds frames or results that no run has written and that may not be
-    /// replaced, [`Error::InTheWay`] if a file to come has the name of something that is no file,
-    /// [`Error::Busy`] if another run writes there, and [`Error::Folder`] if files cannot be written there. The
-    /// folder is then as it was.
+    /// [`Error::ForeignFiles`] if the folder holds frames or results that no run has written and that may not
+    /// be replaced, [`Error::InTheWay`] if a file to come has the name of something that is no file,
+    /// [`Error::Busy`] if another run writes there, and [`Error::Folder`] if files cannot be written there.
+    /// The folder is then as it was.
     pub fn prepare(target: &Path, names: Names, force: bool) -> Result<Self, Error> {
         let existed = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = target.ancestors().take_while(existed).map(PathBuf::from).collect();
@@ -97,13 +97,7 @@ impl Folder {
                 (work.clone(), Listing::create(&work)?, Some(Earlier { listing, given_up }))
             }
         };
-        let mut folder =
-            Self { target: target.into(), work, listing, earlier, created, leftovers: content.leftovers };
-        if let Err(error) = folder.reserve() {
-            folder.abandon();
-            return Err(error);
-        }
-        Ok(folder)
+        Ok(Self { target: target.into(), work, listing, earlier, created, leftovers: content.leftovers })
     }
 
     /// Opens the folder of a run, to go on with it.
@@ -121,10 +115,7 @@ impl Folder {
             return Err(Error::ForeignFiles { folder: target.into(), names: content.foreign });
         }
         let (target, leftovers) = (target.to_owned(), content.leftovers);
-        let mut folder =
-            Self { work: target.clone(), target, listing, earlier: None, created: Vec::new(), leftovers };
-        folder.reserve()?;
-        Ok(folder)
+        Ok(Self { work: target.clone(), target, listing, earlier: None, created: Vec::new(), leftovers })
     }
 
     /// The folder that files are written to.
@@ -145,12 +136,12 @@ impl Folder {
         self.listing.contains(name) && self.work.join(name).is_file()
     }
 
-    /// Writes one file, which `content` fills. It appears when it is complete, in place of one that the run has
-    /// written before.
+    /// Writes one file, which `content` fills. It appears when it is complete, in place of one that the run
+    /// has written before.
     ///
     /// # Errors
-    /// [`Error::Write`] if the disk is full, `content` fails, or somebody else has written a file of that name
-    /// meanwhile. The folder is then as it was.
+    /// [`Error::Write`] if the disk is full, `content` fails, or somebody else has written a file of that
+    /// name meanwhile. The folder is then as it was.
     pub fn write(
         &mut self,
         name: &str,
@@ -194,12 +185,12 @@ impl Folder {
 
     /// Ends a run, and returns the folder that holds its files.
     ///
-    /// A complete run takes the place of an earlier one; one that is not complete leaves the earlier one as it
-    /// is.
+    /// A complete run takes the place of an earlier one; one that is not complete leaves the earlier one as
+    /// it is.
     ///
     /// # Errors
-    /// [`Error::Exchange`] if the files of the earlier run cannot be replaced. Both runs are then whole, and the
-    /// error says where.
+    /// [`Error::Exchange`] if the files of the earlier run cannot be replaced. Both runs are then whole, and
+    /// the error says where.
     pub fn finish(mut self, is_complete: bool) -> Result<PathBuf, Error> {
         self.release();
         self.listing.tidy();
@@ -213,7 +204,15 @@ impl Folder {
         }
     }
 
-    /// Makes room for the closing files of a run that has filled the disk.
+    /// Keeps room for the closing files of a run that fills the disk, until [`release`](Self::release).
+    ///
+    /// # Errors
+    /// Like [`Folder::write`].
+    pub fn reserve(&mut self) -> Result<(), Error> {
+        self.write(RESERVE, |file| file.write_all(&[0; ROOM]))
+    }
+
+    /// Gives the room back that was kept.
     pub fn release(&mut self) {
         let _ = fs::remove_file(self.work.join(RESERVE));
     }
@@ -231,10 +230,6 @@ impl Folder {
             earlier.leave(&self.target);
         }
         remove_folders(&self.created);
-    }
-
-    fn reserve(&mut self) -> Result<(), Error> {
-        self.write(RESERVE, |file| file.write_all(&[0; ROOM]))
     }
 
     /// Moves the files of the earlier run away, the last first, and those of this one into their places, the

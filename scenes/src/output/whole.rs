@@ -8,9 +8,9 @@ use crate::error::Error;
 
 /// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk.
 ///
-/// A replaced file keeps its permissions, and its owner where the system allows it. A symbolic link stays, and
-/// the file that it leads to is replaced. A device, a pipe or a file descriptor, such as /dev/stdout, is written
-/// into.
+/// A replaced file keeps its permissions, and its owner where the system allows it. A symbolic link stays,
+/// and the file that it leads to is replaced. A device, a pipe or a file descriptor, such as /dev/stdout, is
+/// written into.
 ///
 /// # Errors
 /// [`Error::Write`]; an earlier file is then as it was.
@@ -57,7 +57,8 @@ fn replace(path: &Path, content: &[u8], earlier: Option<&Metadata>) -> io::Resul
     }
     aside.write_all(content)?;
     aside.as_file().sync_all()?;
-    aside.persist(path)?;
+    // Without the name of the temporary file, which nobody has given.
+    aside.persist(path).map_err(|error| error.error)?;
     sync_folder(folder);
     Ok(())
 }

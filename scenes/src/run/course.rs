@@ -9,7 +9,7 @@ use piola::step::StepReport;
 use rayon::ThreadPool;
 
 use super::progress::{MAX_LENGTH, Pace, Progress, Saved};
-use super::{Finished, Output, Watch};
+use super::{Finished, Output};
 use crate::error::Error;
 use crate::fields;
 use crate::geometry::Geometry;
@@ -20,6 +20,7 @@ use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::find_equilibrium;
 use crate::tensile_reading::read_specimen;
+use crate::watch::Watch;
 
 /// Forces on a body that are together below this share of Young's modulus times the square of its size are
 /// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
@@ -67,7 +68,7 @@ impl<'a> Course<'a> {
             motion: Vec::new(),
         };
         let mut course = Self::new(settings, output, geometry, play, folder, progress)?;
-        match course.write_frame(0) {
+        match course.folder.reserve().and_then(|()| course.write_frame(0)) {
             Ok(()) => Ok(course),
             Err(error) => Err(course.abandon(error)),
         }
@@ -92,7 +93,9 @@ impl<'a> Course<'a> {
                 return Err(refused(format!("{} is missing", frame_file(frame))));
             }
         }
-        Self::new(settings, output, geometry, play, folder, saved.progress)
+        let mut course = Self::new(settings, output, geometry, play, folder, saved.progress)?;
+        course.folder.reserve()?;
+        Ok(course)
     }
 
     fn new(

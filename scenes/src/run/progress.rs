@@ -94,8 +94,8 @@ impl Saved {
     }
 }
 
-/// The first setting in which two runs differ, apart from the number of frames and threads, which change no bit
-/// of a frame.
+/// The first setting in which two runs differ, apart from the number of frames and threads, which change no
+/// bit of a frame.
 fn difference(before: &Settings, now: &Settings) -> Option<String> {
     let values = |settings: &Settings| match serde_json::to_value(settings) {
         Ok(Value::Object(values)) => values,

@@ -1,9 +1,9 @@
 //! Hostile files: for each reader of piola, a judge who takes any bytes, and mutations of good files.
 //!
 //! A judge feeds bytes to the reader and lets the program work with what it has read, for a step or a chart.
-//! Whatever the bytes are, there is no panic, no message without a word or with control characters of the file
-//! in it, and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated seeds,
-//! and `fuzz/` with what libFuzzer thinks of.
+//! Whatever the bytes are, there is no panic, no message without a word or with control characters of the
+//! file in it, and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated
+//! seeds, and `fuzz/` with what libFuzzer thinks of.
 
 pub mod mutation;
 
@@ -149,8 +149,8 @@ fn cube() -> Option<Files> {
     Some(Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None })
 }
 
-/// The text with checksums that belong to it, so that more than checksums is tested: a line that is JSON has its
-/// content sealed again, unless the first byte of the text is `!`.
+/// The text with checksums that belong to it, so that more than checksums is tested: a line that is JSON has
+/// its content sealed again, unless the first byte of the text is `!`.
 fn sealed(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     if let Some(as_it_is) = text.strip_prefix('!') {

@@ -1,7 +1,7 @@
 //! Mutated files of each format: no panic, no hang, no result that is not finite.
 //!
-//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` says. `PIOLA_BLESS=1` writes
-//! the seeds of the viewer's files anew, after their format has changed.
+//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` says. `PIOLA_BLESS=1`
+//! writes the seeds of the viewer's files anew, after their format has changed.
 
 use std::any::Any;
 use std::fs;

@@ -17,8 +17,8 @@ const MAX_LENGTH: u64 = 1 << 28;
 
 /// The names of the files that piola has written into a folder, and the right to write there.
 ///
-/// A name is added before its file is created: whatever ends the program, each file of piola is in the list. The
-/// list is locked for as long as it is open, by the system, which ends the lock with the program.
+/// A name is added before its file is created: whatever ends the program, each file of piola is in the list.
+/// The list is locked for as long as it is open, by the system, which ends the lock with the program.
 #[derive(Debug)]
 pub(super) struct Listing {
     file: File,
