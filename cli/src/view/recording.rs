@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::{SealError, Sealer, Unsealer};
 use piola_scenes::settings::Files;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::protocol::Act;
@@ -190,7 +191,7 @@ impl Recording {
             let is_last = !text.ends_with('\n');
             let content = match unsealer.line(text) {
                 // A viewer that was ended while it wrote.
-                Err(SealError::NotJson(error)) if is_last && error.is_eof() => break,
+                Err(SealError::NotJson(_)) if is_last && is_cut_off(text) => break,
                 content => content.map_err(|error| failure(line, error.to_string()))?,
             };
             let steps = match content {
@@ -263,4 +264,11 @@ impl Recording {
     pub fn is_over(&self, steps: u64) -> bool {
         steps >= self.until && self.acts.is_empty()
     }
+}
+
+/// Whether a text that is not JSON is not just JSON with something behind it.
+fn is_cut_off(text: &str) -> bool {
+    let mut but_one = text.chars();
+    but_one.next_back();
+    serde_json::from_str::<IgnoredAny>(but_one.as_str()).is_err()
 }
