@@ -87,6 +87,8 @@ pub mod lanes;
 pub mod material;
 #[cfg(feature = "bodies")]
 pub mod mesh;
+#[doc(hidden)] // how errors quote what they were given: no part of the interface
+pub mod message;
 pub mod point;
 mod quotient;
 #[doc(hidden)] // samples for the contract and for tests: no part of the interface

@@ -74,6 +74,21 @@ impl Geometry {
         }
     }
 
+    /// Properties of the mesh that its maker may not have meant.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<GeometryWarning> {
+        let mut warnings = Vec::new();
+        if self.mesh.dropped_nodes > 0 {
+            warnings.push(GeometryWarning::NodesDropped { nodes: self.mesh.dropped_nodes });
+        }
+        let components = self.mesh.connected_components();
+        if let [largest, _, ..] = components[..] {
+            let tetrahedra = self.mesh.tets.len();
+            warnings.push(GeometryWarning::InPieces { pieces: components.len(), largest, tetrahedra });
+        }
+        warnings
+    }
+
     fn new(mesh: TetMesh, mesh_name: &str, surface: &Surface, surface_name: &str) -> Result<Self, Error> {
         usable(mesh_name, mesh.rest_shapes())?;
         let diagonal = mesh.bounds().size().iter().map(|side| side * side).sum::<f64>().sqrt();
@@ -134,6 +149,31 @@ impl Geometry {
     }
 }
 
+/// A property of a mesh that is seldom meant. A body can be made of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GeometryWarning {
+    /// The file has nodes of no tetrahedron, which are not part of the body.
+    #[error("{nodes} nodes of the file belong to no tetrahedron and were left out")]
+    NodesDropped {
+        /// How many.
+        nodes: usize,
+    },
+    /// The tetrahedra do not hang together.
+    #[error(
+        "the mesh is in {pieces} pieces that share no node and move independently, the largest of {largest} of the \
+         {tetrahedra} tetrahedra; nodes that are meant to be one must be merged in the mesh generator"
+    )]
+    InPieces {
+        /// Number of pieces.
+        pieces: usize,
+        /// Number of tetrahedra of the largest.
+        largest: usize,
+        /// Number of tetrahedra of all.
+        tetrahedra: usize,
+    },
+}
+
 /// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their
 /// nodes.
 fn boundary(mesh: &TetMesh) -> Surface {
@@ -173,6 +213,23 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_seldom_meant_is_told() -> Result<(), Box<dyn error::Error>> {
+        let mut mesh = tetrahedral_box([2, 1, 1], [2.0, 1.0, 1.0])?;
+        let of = |mesh: &TetMesh| Geometry::new(mesh.clone(), "mesh", &Surface::default(), "none");
+        assert_eq!(of(&mesh)?.warnings(), []);
+
+        // A copy of itself beside it, whose nodes are others, and a node far away.
+        let nodes = mesh.positions.len();
+        mesh.tets.extend(mesh.tets.clone().iter().map(|tet| tet.map(|node| node + nodes)));
+        mesh.positions.extend(mesh.positions.clone().iter().map(|[x, y, z]| [x + 2.0, *y, *z]));
+        mesh.positions.push([1e7; 3]);
+        let warnings = of(&mesh.without_unused_nodes())?.warnings();
+        let pieces = GeometryWarning::InPieces { pieces: 2, largest: 12, tetrahedra: 24 };
+        assert_eq!(warnings, [GeometryWarning::NodesDropped { nodes: 1 }, pieces]);
+        Ok(())
+    }
 
     #[test]
     fn the_boundary_of_two_tetrahedra_is_closed_and_faces_outwards() {

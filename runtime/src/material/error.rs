@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Moduli;
+use crate::message::number;
 
 /// Reason why a material cannot be built from given parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +80,7 @@ impl fmt::Display for MaterialError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { given } => {
-                write!(f, "`{}` is {}; it must be a finite number", given.name(), given.value)
+                write!(f, "`{}` is {}; it must be a finite number", given.name(), number(given.value))
             }
             Self::Violated { condition, given } => {
                 write!(f, "`{condition}` must hold, but {}", listed(given))
@@ -88,31 +89,38 @@ impl fmt::Display for MaterialError {
                 f,
                 "the small-strain moduli are no finite numbers, shear modulus {} Pa and bulk modulus {} Pa: \
                  these parameters divide by zero or overflow somewhere in the energy",
-                moduli.mu,
-                moduli.bulk()
+                number(moduli.mu),
+                number(moduli.bulk())
             ),
             Self::UnstableRest { moduli } if moduli.mu > 0.0 => write!(
                 f,
                 "the rest state would be unstable: the small-strain bulk modulus is {} Pa and must not be negative, which a greater \
                  resistance to changes of volume mends",
-                moduli.bulk()
+                number(moduli.bulk())
             ),
             Self::UnstableRest { moduli } => write!(
                 f,
                 "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive",
-                moduli.mu
+                number(moduli.mu)
             ),
             Self::YoungPoisson { young, poisson } => write!(
                 f,
-                "Young's modulus is {young} Pa and Poisson's ratio {poisson}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
-                 what hardly changes its volume"
+                "Young's modulus is {} Pa and Poisson's ratio {}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
+                 what hardly changes its volume",
+                number(*young),
+                number(*poisson)
             ),
             Self::StressedRest { stress } => write!(
                 f,
-                "the rest state would carry a stress of {stress} Pa; let the derivatives of the functions cancel at 1"
+                "the rest state would carry a stress of {} Pa; let the derivatives of the functions cancel at 1",
+                number(*stress)
             ),
             Self::Threshold { epsilon } => {
-                write!(f, "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1")
+                write!(
+                    f,
+                    "the extension threshold epsilon is {}; it must satisfy 0 < epsilon < 1",
+                    number(*epsilon)
+                )
             }
             Self::NoExtension { material, reason } => {
                 write!(f, "{material} has no extension beyond its domain")?;
@@ -131,9 +139,11 @@ impl fmt::Display for MaterialError {
             ),
             Self::BelowOwnPoisson { poisson, lowest } => write!(
                 f,
-                "Poisson's ratio {poisson} is below {lowest}, that of the energy itself, to which resistance to changes of \
+                "Poisson's ratio {} is below {}, that of the energy itself, to which resistance to changes of \
                  volume can be added but not taken away: lower its volumetric parameter first, or, of an energy of the \
-                 catalogue, let `Entry::matching` choose its parameters"
+                 catalogue, let `Entry::matching` choose its parameters",
+                number(*poisson),
+                number(*lowest)
             ),
             Self::Shape { expected } => write!(f, "{expected}"),
         }
@@ -177,7 +187,7 @@ impl Argument {
 
 impl fmt::Display for Argument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}", self.name(), self.value)
+        write!(f, "{} = {}", self.name(), number(self.value))
     }
 }
 

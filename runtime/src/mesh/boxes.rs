@@ -10,6 +10,7 @@
 use std::fmt;
 
 use super::TetMesh;
+use crate::message::number;
 
 /// Orders of the three axes, and whether each is an odd permutation: its path turns the other way.
 const PATHS: [([usize; 3], bool); 6] = [
@@ -138,7 +139,8 @@ impl fmt::Display for BoxError {
                 write!(f, "a box of {x}×{y}×{z} cells is empty; each axis needs at least one")
             }
             Self::Size { size: [x, y, z] } => {
-                write!(f, "a box cannot measure {x} m × {y} m × {z} m; lengths must be positive numbers")
+                let [x, y, z] = [*x, *y, *z].map(number);
+                write!(f, "a box cannot measure {x} m × {y} m × {z} m; lengths must be positive and finite")
             }
             Self::TooManyCells { cells: [x, y, z] } => {
                 write!(f, "a box of {x}×{y}×{z} cells does not fit into memory")
@@ -248,7 +250,7 @@ mod tests {
         assert_eq!(message([2, 0, 1], SIZE), "a box of 2×0×1 cells is empty; each axis needs at least one");
         for (length, text) in [(0.0, "0"), (-1.0, "-1"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
             let expected =
-                format!("a box cannot measure 1 m × {text} m × 1 m; lengths must be positive numbers");
+                format!("a box cannot measure 1 m × {text} m × 1 m; lengths must be positive and finite");
             assert_eq!(message(CELLS, [1.0, length, 1.0]), expected);
         }
         let many = usize::MAX;

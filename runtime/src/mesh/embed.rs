@@ -4,6 +4,10 @@ use std::fmt;
 
 use super::io::Surface;
 use super::tet::{Bounds, MeshError, RestShape, TetMesh, cross, dot, norm, subtract};
+use crate::message::number;
+use tree::{Nearest, Tree};
+
+mod tree;
 
 /// Surface bound to a mesh: each vertex is an affine combination of the nodes of one tetrahedron.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +27,9 @@ pub struct Anchor {
 
 impl Anchor {
     /// Position of the point when the nodes are at `positions`, one for each node of the mesh.
+    ///
+    /// # Panics
+    /// If there is no position of one of its nodes.
     #[must_use]
     pub fn position(&self, positions: &[[f64; 3]]) -> [f64; 3] {
         let mut x = [0.0; 3];
@@ -39,24 +46,32 @@ impl Embedding {
     /// Binds each vertex to the tetrahedron that contains it at rest, or else to the nearest one.
     ///
     /// A vertex outside the mesh moves by extrapolation; `tolerance`, m, is its largest distance from the
-    /// nearest tetrahedron.
+    /// nearest tetrahedron, perhaps infinite. Of several tetrahedra that contain a vertex, or are as near,
+    /// the first in the mesh counts.
     ///
     /// # Errors
-    /// [`EmbedError::Outside`] for a vertex farther outside, [`EmbedError::Mesh`] if the mesh is not a body
-    /// ([`TetMesh::rest_shapes`]).
+    /// [`EmbedError::Outside`] for a vertex farther outside, [`EmbedError::NotFinite`] for one that is
+    /// nowhere, [`EmbedError::Tolerance`] if that is negative or NaN, [`EmbedError::Mesh`] if the mesh is not
+    /// a body ([`TetMesh::rest_shapes`]).
     pub fn new(mesh: &TetMesh, surface: &Surface, tolerance: f64) -> Result<Self, EmbedError> {
+        if tolerance.is_nan() || tolerance < 0.0 {
+            return Err(EmbedError::Tolerance { tolerance });
+        }
         let shapes = mesh.rest_shapes()?;
         let cage = Cage { mesh, shapes: &shapes };
-        let grid = Grid::new(mesh, tolerance);
-        let anchors = surface.positions.iter().enumerate().map(|(vertex, &x)| {
-            match cage.nearest(grid.candidates(x), x) {
-                Some((tet, distance)) if distance <= tolerance => {
+        let tree = cage.tree();
+        let anchors = surface.positions.iter().enumerate().map(|(index, &x)| {
+            let vertex = index + 1;
+            if !x.iter().all(|c| c.is_finite()) {
+                return Err(EmbedError::NotFinite { vertex });
+            }
+            match tree.nearest(x, |tet| cage.distance(tet, x)) {
+                Some(Nearest { body: tet, distance, .. }) if distance <= tolerance => {
                     Ok(Anchor { nodes: mesh.tets[tet], weights: cage.weights(tet, x) })
                 }
-                _ => {
-                    let distance =
-                        cage.nearest(0..mesh.tets.len(), x).map_or(f64::INFINITY, |(_, distance)| distance);
-                    Err(EmbedError::Outside { vertex: vertex + 1, distance, tolerance })
+                nearest => {
+                    let distance = nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
+                    Err(EmbedError::Outside { vertex, distance, tolerance })
                 }
             }
         });
@@ -94,6 +109,16 @@ pub enum EmbedError {
         /// Largest allowed distance, m.
         tolerance: f64,
     },
+    /// A coordinate of a vertex is infinite or NaN.
+    NotFinite {
+        /// The vertex, from 1 as in an OBJ file.
+        vertex: usize,
+    },
+    /// The largest allowed distance is negative or NaN.
+    Tolerance {
+        /// The distance as given, m.
+        tolerance: f64,
+    },
     /// The mesh is not a body.
     Mesh(MeshError),
 }
@@ -104,6 +129,14 @@ impl fmt::Display for EmbedError {
             Self::Outside { vertex, distance, tolerance } => write!(
                 f,
                 "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most {tolerance:.3e} m is allowed"
+            ),
+            Self::NotFinite { vertex } => {
+                write!(f, "surface vertex {vertex} has a coordinate that is not finite")
+            }
+            Self::Tolerance { tolerance } => write!(
+                f,
+                "the largest distance of a surface vertex from the mesh is {} m; it must not be negative",
+                number(*tolerance)
             ),
             Self::Mesh(error) => error.fmt(f),
         }
@@ -126,30 +159,26 @@ impl Cage<'_> {
         [1.0 - a - b - c, a, b, c]
     }
 
-    /// The first tetrahedron that contains a point, at distance 0, or else the nearest one.
-    fn nearest(&self, tets: impl Iterator<Item = usize>, x: [f64; 3]) -> Option<(usize, f64)> {
-        let mut best: Option<(usize, f64)> = None;
-        for tet in tets {
-            let weights = self.weights(tet, x);
-            if weights.iter().all(|&weight| weight >= 0.0) {
-                return Some((tet, 0.0));
-            }
-            let corners = self.mesh.tets[tet].map(|node| self.mesh.positions[node]);
-            // Seen from an outside point the nearest face is one whose opposite weight is negative.
-            let distance = (0..4)
-                .filter(|&k| weights[k] < 0.0)
-                .map(|k| {
-                    distance_to_triangle(
-                        x,
-                        [corners[(k + 1) % 4], corners[(k + 2) % 4], corners[(k + 3) % 4]],
-                    )
-                })
-                .fold(f64::INFINITY, f64::min);
-            if best.is_none_or(|(_, smallest)| distance < smallest) {
-                best = Some((tet, distance));
-            }
+    fn corners(&self, tet: usize) -> [[f64; 3]; 4] {
+        self.mesh.tets[tet].map(|node| self.mesh.positions[node])
+    }
+
+    /// The tetrahedra in a tree.
+    fn tree(&self) -> Tree {
+        Tree::new((0..self.mesh.tets.len()).map(|tet| Bounds::around(&self.corners(tet))).collect())
+    }
+
+    /// Distance of a point from a tetrahedron; `None` for one that contains it.
+    fn distance(&self, tet: usize, x: [f64; 3]) -> Option<f64> {
+        let weights = self.weights(tet, x);
+        if weights.iter().all(|&weight| weight >= 0.0) {
+            return None;
         }
-        best
+        let corners = self.corners(tet);
+        let face = |k: usize| [1, 2, 3].map(|next| corners[(k + next) % 4]);
+        // Seen from an outside point the nearest face is one whose opposite weight is negative.
+        let seen = (0..4).filter(|&k| weights[k] < 0.0);
+        Some(seen.map(|k| distance_to_triangle(x, face(k))).fold(f64::INFINITY, f64::min))
     }
 }
 
@@ -169,76 +198,6 @@ fn distance_to_triangle(x: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
         norm(subtract(to_x, edge.map(|component| t * component)))
     };
     to_edge([a, b]).min(to_edge([b, c])).min(to_edge([c, a]))
-}
-
-/// For each cell of a regular grid, the tetrahedra whose boxes, widened by the tolerance, touch it.
-///
-/// The tetrahedra within the tolerance of a point are then all in the list of its cell.
-struct Grid {
-    bounds: Bounds,
-    cells: [usize; 3],
-    /// Start of the list of each cell in `tets`, and end of the last.
-    starts: Vec<usize>,
-    tets: Vec<usize>,
-}
-
-impl Grid {
-    fn new(mesh: &TetMesh, tolerance: f64) -> Self {
-        let widened = |bounds: Bounds| Bounds {
-            min: bounds.min.map(|x| x - tolerance),
-            max: bounds.max.map(|x| x + tolerance),
-        };
-        let bounds = widened(mesh.bounds());
-        // About two cells per tetrahedron, cubic where the body is not flat.
-        let size = bounds.size();
-        let side = (size[0] * size[1] * size[2] / (2.0 * mesh.tets.len() as f64)).cbrt();
-        let cells =
-            size.map(|length| if side > 0.0 { (length / side).ceil().clamp(1.0, 128.0) as usize } else { 1 });
-        let mut grid =
-            Self { bounds, cells, starts: vec![0; cells.iter().product::<usize>() + 1], tets: Vec::new() };
-
-        let mut lists = vec![Vec::new(); grid.starts.len() - 1];
-        for (tet, nodes) in mesh.tets.iter().enumerate() {
-            let reach = widened(Bounds::around(&nodes.map(|node| mesh.positions[node])));
-            let (low, high) = (grid.coordinates(reach.min), grid.coordinates(reach.max));
-            for i in low[0]..=high[0] {
-                for j in low[1]..=high[1] {
-                    for k in low[2]..=high[2] {
-                        lists[grid.index([i, j, k])].push(tet);
-                    }
-                }
-            }
-        }
-        for (cell, list) in lists.iter().enumerate() {
-            grid.tets.extend(list);
-            grid.starts[cell + 1] = grid.tets.len();
-        }
-        grid
-    }
-
-    fn candidates(&self, x: [f64; 3]) -> impl Iterator<Item = usize> + '_ {
-        let list = if self.bounds.contains(x) {
-            let cell = self.index(self.coordinates(x));
-            self.starts[cell]..self.starts[cell + 1]
-        } else {
-            0..0
-        };
-        self.tets[list].iter().copied()
-    }
-
-    /// The cell of a point, which rounding may have put just outside. Monotone in each coordinate, so that a
-    /// point between two others never falls outside the cells between theirs.
-    fn coordinates(&self, x: [f64; 3]) -> [usize; 3] {
-        let size = self.bounds.size();
-        std::array::from_fn(|c| {
-            let along = (x[c] - self.bounds.min[c]) / size[c] * self.cells[c] as f64;
-            (along.max(0.0) as usize).min(self.cells[c] - 1)
-        })
-    }
-
-    fn index(&self, [i, j, k]: [usize; 3]) -> usize {
-        (i * self.cells[1] + j) * self.cells[2] + k
-    }
 }
 
 #[cfg(test)]
@@ -281,31 +240,67 @@ mod tests {
         let error =
             Embedding::new(&corner(), &points(&[[3.0, 0.0, 0.0]]), 0.1).expect_err("two metres outside");
         assert!(matches!(error, EmbedError::Outside { vertex: 1, distance, .. } if distance == 2.0));
-        let error = Embedding::new(&corner(), &points(&[[f64::NAN; 3]]), 0.1).expect_err("nowhere");
-        assert!(matches!(error, EmbedError::Outside { vertex: 1, .. }));
+        for nowhere in [f64::NAN, f64::INFINITY] {
+            let error = Embedding::new(&corner(), &points(&[[nowhere; 3]]), 0.1).expect_err("nowhere");
+            assert_eq!(error, EmbedError::NotFinite { vertex: 1 });
+        }
     }
 
-    /// Positions at rest come back, and the grid finds the same tetrahedra as a search through all of them,
-    /// inside the mesh and around it.
     #[test]
-    fn a_grid_finds_what_a_full_search_finds() {
+    fn a_tolerance_is_any_distance_and_nothing_else() {
+        let far = points(&[[3.0, 0.0, 0.0], [-1e100, 0.0, 0.0]]);
+        for wide in [1e100, f64::MAX, f64::INFINITY] {
+            assert!(Embedding::new(&corner(), &far, wide).is_ok(), "{wide:e}");
+        }
+        assert!(Embedding::new(&corner(), &points(&[[0.0, 0.5, 0.5]]), 0.0).is_ok());
+        for wrong in [-1e-300, f64::NEG_INFINITY, f64::NAN] {
+            let error = Embedding::new(&corner(), &far, wrong).expect_err("no distance");
+            assert!(error.to_string().ends_with("it must not be negative"), "{error}");
+        }
+    }
+
+    /// The first tetrahedron that contains a point, or else the nearest one, by looking at all of them.
+    fn nearest(cage: &Cage<'_>, x: [f64; 3]) -> (usize, f64) {
+        let tets = 0..cage.mesh.tets.len();
+        let containing = tets.clone().find(|&tet| cage.distance(tet, x).is_none());
+        let others = tets.filter_map(|tet| Some((tet, cage.distance(tet, x)?)));
+        containing
+            .map(|tet| (tet, 0.0))
+            .unwrap_or_else(|| others.min_by(|one, other| one.1.total_cmp(&other.1)).expect("a tetrahedron"))
+    }
+
+    /// Positions at rest come back, and the tree finds the same tetrahedra as a search through all of them,
+    /// inside the mesh, at its nodes and around it, with a tetrahedron far away or without.
+    #[test]
+    fn a_tree_finds_what_a_full_search_finds() {
         let mut random = Random::new(3);
         let (cell, tolerance) = (0.1, 0.05);
         let mut mesh = tetrahedral_box([7, 4, 5], [0.7, 0.4, 0.5]).expect("a box");
         for x in mesh.positions.as_flattened_mut() {
             *x += random.uniform(-0.1 * cell, 0.1 * cell);
         }
-        let shapes = mesh.rest_shapes().expect("a body");
-        let cage = Cage { mesh: &mesh, shapes: &shapes };
+        let nodes = mesh.positions.clone();
         let point = |random: &mut Random| [0.7, 0.4, 0.5].map(|side| random.uniform(-0.03, side + 0.03));
-        let surface = points(&(0..1000).map(|_| point(&mut random)).collect::<Vec<_>>());
-        let embedding = Embedding::new(&mesh, &surface, tolerance).expect("within the tolerance");
+        let random_points: Vec<_> = (0..1000).map(|_| point(&mut random)).collect();
+        let surface = points(&[random_points, nodes].concat());
+        check_embedding(&mesh, &surface, tolerance);
+
+        mesh.tets.push([0, 1, 2, 3].map(|k| mesh.positions.len() + k));
+        mesh.positions.extend(corner().positions.iter().map(|x| [x[0] + 1e7, x[1], x[2]]));
+        check_embedding(&mesh, &surface, tolerance);
+    }
+
+    #[track_caller]
+    fn check_embedding(mesh: &TetMesh, surface: &Surface, tolerance: f64) {
+        let shapes = mesh.rest_shapes().expect("a body");
+        let cage = Cage { mesh, shapes: &shapes };
+        let embedding = Embedding::new(mesh, surface, tolerance).expect("within the tolerance");
         let mut out = vec![[0.0; 3]; surface.positions.len()];
         embedding.deform(&mesh.positions, &mut out);
         let mut outside = 0;
         for (vertex, (x, y)) in surface.positions.iter().zip(&out).enumerate() {
             assert!(norm(subtract(*x, *y)) <= 100.0 * f64::EPSILON, "vertex {vertex}");
-            let (tet, distance) = cage.nearest(0..mesh.tets.len(), *x).expect("a tetrahedron");
+            let (tet, distance) = nearest(&cage, *x);
             assert_eq!(embedding.anchors()[vertex].nodes, mesh.tets[tet], "vertex {vertex}");
             outside += usize::from(distance > 0.0);
         }

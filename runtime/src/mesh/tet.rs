@@ -24,6 +24,9 @@ pub struct TetMesh {
     pub tags: Vec<usize>,
     /// Named parts.
     pub groups: Vec<Group>,
+    /// Number of nodes that a reader has dropped because no tetrahedron names them; 0 for a mesh of one's
+    /// own.
+    pub dropped_nodes: usize,
 }
 
 /// Named part of a mesh, such as a physical group of Gmsh.
@@ -69,7 +72,7 @@ impl TetMesh {
     /// Tag of a tetrahedron: from `tags`, or its index plus 1.
     #[must_use]
     pub fn tag(&self, tet: usize) -> usize {
-        self.tags.get(tet).copied().unwrap_or(tet + 1)
+        self.tags.get(tet).copied().unwrap_or(tet.saturating_add(1))
     }
 
     /// Finds a group by its name.
@@ -87,9 +90,9 @@ impl TetMesh {
     /// Computes the shape at rest of each tetrahedron.
     ///
     /// # Errors
-    /// [`MeshError`] if there is no tetrahedron, a node is missing, unused or not finite, or a volume is not
-    /// positive. A volume below the rounding error of its own determinant counts as zero: its sign would be
-    /// noise.
+    /// [`MeshError`] if there is no tetrahedron, one is there twice, a node is missing, unused or not finite,
+    /// or a volume is not positive. A volume below the rounding error of its own determinant counts as zero:
+    /// its sign would be noise.
     pub fn rest_shapes(&self) -> Result<Vec<RestShape>, MeshError> {
         if self.tets.is_empty() {
             return Err(MeshError::Empty);
@@ -97,53 +100,126 @@ impl TetMesh {
         if let Some(node) = self.positions.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
             return Err(MeshError::NotFinite { node });
         }
-        let mut used = vec![false; self.positions.len()];
         let mut shapes = Vec::with_capacity(self.tets.len());
         for (tet, nodes) in self.tets.iter().enumerate() {
-            for &node in nodes {
-                *used.get_mut(node).ok_or(MeshError::NoSuchNode {
-                    element: self.tag(tet),
-                    node,
-                    nodes: self.positions.len(),
-                })? = true;
+            let (element, count) = (self.tag(tet), self.positions.len());
+            if let Some(&node) = nodes.iter().find(|&&node| node >= count) {
+                return Err(MeshError::NoSuchNode { element, node, nodes: count });
             }
-            shapes.push(
-                rest_shape(nodes.map(|node| self.positions[node]))
-                    .map_err(|volume| MeshError::NonPositiveVolume { element: self.tag(tet), volume })?,
-            );
+            let shape = rest_shape(nodes.map(|node| self.positions[node]));
+            shapes.push(shape.map_err(|fault| match fault {
+                Fault::Volume(volume) => MeshError::NonPositiveVolume { element, volume },
+                Fault::Scale(length) => MeshError::VolumeOutOfRange { element, length },
+            })?);
         }
-        match used.iter().position(|used| !used) {
-            Some(node) => Err(MeshError::UnusedNode { node }),
-            None => Ok(shapes),
+        match (self.unused_nodes().first(), self.repeated()) {
+            (Some(&node), _) => Err(MeshError::UnusedNode { node }),
+            (None, Some(tets)) => Err(MeshError::SameTwice { elements: tets.map(|tet| self.tag(tet)) }),
+            (None, None) => Ok(shapes),
         }
     }
 
-    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups.
-    pub(super) fn without_unused_nodes(self) -> Self {
+    /// The first two tetrahedra that join the same four nodes, in whatever order.
+    fn repeated(&self) -> Option<[usize; 2]> {
+        let sorted = |(tet, nodes): (usize, &[usize; 4])| {
+            let mut nodes = *nodes;
+            nodes.sort_unstable();
+            (nodes, tet)
+        };
+        let mut sorted: Vec<_> = self.tets.iter().enumerate().map(sorted).collect();
+        sorted.sort_unstable();
+        let twice = sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        twice.map(|pair| [pair[0].1, pair[1].1]).min()
+    }
+
+    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh with
+    /// one of them is no body. [`TetMesh::without_unused_nodes`] removes them.
+    #[must_use]
+    pub fn unused_nodes(&self) -> Vec<usize> {
+        let mut is_used = vec![false; self.positions.len()];
+        for &node in self.tets.as_flattened() {
+            if let Some(is_used) = is_used.get_mut(node) {
+                *is_used = true;
+            }
+        }
+        (0..is_used.len()).filter(|&node| !is_used[node]).collect()
+    }
+
+    /// Number of tetrahedra of each connected component, the largest first: a body in one piece has one.
+    ///
+    /// Components share no node and move independently, even where their surfaces coincide: such nodes have
+    /// to be merged in the mesh generator.
+    ///
+    /// ```
+    /// use piola::mesh::TetMesh;
+    ///
+    /// let corner = |at: f64| [[at; 3], [at + 1.0, at, at], [at, at + 1.0, at], [at, at, at + 1.0]];
+    /// let apart = TetMesh::new([corner(0.0), corner(8.0)].concat(), vec![[0, 1, 2, 3], [4, 5, 6, 7]]);
+    /// assert_eq!(apart.connected_components(), [1, 1]);
+    /// ```
+    #[must_use]
+    pub fn connected_components(&self) -> Vec<usize> {
+        let nodes = self.tets.as_flattened().iter().max().map_or(0, |node| node.saturating_add(1));
+        // Each node points to another of its component, the first one to itself.
+        let mut first: Vec<usize> = (0..nodes.min(self.positions.len())).collect();
+        let root = |first: &mut [usize], mut node: usize| {
+            while first[node] != node {
+                first[node] = first[first[node]];
+                node = first[node];
+            }
+            node
+        };
+        let is_whole = |tet: &&[usize; 4]| tet.iter().all(|&node| node < self.positions.len());
+        for tet in self.tets.iter().filter(is_whole) {
+            for pair in tet.windows(2) {
+                let (one, other) = (root(&mut first, pair[0]), root(&mut first, pair[1]));
+                first[one.max(other)] = one.min(other);
+            }
+        }
+        let mut tets = vec![0; first.len()];
+        for tet in self.tets.iter().filter(is_whole) {
+            tets[root(&mut first, tet[0])] += 1;
+        }
+        tets.retain(|&tets| tets > 0);
+        tets.sort_unstable_by(|one, other| other.cmp(one));
+        tets
+    }
+
+    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups. Nodes behind
+    /// them get smaller numbers.
+    #[must_use]
+    pub fn without_unused_nodes(self) -> Self {
+        let unused = self.unused_nodes();
         let mut renumbered = vec![None; self.positions.len()];
-        self.tets.iter().flatten().for_each(|&node| renumbered[node] = Some(0));
-        let mut positions = Vec::new();
-        for (number, position) in renumbered.iter_mut().zip(self.positions) {
-            if let Some(number) = number {
-                *number = positions.len();
+        let mut positions = Vec::with_capacity(self.positions.len() - unused.len());
+        let mut next_unused = unused.iter().peekable();
+        for (node, position) in self.positions.into_iter().enumerate() {
+            if next_unused.next_if_eq(&&node).is_none() {
+                renumbered[node] = Some(positions.len());
                 positions.push(position);
             }
         }
+        let number = |node: usize| renumbered.get(node).copied().flatten();
         let groups = self.groups.into_iter().map(|group| {
-            let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(|node| renumbered[node]).collect();
+            let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(number).collect();
             nodes.sort_unstable();
             nodes.dedup();
             Group { nodes, ..group }
         });
-        // Every node of a tetrahedron is in use, so that the default is never taken.
-        let tets = self.tets.iter().map(|tet| tet.map(|node| renumbered[node].unwrap_or_default())).collect();
-        Self { positions, tets, groups: groups.collect(), ..self }
+        let groups = groups.collect();
+        // A node that does not exist remains one, for the error to come.
+        let tets = self.tets.iter().map(|tet| tet.map(|node| number(node).unwrap_or(node))).collect();
+        let dropped_nodes = self.dropped_nodes + unused.len();
+        Self { positions, tets, groups, dropped_nodes, tags: self.tags }
     }
 }
 
 /// Lumped mass of each node, kg: a quarter of the mass of each tetrahedron around it.
 ///
-/// `densities`, kg/m³, and `shapes` hold one entry per tetrahedron.
+/// `densities`, kg/m³, and `shapes`, those of [`TetMesh::rest_shapes`], hold one entry per tetrahedron.
+///
+/// # Panics
+/// If a tetrahedron names a node that does not exist.
 #[must_use]
 pub fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.positions.len()];
@@ -155,18 +231,35 @@ pub fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) ->
     masses
 }
 
-/// Inverse edge matrix and volume of a tetrahedron, or its volume as an error if that is not positive.
-fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, f64> {
-    let (a, b, c) = (subtract(x1, x0), subtract(x2, x0), subtract(x3, x0));
-    let rows = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = dot(a, rows[0]);
-    // A 3×3 determinant of rounded edges errs by at most 8u times the product of their lengths.
-    let noise = 4.0 * f64::EPSILON * norm(a) * norm(b) * norm(c);
-    if determinant > noise && determinant.is_finite() {
-        Ok(RestShape { inverse: rows.map(|row| row.map(|x| x / determinant)), volume: determinant / 6.0 })
-    } else {
-        Err(determinant / 6.0)
+/// Why a tetrahedron has no shape.
+enum Fault {
+    /// Its volume, m³, is not positive.
+    Volume(f64),
+    /// Its volume is out of the range of f64, its longest edge, m, being that long.
+    Scale(f64),
+}
+
+/// Inverse edge matrix and volume of a tetrahedron.
+fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, Fault> {
+    let edges = [subtract(x1, x0), subtract(x2, x0), subtract(x3, x0)];
+    let (rows, determinant, noise) = inverse(edges);
+    let volume = determinant / 6.0;
+    if determinant > noise && volume.is_normal() && determinant.is_finite() {
+        return Ok(RestShape { inverse: rows.map(|row| row.map(|x| x / determinant)), volume });
     }
+    // At the size of one nothing overflows, and what is flat is flat.
+    let size = edges.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let (_, unit_determinant, unit_noise) = inverse(edges.map(|edge| edge.map(|x| x / size)));
+    let is_out_of_range = size.is_infinite() || unit_determinant > unit_noise;
+    Err(if is_out_of_range { Fault::Scale(size) } else { Fault::Volume(volume) })
+}
+
+/// Rows of the inverse of a matrix of these columns times the determinant, the determinant, and a bound for
+/// its rounding error.
+fn inverse([a, b, c]: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64, f64) {
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    // A 3×3 determinant of rounded edges errs by at most 8u times the product of their lengths.
+    (rows, dot(a, rows[0]), 4.0 * f64::EPSILON * norm(a) * norm(b) * norm(c))
 }
 
 impl Bounds {
@@ -217,12 +310,24 @@ pub enum MeshError {
         /// The node, from 0.
         node: usize,
     },
+    /// Two tetrahedra join the same four nodes.
+    SameTwice {
+        /// Tags of the two.
+        elements: [usize; 2],
+    },
     /// A tetrahedron is flat or inverted at rest.
     NonPositiveVolume {
         /// Tag of the tetrahedron.
         element: usize,
         /// Its signed volume, m³.
         volume: f64,
+    },
+    /// A tetrahedron is so large or so small that its volume overflows or underflows.
+    VolumeOutOfRange {
+        /// Tag of the tetrahedron.
+        element: usize,
+        /// The largest difference between the coordinates of its nodes, m.
+        length: f64,
     },
 }
 
@@ -234,7 +339,21 @@ impl fmt::Display for MeshError {
             Self::NoSuchNode { element, node, nodes } => {
                 write!(f, "element {element} names node {node} (from 0), but there are {nodes} nodes")
             }
-            Self::UnusedNode { node } => write!(f, "node {node} (from 0) belongs to no tetrahedron"),
+            Self::UnusedNode { node } => write!(
+                f,
+                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
+                 `TetMesh::without_unused_nodes` removes such nodes"
+            ),
+            Self::SameTwice { elements: [one, other] } => write!(
+                f,
+                "elements {one} and {other} join the same four nodes, which would count their volume twice; \
+                 remove one of them"
+            ),
+            Self::VolumeOutOfRange { element, length } => write!(
+                f,
+                "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
+                if *length > 1.0 { "overflows" } else { "underflows" }
+            ),
             Self::NonPositiveVolume { element, volume } => write!(
                 f,
                 "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
@@ -297,7 +416,11 @@ mod tests {
         check(|mesh| mesh.tets.clear(), "the mesh has no tetrahedra");
         check(|mesh| mesh.positions[2][1] = f64::NAN, "the position of node 2 (from 0) is not finite");
         check(|mesh| mesh.tets[0][3] = 9, "element 1 names node 9 (from 0), but there are 4 nodes");
-        check(|mesh| mesh.positions.push([1.0; 3]), "node 4 (from 0) belongs to no tetrahedron");
+        check(
+            |mesh| mesh.positions.push([1.0; 3]),
+            "node 4 (from 0) belongs to no tetrahedron and would have no mass; \
+             `TetMesh::without_unused_nodes` removes such nodes",
+        );
         check(
             |mesh| {
                 mesh.tags = vec![17];
@@ -313,5 +436,71 @@ mod tests {
         let mut mesh = corner();
         mesh.positions[3] = [0.1, 0.2, 1e-17];
         assert!(matches!(mesh.rest_shapes(), Err(MeshError::NonPositiveVolume { element: 1, .. })));
+    }
+
+    /// A row of tetrahedra, two of which become the same.
+    #[test]
+    fn the_same_tetrahedron_twice_is_named_in_every_order_of_its_nodes() {
+        let mut mesh = crate::mesh::tetrahedral_box([4, 1, 1], [4.0, 1.0, 1.0]).expect("a box");
+        mesh.tags = (100..124).collect();
+        for even in [[0, 1, 2, 3], [1, 2, 0, 3], [3, 2, 1, 0], [2, 3, 0, 1]] {
+            let mut twice = mesh.clone();
+            twice.tets.push(even.map(|k| mesh.tets[7][k]));
+            twice.tags.push(3);
+            let error = twice.rest_shapes().expect_err("a tetrahedron twice");
+            assert_eq!(error, MeshError::SameTwice { elements: [107, 3] });
+        }
+        assert!(mesh.rest_shapes().is_ok());
+    }
+
+    /// A regular and a flat tetrahedron of all sizes: the message is about what is wrong.
+    #[test]
+    fn sizes_whose_volume_leaves_the_range_are_no_flat_tetrahedra() {
+        let scaled = |scale: f64, height: f64| {
+            let mut mesh = corner();
+            mesh.positions[3][2] *= height;
+            mesh.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
+            mesh.rest_shapes()
+        };
+        for exponent in -102..=102 {
+            let shapes = scaled(10f64.powi(exponent), 1.0).expect("within the range");
+            assert!(shapes[0].inverse.as_flattened().iter().all(|x| x.is_finite()), "1e{exponent}");
+        }
+        for (scale, word) in
+            [(1e-103, "underflows"), (1e-300, "underflows"), (1e103, "overflows"), (1e307, "overflows")]
+        {
+            let error = scaled(scale, 1.0).expect_err("out of range");
+            assert!(
+                matches!(error, MeshError::VolumeOutOfRange { element: 1, length } if length == 5.0 * scale)
+            );
+            let message = error.to_string();
+            assert!(message.contains(word) && message.ends_with("; are the units right?"), "{message}");
+            let error = scaled(scale, 0.0).expect_err("flat");
+            assert!(matches!(error, MeshError::NonPositiveVolume { .. }), "{scale:e}: {error}");
+        }
+        let mut widest = corner();
+        widest.positions[0] = [f64::MIN; 3];
+        widest.positions[1] = [f64::MAX; 3];
+        let error = widest.rest_shapes().expect_err("an edge overflows");
+        assert!(matches!(error, MeshError::VolumeOutOfRange { .. }), "{error}");
+    }
+
+    #[test]
+    fn components_and_unused_nodes_are_counted() {
+        let whole = crate::mesh::tetrahedral_box([3, 1, 1], [3.0, 1.0, 1.0]).expect("a box");
+        assert_eq!((whole.connected_components(), whole.unused_nodes()), (vec![18], vec![]));
+        // The middle cell is missing, and a corner stands far away by itself.
+        let mut broken = whole.clone();
+        broken.tets.drain(6..12);
+        broken.positions.splice(0..0, [[1e7, 0.0, 0.0]]);
+        broken.tets.as_flattened_mut().iter_mut().for_each(|node| *node += 1);
+        broken.groups = vec![Group { nodes: vec![0, 5], ..Group::default() }];
+        assert_eq!((broken.connected_components(), broken.unused_nodes()), (vec![6, 6], vec![0]));
+        assert!(matches!(broken.rest_shapes(), Err(MeshError::UnusedNode { node: 0 })));
+        let cleaned = broken.without_unused_nodes();
+        assert_eq!((cleaned.bounds(), cleaned.dropped_nodes), (whole.bounds(), 1));
+        assert_eq!(cleaned.groups[0].nodes, [4]);
+        assert!(cleaned.rest_shapes().is_ok());
+        assert_eq!(TetMesh::default().connected_components(), []);
     }
 }

@@ -3,6 +3,7 @@
 use super::{Piecewise, Univariate, by_pieces};
 use crate::lanes::Real;
 use crate::material::{Form, MaterialError};
+use crate::message::number;
 
 /// A function φ given by its derivative: φ′ is the natural cubic spline through control points, φ(1) = 0.
 ///
@@ -53,12 +54,13 @@ impl Spline {
             return refuse(format!("a spline needs two or more control points, not {}", points.len()));
         }
         if let Some(point) = points.iter().flatten().find(|coordinate| !coordinate.is_finite()) {
-            return refuse(format!("a control point has the coordinate {point}; it must be a finite number"));
+            return refuse(format!("a control point has the coordinate {point}; it must be finite"));
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
             return refuse(format!(
                 "the control points of a spline must be in increasing order of x, but x = {} is followed by {}",
-                pair[0][0], pair[1][0]
+                number(pair[0][0]),
+                number(pair[1][0])
             ));
         }
         let moments = moments(points);

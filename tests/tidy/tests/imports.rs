@@ -19,7 +19,7 @@ const FORBIDDEN: [(&str, &[&str]); 6] = [
 
 /// Modules of the runtime from the bottom up: each may need those on the floors below.
 const RUNTIME: [&[&str]; 12] = [
-    &["chained", "lanes", "random"],
+    &["chained", "lanes", "message", "random"],
     &["mesh"],
     &["status"],
     &["quotient"],

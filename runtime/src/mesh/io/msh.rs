@@ -5,8 +5,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::text::{Cursor, Line, Problem, ReadError, named, read};
+use super::text::{Cursor, Line, Problem, ReadError, read, read_text};
 use crate::mesh::{Group, TetMesh};
+use crate::message::quoted;
 
 mod version2;
 mod version4;
@@ -16,9 +17,9 @@ const TETRAHEDRON: usize = 4;
 
 /// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
 ///
-/// Nodes may have any tags; those that belong to no tetrahedron are dropped. Elements of other types count
-/// only for the nodes of their groups. A group without a name is called by its number. Rest volumes are
-/// checked later, by [`TetMesh::rest_shapes`].
+/// Nodes may have any tags; those that belong to no tetrahedron are dropped and counted in
+/// [`TetMesh::dropped_nodes`]. Elements of other types count only for the nodes of their groups. A group
+/// without a name is called by its number. Rest volumes are checked later, by [`TetMesh::rest_shapes`].
 ///
 /// # Errors
 /// [`ReadError`], which names the line if it is malformed or if the file is binary, of another version,
@@ -34,7 +35,7 @@ pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
 /// # Errors
 /// [`ReadError::Malformed`].
 pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
-    named(name.as_ref(), parse(text))
+    read_text(name.as_ref(), text, parse)
 }
 
 fn parse(text: &str) -> Result<TetMesh, Problem> {
@@ -48,7 +49,7 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
             (_, None) => {
                 return Err(line.problem(format!(
                     "expected `$MeshFormat`, found `{}`; is this a Gmsh file?",
-                    clip(section)
+                    quoted(section)
                 )));
             }
             ("$PhysicalNames", _) => file.physical_names(&mut cursor)?,
@@ -64,14 +65,14 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
             }
             _ => {
                 return Err(
-                    line.problem(format!("expected the start of a section, found `{}`", clip(section)))
+                    line.problem(format!("expected the start of a section, found `{}`", quoted(section)))
                 );
             }
         }
         let mut end = cursor.next("the end of the section")?;
         let expected = format!("$End{}", &section[1..]);
         if end.words.next() != Some(&expected) {
-            return Err(end.problem(format!("expected `{expected}`, found `{}`", clip(end.text))));
+            return Err(end.problem(format!("expected `{expected}`, found `{}`", quoted(end.text))));
         }
     }
     file.into_mesh(cursor.number + 1)
@@ -111,7 +112,7 @@ fn format(cursor: &mut Cursor<'_>) -> Result<Version, Problem> {
         other => {
             return Err(line.problem(format!(
                 "the format is `{}`, only MSH 4.1 and 2.2 are read; in Gmsh, export as version 4 ASCII",
-                clip(other)
+                quoted(other)
             )));
         }
     };
@@ -183,20 +184,17 @@ impl File {
             Group { name, dimension, ..group }
         });
         let (positions, groups) = (self.positions, groups.collect());
-        Ok(TetMesh { positions, tets: self.tets, tags: self.tags, groups }.without_unused_nodes())
+        let mesh = TetMesh { positions, tets: self.tets, tags: self.tags, groups, dropped_nodes: 0 };
+        Ok(mesh.without_unused_nodes())
     }
 }
 
 /// Skips a section.
 fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
     let end = format!("$End{name}");
-    while cursor.next(&format!("`{end}`"))?.text.trim() != end {}
+    let expected = format!("`{}`", quoted(&end));
+    while cursor.next(&expected)?.text.trim() != end {}
     Ok(())
-}
-
-/// Shortens a text to at most 40 characters, for a message.
-fn clip(text: &str) -> String {
-    text.chars().take(40).collect()
 }
 
 #[cfg(test)]
@@ -289,7 +287,8 @@ $EndElements
     #[test]
     fn nodes_elements_and_groups_arrive() {
         let mesh = parse(GOOD).expect("a good file");
-        assert_eq!(mesh.positions.len(), 5, "the stray node is dropped");
+        assert_eq!((mesh.positions.len(), mesh.dropped_nodes), (5, 1), "the stray node is dropped");
+        assert_eq!(mesh.bounds().max, [1.0; 3], "and is not in the bounds");
         assert_eq!(mesh.positions[4], [1.0, 1.0, 1.0]);
         assert_eq!(mesh.tets, [[0, 1, 2, 3], [1, 2, 3, 4]]);
         assert_eq!(mesh.tags, [11, 12]);
@@ -377,6 +376,42 @@ $EndElements
             "the element names node 99, which is not given above",
         );
         check_in(OLDER, "\n5\n1 2", "\n6\n1 2", 25, "expected the tag of the element, found `$EndElements`");
+    }
+
+    /// An element stands there once for each of its groups; twice for one of them is two elements.
+    #[test]
+    fn an_element_twice_in_one_group_is_two_elements() {
+        let mesh = parse(&OLDER.replace("12 4 2 11 2 3 20", "13 4 2 9 2 3 20")).expect("a file");
+        assert_eq!(mesh.tags, [11, 12, 13]);
+        assert_eq!(
+            mesh.rest_shapes().unwrap_err().to_string(),
+            "elements 12 and 13 join the same four nodes, which would count their volume twice; remove one of them"
+        );
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        for good in [GOOD, OLDER] {
+            let marked = parse_msh(&format!("\u{feff}{good}"), "marked.msh").expect("a good file");
+            assert_eq!(Ok(marked), parse(good));
+        }
+    }
+
+    /// Escapes, an invisible mark and a line of a million characters in every place where a message quotes
+    /// text of the file.
+    #[test]
+    fn messages_quote_nothing_that_a_terminal_obeys() {
+        let hostile = format!("\u{1b}[2J\u{202e}{}", "x".repeat(1_000_000));
+        let cuts =
+            ["$MeshFormat\n", "4.1 0 8", "\"flesh\"", "0 1 0\n", "$EndNodes", "11 40 3 20 10", "$Comments"];
+        for piece in cuts {
+            for replacement in [hostile.clone(), format!("${hostile}"), format!("$X {hostile}\n")] {
+                let text = GOOD.replacen(piece, &replacement, 1);
+                let error = parse_msh(&text, "\u{1b}[31m.msh").expect_err(piece).to_string();
+                assert!(error.chars().all(|c| !c.is_control() && c != '\u{202e}'), "{error:?}");
+                assert!(error.len() < 300, "{error}");
+            }
+        }
     }
 
     #[test]

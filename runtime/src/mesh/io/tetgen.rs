@@ -15,7 +15,8 @@ use crate::mesh::{Group, TetMesh};
 /// Nodes may be numbered in any way. Of tetrahedra with ten nodes the four corners count. The format promises
 /// no orientation: negative tetrahedra are turned. The first attribute of a tetrahedron, the number of its
 /// region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of dimension
-/// 2; both are called by their numbers. Nodes that belong to no tetrahedron are dropped.
+/// 2; both are called by their numbers. Nodes that belong to no tetrahedron are dropped and counted in
+/// [`TetMesh::dropped_nodes`].
 ///
 /// # Errors
 /// [`ReadError`], which names the line if it is malformed or if there is no tetrahedron.
@@ -108,7 +109,8 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
         tets: members,
     });
     let groups = marked.chain(regions).collect();
-    Ok(TetMesh { positions: nodes.positions, tets, tags, groups }.without_unused_nodes())
+    let mesh = TetMesh { positions: nodes.positions, tets, tags, groups, dropped_nodes: 0 };
+    Ok(mesh.without_unused_nodes())
 }
 
 impl Nodes {
@@ -152,7 +154,7 @@ mod tests {
     #[test]
     fn nodes_tetrahedra_and_groups_arrive() {
         let mesh = parse_nodes(NODES).and_then(|nodes| parse_tets(TETS, nodes)).expect("good files");
-        assert_eq!((mesh.positions.len(), mesh.positions[4]), (5, [1.0; 3]));
+        assert_eq!((mesh.positions.len(), mesh.positions[4], mesh.dropped_nodes), (5, [1.0; 3], 1));
         assert_eq!(
             (mesh.tets.as_slice(), mesh.tags.as_slice()),
             (&[[0, 1, 2, 3], [2, 3, 1, 4]][..], &[1, 2][..])

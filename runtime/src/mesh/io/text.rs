@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::message::{printable, quoted};
+
 /// Reason why a file cannot be read as a mesh or a surface.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -29,8 +31,8 @@ pub enum ReadError {
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", path.display()),
-            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", path.display()),
+            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", shown(path)),
+            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", shown(path)),
         }
     }
 }
@@ -44,21 +46,44 @@ impl std::error::Error for ReadError {
     }
 }
 
+/// A path as it may be shown.
+fn shown(path: &Path) -> String {
+    printable(&path.to_string_lossy())
+}
+
 /// Reads a file and parses its text; errors name the file.
 pub(super) fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Result<T, ReadError> {
     let bytes =
         std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
+    if is_utf_16(&bytes) {
+        let problem = "the file is in UTF-16; save it as UTF-8".to_owned();
+        return Err(ReadError::Malformed { path: path.to_owned(), line: 1, problem });
+    }
     // Names in other encodings are no reason to refuse a mesh.
-    named(path, parse(&String::from_utf8_lossy(&bytes)))
+    read_text(path, &String::from_utf8_lossy(&bytes), parse)
 }
 
-/// Adds the name of the file to an error.
-pub(super) fn named<T>(path: &Path, parsed: Result<T, Problem>) -> Result<T, ReadError> {
-    parsed.map_err(|Problem { line, text }| ReadError::Malformed {
+/// Parses text from a file without the byte order mark before it; errors name the file.
+pub(super) fn read_text<T>(
+    path: &Path,
+    text: &str,
+    parse: impl FnOnce(&str) -> Result<T, Problem>,
+) -> Result<T, ReadError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    parse(text).map_err(|Problem { line, text }| ReadError::Malformed {
         path: path.to_owned(),
         line,
         problem: text,
     })
+}
+
+/// Whether bytes begin with the mark of UTF-16, or with a character of two bytes, one of them zero.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [first, second, ..] => (first == 0) != (second == 0),
+        _ => false,
+    }
 }
 
 /// A problem and its line, from 1.
@@ -88,7 +113,9 @@ impl<'a> Line<'a> {
     pub(super) fn number<N: FromStr>(&mut self, what: &str) -> Result<N, Problem> {
         match self.words.next() {
             None => Err(self.problem(format!("{what} is missing"))),
-            Some(word) => word.parse().map_err(|_| self.problem(format!("expected {what}, found `{word}`"))),
+            Some(word) => {
+                word.parse().map_err(|_| self.problem(format!("expected {what}, found `{}`", quoted(word))))
+            }
         }
     }
 

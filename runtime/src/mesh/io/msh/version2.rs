@@ -1,6 +1,6 @@
 //! Sections particular to MSH 2.2: flat lists of nodes and elements, which name their groups themselves.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::text::{Cursor, Problem};
 use super::{File, TETRAHEDRON};
@@ -21,10 +21,10 @@ impl File {
     }
 
     /// `count`, then `tag type number-of-tags physical-group …, node …` each; an element of several groups is
-    /// written once for each of them.
+    /// written once for each of them, perhaps under other tags.
     pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count: usize = cursor.next("the number of elements")?.number("the number of elements")?;
-        let mut seen = HashMap::new();
+        let (mut seen, mut of_groups) = (HashMap::new(), HashSet::new());
         for _ in 0..count {
             let mut line = cursor.next("an element")?;
             let tag: usize = line.number("the tag of the element")?;
@@ -41,7 +41,9 @@ impl File {
             }
             if kind == TETRAHEDRON {
                 let tet = self.tetrahedron(&mut line)?;
-                let index = *seen.entry(tet).or_insert(self.tets.len());
+                let known = *seen.entry(tet).or_insert(self.tets.len());
+                // Twice in one group it is a mistake, which is found where rest shapes are computed.
+                let index = if of_groups.insert((group, tet)) { known } else { self.tets.len() };
                 if index == self.tets.len() {
                     self.tags.push(tag);
                     self.tets.push(tet);
