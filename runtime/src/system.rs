@@ -11,6 +11,7 @@ pub(crate) mod element;
 pub(crate) mod factored;
 mod fill;
 pub(crate) mod linear;
+mod memory;
 mod operator;
 pub(crate) mod pattern;
 mod pins;

@@ -98,7 +98,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// [`NewtonError::Inadmissible`] for an element outside the domain of its material,
-    /// [`NewtonError::NotFinite`], [`NewtonError::NotPositive`] if no shift makes the stiffness definite,
+    /// [`NewtonError::ElementNotFinite`], [`NewtonError::NotFinite`], [`NewtonError::NotPositive`] if no shift makes the stiffness definite,
     /// [`NewtonError::Linear`].
     pub fn of(simulation: &Simulation) -> Result<Self, NewtonError> {
         let (body, positions) = (simulation.body(), simulation.positions());
@@ -206,9 +206,13 @@ impl<'a> Spectrum<'a> {
         self.factor(&mut cholesky)?;
         let vector = largest(&self.masses, self.rigid, |x, product| {
             product.iter_mut().zip(x.iter().zip(&self.masses)).for_each(|(product, (x, m))| *product = m * x);
-            cholesky.solve(product);
+            cholesky.substitute(product);
         })?;
-        Ok(vector.map(|vector| self.quotient(&vector)))
+        let eigenvalue = vector.map(|vector| self.quotient(&vector));
+        match eigenvalue.is_none_or(|Eigenvalue { value, error }| value.is_finite() && error.is_finite()) {
+            true => Ok(eigenvalue),
+            false => Err(NewtonError::NotFinite),
+        }
     }
 
     /// Factors K + σM for the first σ for which it is positive definite.

@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::batch::TileMaterial;
+use crate::message::number;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, LinearError, Pins};
@@ -225,7 +226,9 @@ impl Simulation {
     /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        if !(dt > 0.0 && dt.is_finite()) {
+        let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
+        let has_inertia = (heaviest / dt / dt).is_finite() && dt * dt >= f64::MIN_POSITIVE;
+        if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
         }
         self.advance(dt)
@@ -501,7 +504,7 @@ crate::chained::wraps!(SetupError { Linear(LinearError) });
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The time step is not a positive number.
+    /// The time step is not positive and finite, or so short that inertia, mass over its square, overflows.
     TimeStep {
         /// The time step, s.
         dt: f64,
@@ -513,7 +516,13 @@ pub enum StepError {
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TimeStep { dt } => write!(f, "the time step is {dt} s; it must be a positive number"),
+            Self::TimeStep { dt } if *dt > 0.0 && dt.is_finite() => write!(
+                f,
+                "the time step is {dt:e} s, so short that mass over its square overflows; take a longer one"
+            ),
+            Self::TimeStep { dt } => {
+                write!(f, "the time step is {} s; it must be positive and finite", number(*dt))
+            }
             Self::Newton(error) => error.fmt(f),
         }
     }

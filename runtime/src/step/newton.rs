@@ -4,6 +4,7 @@
 
 use std::fmt;
 
+use crate::message::number;
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
@@ -433,6 +434,9 @@ pub(super) fn demand_admissible(
     elastic: &Elastic,
 ) -> Result<(), NewtonError> {
     let Some(element) = inadmissible(survey, body) else { return Ok(()) };
+    if survey.survey.refused == 0 {
+        return Err(NewtonError::ElementNotFinite { element });
+    }
     let mut all = body.elements().iter().zip(elastic.stretches());
     let stretches =
         all.find(|(other, _)| other.tag == element).map_or([f64::NAN; 3], |(_, stretches)| stretches);
@@ -448,12 +452,18 @@ fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NewtonError {
-    /// An element is outside the domain of its material, or not finite, at the start.
+    /// An element is outside the domain of its material at the start.
     Inadmissible {
         /// Tag of the element.
         element: usize,
         /// Its principal stretches; NaN if unknown.
         stretches: [f64; 3],
+    },
+    /// The energy, a force or the stiffness of an element is infinite or NaN at the start, although its
+    /// material admits its deformation.
+    ElementNotFinite {
+        /// Tag of the element.
+        element: usize,
     },
     /// The motion of the pins alone takes an element out of the domain of its material.
     PinsMoveTooFar {
@@ -485,10 +495,16 @@ pub enum NewtonError {
 impl fmt::Display for NewtonError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Inadmissible { element, stretches: [l1, l2, l3] } => write!(
+            Self::Inadmissible { element, stretches } => write!(
                 f,
-                "element {element} is outside the domain of its material before the step: its stretches are {l1}, {l2}, {l3} \
-                 (`Inversion::Extend` continues an energy beyond J > 0 only: other conditions of its domain must hold)"
+                "element {element} is outside the domain of its material before the step: its stretches are {} \
+                 (`Inversion::Extend` continues an energy beyond J > 0 only: other conditions of its domain must hold)",
+                stretches.map(number).join(", ")
+            ),
+            Self::ElementNotFinite { element } => write!(
+                f,
+                "the energy or a force of element {element} is not finite before the step: the deformation, the moduli of the \
+                 material or the reciprocal of its `epsilon` exceed the range of f64"
             ),
             Self::PinsMoveTooFar { element } => write!(
                 f,

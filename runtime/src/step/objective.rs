@@ -42,7 +42,10 @@ impl Spring {
         Self { anchor: Anchor { nodes: [node; 4], weights: [1.0, 0.0, 0.0, 0.0] }, target, stiffness }
     }
 
-    /// Energy ½ k |point − target|², J.
+    /// Energy ½ k |point − target|², J, when the nodes are at `positions`.
+    ///
+    /// # Panics
+    /// If there is no position of a node of the anchor.
     #[must_use]
     pub fn energy(&self, positions: &[[f64; 3]]) -> f64 {
         let point = self.anchor.position(positions);

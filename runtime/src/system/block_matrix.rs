@@ -10,6 +10,7 @@
 
 use super::fill::{NodePairs, fill};
 use super::linear::LinearError;
+use super::memory::filled;
 use super::pattern::Pattern;
 use super::pins::Pins;
 use crate::batch::{Layout, LengthError, PACKED_12};
@@ -50,7 +51,7 @@ use crate::lanes::Scalar;
 ///
 /// // A newton along x: λ + 2μ over an area of 1/2 and a length of 1, a third of which hangs on the node.
 /// let mut displacement = [1.0, 0.0, 0.0];
-/// cholesky.solve(&mut displacement);
+/// cholesky.solve(&mut displacement)?;
 /// assert!((displacement[0] - 6.0 / 6e6).abs() < 1e-15);
 /// # Ok(())
 /// # }
@@ -65,17 +66,23 @@ impl BlockMatrix {
     /// A matrix of zeros for tetrahedra of four different nodes each, without rows and columns of pinned
     /// nodes.
     ///
+    /// A free node of no tetrahedron, such as one of another kind of element, has a block on the diagonal all
+    /// the same, and no other. As long as `diagonal` of [`BlockMatrix::assemble`] puts nothing there the
+    /// matrix is singular, and [`Cholesky::factor`](super::Cholesky::factor) answers
+    /// [`LinearError::NotPositive`] with one of its columns; a pin leaves the node out.
+    ///
     /// # Errors
-    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::OutOfMemory`].
+    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::RepeatedNode`],
+    /// [`LinearError::OutOfMemory`].
     pub fn new(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
         let pattern = Pattern::of_tets(nodes, tets, pins)?;
-        let values = vec![0.0; pattern.entries().row_idx().len()];
+        let values = filled(pattern.entries().row_idx().len(), 0.0)?;
         Ok(Self { pattern, values })
     }
 
     /// Sums the stiffnesses that [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) writes in this
-    /// layout, 144 entries of each tetrahedron, N/m, and adds `diagonal(node)` to the diagonal, such as a
-    /// mass over the square of a time step.
+    /// layout, 144 entries of each tetrahedron, N/m, and adds `diagonal(node)` to the diagonal for each free
+    /// node, such as a mass over the square of a time step.
     ///
     /// In [`Layout::Lines`] the padding of the last line is left out.
     ///

@@ -8,6 +8,7 @@ use super::element::Tetrahedron;
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::mesh::{MeshError, TetMesh, lumped_masses};
+use crate::message::{names, number, quoted};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
@@ -49,7 +50,8 @@ impl Body {
     /// A body of one material; `density` in kg/m³.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`], [`BodyError::Density`], [`BodyError::MaterialsForPoints`].
+    /// [`BodyError::Mesh`], [`BodyError::Density`], [`BodyError::MassOutOfRange`],
+    /// [`BodyError::MaterialsForPoints`].
     pub fn new(
         mesh: &TetMesh,
         material: impl TileMaterial<f64> + 'static,
@@ -84,6 +86,9 @@ impl Body {
             runs.push(Run { material: material.into(), end: elements.len() });
         }
         let masses = lumped_masses(mesh, &shapes, &densities);
+        if let Some(node) = masses.iter().position(|mass| !mass.is_normal()) {
+            return Err(BodyError::MassOutOfRange { node, mass: masses[node] });
+        }
         Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
     }
 
@@ -157,10 +162,17 @@ fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
 pub enum BodyError {
     /// The mesh itself is invalid.
     Mesh(MeshError),
-    /// A density is not a positive number.
+    /// A density is not positive and finite.
     Density {
         /// The density, kg/m³.
         density: f64,
+    },
+    /// The mass of a node overflows or underflows.
+    MassOutOfRange {
+        /// The node, from 0.
+        node: usize,
+        /// Its mass, kg.
+        mass: f64,
     },
     /// The material of a part has parameters for each of many points.
     MaterialsForPoints,
@@ -188,16 +200,21 @@ impl fmt::Display for BodyError {
         match self {
             Self::Mesh(error) => error.fmt(f),
             Self::Density { density } => {
-                write!(f, "the density is {density} kg/m³; it must be a positive number")
+                write!(f, "the density is {} kg/m³; it must be positive and finite", number(*density))
             }
+            Self::MassOutOfRange { node, mass } => write!(
+                f,
+                "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
+                if *mass > 1.0 { "overflows" } else { "underflows" }
+            ),
             Self::MaterialsForPoints => f.write_str(
                 "a part has one material for all its elements: make a part for each material, or compute with batches",
             ),
             Self::NoSuchGroup { name, existing } if existing.is_empty() => {
-                write!(f, "there is no group `{name}`: the mesh has no groups of tetrahedra")
+                write!(f, "there is no group `{}`: the mesh has no groups of tetrahedra", quoted(name))
             }
             Self::NoSuchGroup { name, existing } => {
-                write!(f, "there is no group `{name}` of tetrahedra; there are: {}", existing.join(", "))
+                write!(f, "there is no group `{}` of tetrahedra; there are: {}", quoted(name), names(existing))
             }
             Self::InNoPart { element } => {
                 write!(f, "element {element} has no material: it belongs to no part")

@@ -43,7 +43,10 @@ pub struct Tetrahedron {
 }
 
 impl Tetrahedron {
-    /// Deformation gradient F = Ds Dm⁻¹, as its rows.
+    /// Deformation gradient F = Ds Dm⁻¹, as its rows; `positions` holds one of each node of the mesh.
+    ///
+    /// # Panics
+    /// If there is no position of one of its nodes.
     #[inline]
     #[must_use]
     pub fn deformation_gradient(&self, positions: &[[f64; 3]]) -> [[f64; 3]; 3] {

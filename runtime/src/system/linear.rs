@@ -39,7 +39,7 @@ pub(crate) mod refined;
 /// let mut cholesky = Cholesky::new(&[0, 2, 3], &[0, 1, 1])?;
 /// cholesky.factor(&[4.0, 2.0, 5.0])?;
 /// let mut x = [8.0, 12.0];
-/// cholesky.solve(&mut x);
+/// cholesky.solve(&mut x)?;
 /// assert_eq!(x, [1.0, 2.0]);
 /// # Ok::<(), piola::system::LinearError>(())
 /// ```
@@ -47,6 +47,8 @@ pub struct Cholesky<E = f64> {
     pattern: Arc<SymbolicSparseColMat<usize>>,
     symbolic: Arc<SymbolicCholesky<usize>>,
     factor: Vec<E>,
+    /// Whether `factor` is that of a matrix: not before the first, nor after one that is not positive.
+    is_factored: bool,
     memory: MemBuffer,
 }
 
@@ -60,7 +62,7 @@ impl<E: RealField> Clone for Cholesky<E> {
     fn clone(&self) -> Self {
         let (pattern, symbolic) = (self.pattern.clone(), self.symbolic.clone());
         let memory = MemBuffer::new(scratch::<E>(&symbolic));
-        Self { pattern, symbolic, factor: self.factor.clone(), memory }
+        Self { pattern, symbolic, factor: self.factor.clone(), is_factored: self.is_factored, memory }
     }
 }
 
@@ -108,17 +110,17 @@ impl<E: RealField> Cholesky<E> {
         let mut factor = Vec::new();
         factor.try_reserve_exact(symbolic.len_val()).map_err(|_| LinearError::OutOfMemory)?;
         factor.resize(symbolic.len_val(), E::zero_impl());
-        Ok(Self { pattern: pattern.clone(), symbolic: Arc::new(symbolic), factor, memory })
+        let (pattern, symbolic) = (pattern.clone(), Arc::new(symbolic));
+        Ok(Self { pattern, symbolic, factor, is_factored: false, memory })
     }
 
     /// Factors the matrix with these values in the order of the pattern.
     ///
     /// # Errors
-    /// [`LinearError::NotPositive`] if it is not numerically positive definite.
-    ///
-    /// # Panics
-    /// If there are not as many values as entries.
+    /// [`LinearError::NotPositive`] if it is not numerically positive definite, [`LinearError::Length`] if
+    /// there are not as many values as entries.
     pub fn factor(&mut self, values: &[E]) -> Result<(), LinearError> {
+        fits("values", values.len(), self.pattern.row_idx().len())?;
         let result = self.symbolic.factorize_numeric_llt(
             &mut self.factor,
             SparseColMatRef::new((*self.pattern).as_ref(), values),
@@ -128,6 +130,7 @@ impl<E: RealField> Cholesky<E> {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
+        self.is_factored = result.is_ok();
         match result {
             Ok(_) => Ok(()),
             Err(LltError::NonPositivePivot { index }) => Err(LinearError::NotPositive { column: index }),
@@ -136,13 +139,29 @@ impl<E: RealField> Cholesky<E> {
 
     /// Replaces b by A⁻¹ b, with the matrix factored last.
     ///
-    /// # Panics
-    /// If b does not hold one entry for each unknown.
-    pub fn solve(&mut self, b: &mut [E]) {
+    /// # Errors
+    /// [`LinearError::Length`] if b does not hold one entry for each unknown, [`LinearError::NotFactored`]
+    /// before [`Cholesky::factor`] has succeeded, or after it has failed. b is then as it was.
+    pub fn solve(&mut self, b: &mut [E]) -> Result<(), LinearError> {
+        fits("b", b.len(), self.symbolic.nrows())?;
+        if !self.is_factored {
+            return Err(LinearError::NotFactored);
+        }
+        self.substitute(b);
+        Ok(())
+    }
+
+    /// Solves with a factor that there is, for one entry of b for each unknown.
+    pub(crate) fn substitute(&mut self, b: &mut [E]) {
         let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
         let factor = LltRef::new(&self.symbolic, &self.factor);
         factor.solve_in_place_with_conj(Conj::No, b, Par::Seq, MemStack::new(&mut self.memory));
     }
+}
+
+/// Checks the length of a slice.
+fn fits(slice: &'static str, found: usize, expected: usize) -> Result<(), LinearError> {
+    if found == expected { Ok(()) } else { Err(LinearError::Length { slice, found, expected }) }
 }
 
 /// Memory that a factorisation or a solution takes beside the factor.
@@ -177,8 +196,19 @@ pub enum LinearError {
         /// The column in which it is met.
         column: usize,
     },
-    /// The pattern or the factor does not fit into memory.
+    /// The matrix or its factor does not fit into memory.
     OutOfMemory,
+    /// A slice does not fit the matrix.
+    Length {
+        /// The slice, as the method calls it.
+        slice: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that the matrix demands.
+        expected: usize,
+    },
+    /// There is no factor to solve with.
+    NotFactored,
     /// Column starts and row indices do not describe the lower triangle of a matrix.
     Pattern {
         /// The first column at fault.
@@ -193,6 +223,13 @@ pub enum LinearError {
         /// Number of nodes.
         nodes: usize,
     },
+    /// A tetrahedron names a node more than once.
+    RepeatedNode {
+        /// Index of the tetrahedron, from 0.
+        element: usize,
+        /// The node.
+        node: usize,
+    },
 }
 
 impl fmt::Display for LinearError {
@@ -204,6 +241,16 @@ impl fmt::Display for LinearError {
             Self::NoSuchNode { node, nodes } => {
                 write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
             }
+            Self::RepeatedNode { element, node } => write!(
+                f,
+                "tetrahedron {element} (from 0) names node {node} more than once; its four nodes must differ"
+            ),
+            Self::Length { slice, found, expected } => {
+                write!(f, "`{slice}` has {found} entries; the matrix demands {expected}")
+            }
+            Self::NotFactored => {
+                write!(f, "there is no factor to solve with: `factor` was not called, or has failed")
+            }
             Self::Pattern { column } => {
                 write!(
                     f,
@@ -211,7 +258,7 @@ impl fmt::Display for LinearError {
                 )
             }
             Self::NoEigenvalues => write!(f, "the eigenvalues of a small matrix cannot be computed"),
-            Self::OutOfMemory => write!(f, "the factor of the matrix does not fit into memory"),
+            Self::OutOfMemory => write!(f, "the matrix or its factor does not fit into memory"),
         }
     }
 }
@@ -237,5 +284,23 @@ mod tests {
         assert_eq!(error(&[0, 2, 3], &[0, 1]), at(1));
         assert_eq!(error(&[0, 1, 2], &[0, 1, 1]), at(2));
         assert_eq!(error(&[0, 3, 2], &[0, 1]), at(0));
+    }
+
+    #[test]
+    fn slices_of_other_lengths_and_solutions_without_a_factor_are_refused() -> Result<(), LinearError> {
+        let mut cholesky = Cholesky::new(&[0, 2, 3], &[0, 1, 1])?;
+        let mut b = [8.0, 12.0];
+        assert_eq!(cholesky.solve(&mut b), Err(LinearError::NotFactored));
+        // The values of another pattern.
+        let other = LinearError::Length { slice: "values", found: 2, expected: 3 };
+        assert_eq!(cholesky.factor(&[4.0, 5.0]), Err(other));
+        cholesky.factor(&[4.0, 2.0, 5.0])?;
+        let short = LinearError::Length { slice: "b", found: 1, expected: 2 };
+        assert_eq!(cholesky.solve(&mut b[..1]), Err(short));
+        assert_eq!(short.to_string(), "`b` has 1 entries; the matrix demands 2");
+        assert!(matches!(cholesky.factor(&[4.0, 2.0, 1.0]), Err(LinearError::NotPositive { column: 1 })));
+        assert_eq!(cholesky.solve(&mut b), Err(LinearError::NotFactored));
+        assert_eq!(b, [8.0, 12.0]);
+        Ok(())
     }
 }

@@ -12,6 +12,7 @@ use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::element::Tetrahedron;
 use super::linear::LinearError;
+use super::memory::{filled, reserved};
 use super::pins::Pins;
 
 /// The lower triangle of a symmetric matrix of 3×3 blocks, one row and column of blocks per free node.
@@ -44,29 +45,40 @@ impl Pattern {
     /// The pattern of these elements among `nodes` nodes, without rows and columns of pinned ones.
     ///
     /// # Errors
-    /// [`LinearError::NoSuchNode`] for an element or a pin, [`LinearError::OutOfMemory`].
+    /// [`LinearError::NoSuchNode`] for an element or a pin, [`LinearError::RepeatedNode`],
+    /// [`LinearError::OutOfMemory`].
     pub fn new(nodes: usize, elements: &[Tetrahedron], pins: &Pins) -> Result<Self, LinearError> {
         let tets: Vec<[usize; 4]> = elements.iter().map(|element| element.nodes).collect();
         Self::of_tets(nodes, &tets, pins)
     }
 
-    /// The pattern of tetrahedra that join these nodes, four different ones each.
+    /// The pattern of tetrahedra that join these nodes, four different ones each. A free node of no
+    /// tetrahedron has its block on the diagonal and no other.
     ///
     /// # Errors
-    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::OutOfMemory`].
+    /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::RepeatedNode`],
+    /// [`LinearError::OutOfMemory`].
     pub fn of_tets(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
         if let Some(&node) = tets.as_flattened().iter().chain(pins.nodes()).find(|&&node| node >= nodes) {
             return Err(LinearError::NoSuchNode { node, nodes });
         }
+        let repeated = |tet: &[usize; 4]| {
+            (1..4).map(|k| tet[k]).find(|node| tet.iter().filter(|other| *other == node).count() > 1)
+        };
+        if let Some((element, node)) =
+            tets.iter().enumerate().find_map(|(element, tet)| Some((element, repeated(tet)?)))
+        {
+            return Err(LinearError::RepeatedNode { element, node });
+        }
         let node_of_free = order(nodes, tets, pins)?;
-        let mut free_of_node = vec![None; nodes];
+        let mut free_of_node = filled(nodes, None)?;
         for (free, &node) in node_of_free.iter().enumerate() {
             free_of_node[node] = Some(free);
         }
 
         // One record per contribution, sorted by column, row and element: the order of summation, fixed for
         // good.
-        let mut records = Vec::with_capacity(10 * tets.len());
+        let mut records = reserved(10 * tets.len())?;
         for (index, tet) in tets.iter().enumerate() {
             let index = u32::try_from(index).map_err(|_| LinearError::OutOfMemory)?;
             for i in 0..4 {
@@ -84,30 +96,42 @@ impl Pattern {
 
         let mut pattern = Self {
             elements: tets.len(),
-            columns: vec![0; node_of_free.len() + 1],
+            columns: filled(node_of_free.len() + 1, 0)?,
             rows: Vec::new(),
             gather_starts: vec![0],
-            gather: Vec::with_capacity(records.len()),
+            gather: reserved(records.len())?,
             entries: Arc::new(SymbolicSparseColMat::new_checked(0, 0, vec![0], None, Vec::new())),
             free_of_node,
             node_of_free,
         };
-        for block in records.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let (column, row, _) = block[0];
-            pattern.rows.push(row);
+        let mut later = records.as_slice();
+        for column in 0..pattern.node_of_free.len() {
+            let (of_column, rest) = later.split_at(later.partition_point(|record| record.0 == column));
+            later = rest;
+            if of_column.is_empty() {
+                pattern.add_block(column, &[]);
+            }
+            of_column.chunk_by(|a, b| a.1 == b.1).for_each(|block| pattern.add_block(block[0].1, block));
             pattern.columns[column + 1] = pattern.rows.len();
-            pattern.gather.extend(block.iter().map(|record| record.2));
-            pattern.gather_starts.push(pattern.gather.len());
         }
-        pattern.entries = Arc::new(pattern.scalar_entries());
+        pattern.entries = Arc::new(pattern.scalar_entries()?);
         Ok(pattern)
+    }
+
+    /// Adds the next block of a column, with what adds up to it.
+    fn add_block(&mut self, row: usize, records: &[(usize, usize, ElementBlock)]) {
+        self.rows.push(row);
+        self.gather.extend(records.iter().map(|record| record.2));
+        self.gather_starts.push(self.gather.len());
     }
 
     /// The scalars of the lower triangle, column by column: of a block on the diagonal its own lower
     /// triangle.
-    fn scalar_entries(&self) -> SymbolicSparseColMat<usize> {
+    fn scalar_entries(&self) -> Result<SymbolicSparseColMat<usize>, LinearError> {
         let unknowns = self.unknowns();
-        let (mut starts, mut rows) = (vec![0], Vec::new());
+        let (mut starts, mut rows) =
+            (reserved(unknowns + 1)?, reserved(self.column_start(self.node_of_free.len()))?);
+        starts.push(0);
         for column in 0..self.node_of_free.len() {
             for c in 0..3 {
                 for &row in &self.rows[self.columns[column]..self.columns[column + 1]] {
@@ -116,7 +140,7 @@ impl Pattern {
                 starts.push(rows.len());
             }
         }
-        SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)
+        Ok(SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows))
     }
 
     /// Number of elements that it was made of.
@@ -199,16 +223,19 @@ impl Pattern {
 
 /// Orders the free nodes so that a Cholesky factor stays sparse.
 fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, LinearError> {
-    let mut pinned = vec![false; nodes];
+    let mut is_pinned = filled(nodes, false)?;
     for &node in pins.nodes() {
-        pinned[node] = true;
+        is_pinned[node] = true;
     }
-    let free: Vec<usize> = (0..nodes).filter(|&node| !pinned[node]).collect();
-    let mut index = vec![None; nodes];
+    let mut free: Vec<usize> = reserved(nodes - pins.nodes().len())?;
+    free.extend((0..nodes).filter(|&node| !is_pinned[node]));
+    let mut index = filled(nodes, None)?;
     for (number, &node) in free.iter().enumerate() {
         index[node] = Some(number);
     }
-    let mut edges = Vec::with_capacity(16 * tets.len());
+    let mut edges = reserved(free.len() + 16 * tets.len())?;
+    // On the diagonal, where a node of no tetrahedron stands alone.
+    edges.extend((0..free.len()).map(|number| (number, number)));
     for tet in tets {
         for &i in tet {
             edges.extend(tet.iter().filter_map(|&j| index[i].zip(index[j])));
@@ -216,14 +243,14 @@ fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, L
     }
     edges.sort_unstable();
     edges.dedup();
-    let mut starts = vec![0; free.len() + 1];
+    let mut starts = filled(free.len() + 1, 0)?;
     for (at, &(column, _)) in edges.iter().enumerate() {
         starts[column + 1] = at + 1;
     }
     let rows: Vec<usize> = edges.into_iter().map(|(_, row)| row).collect();
     let graph = SymbolicSparseColMatRef::new_checked(free.len(), free.len(), &starts, None, &rows);
 
-    let (mut forward, mut inverse) = (vec![0; free.len()], vec![0; free.len()]);
+    let (mut forward, mut inverse) = (filled(free.len(), 0)?, filled(free.len(), 0)?);
     let scratch = amd::order_scratch::<usize>(free.len(), rows.len());
     let mut memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
     amd::order(&mut forward, &mut inverse, graph, amd::Control::default(), MemStack::new(&mut memory))

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::mesh::{Bounds, TetMesh};
+use crate::message::{names, quoted};
 
 /// Nodes with prescribed positions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -103,12 +104,14 @@ impl fmt::Display for PinError {
                 bounds.min, bounds.max, body.min, body.max
             ),
             Self::NoSuchGroup { name, existing } if existing.is_empty() => {
-                write!(f, "there is no group `{name}`: the mesh has no groups")
+                write!(f, "there is no group `{}`: the mesh has no groups", quoted(name))
             }
             Self::NoSuchGroup { name, existing } => {
-                write!(f, "there is no group `{name}`; there are: {}", existing.join(", "))
+                write!(f, "there is no group `{}`; there are: {}", quoted(name), names(existing))
             }
-            Self::EmptyGroup { name } => write!(f, "the group `{name}` holds no node of a tetrahedron"),
+            Self::EmptyGroup { name } => {
+                write!(f, "the group `{}` holds no node of a tetrahedron", quoted(name))
+            }
         }
     }
 }

@@ -45,7 +45,7 @@ impl Factorisation for Exact {
                 Err(error) => return Err(error.into()),
             }
         }
-        self.cholesky.solve(b);
+        self.cholesky.solve(b)?;
         Ok(Some(Solution { shift, ..Solution::default() }))
     }
 }

@@ -93,6 +93,12 @@ fn what_does_not_fit_is_an_error() {
     assert_eq!(error.to_string(), "there is no node 4: the 4 nodes are numbered from 0");
     let error = BlockMatrix::new(4, &[[0, 1, 2, 3]], &Pins::at([7])).unwrap_err();
     assert_eq!(error, LinearError::NoSuchNode { node: 7, nodes: 4 });
+    let error = BlockMatrix::new(4, &[[0, 1, 2, 3], [3, 2, 1, 3]], &Pins::none()).unwrap_err();
+    assert_eq!(error, LinearError::RepeatedNode { element: 1, node: 3 });
+    for nodes in [usize::MAX, usize::MAX / 2, usize::MAX / 64] {
+        let error = BlockMatrix::new(nodes, &[[0, 1, 2, 3]], &Pins::none()).unwrap_err();
+        assert_eq!(error, LinearError::OutOfMemory, "{nodes} nodes");
+    }
 
     let mut matrix = BlockMatrix::new(4, &[[0, 1, 2, 3]], &Pins::none()).expect("small");
     let error = matrix.assemble(&[0.0; 78], Layout::Points, |_| 0.0).unwrap_err();
@@ -102,4 +108,37 @@ fn what_does_not_fit_is_an_error() {
     );
     let error = matrix.assemble_packed(&[0.0; 78], Layout::Lines, |_| 0.0).unwrap_err();
     assert_eq!((error.points, error.group), (8, 8));
+}
+
+/// A node of no tetrahedron, before, among and after the others, and none at all.
+#[test]
+fn nodes_of_no_tetrahedron_have_the_diagonal_to_themselves() -> Result<(), Box<dyn std::error::Error>> {
+    for (nodes, tets) in [(5, &[[0, 1, 2, 3]][..]), (5, &[[0, 1, 3, 4]]), (5, &[[1, 2, 3, 4]]), (3, &[])] {
+        let mut matrix = BlockMatrix::new(nodes, tets, &Pins::none())?;
+        let pattern = matrix.pattern().clone();
+        let mut cholesky = crate::system::Cholesky::new(pattern.column_starts(), pattern.row_indices())?;
+        // Each tetrahedron as a unit matrix, so that one that it joins has 1 on the diagonal.
+        let stiffness: Vec<f64> = (0..144).map(|k| if k % 13 == 0 { 1.0 } else { 0.0 }).collect();
+        let stiffnesses = stiffness.repeat(tets.len());
+
+        matrix.assemble(&stiffnesses, Layout::Points, |_| 0.0)?;
+        let error = cholesky.factor(matrix.values()).unwrap_err();
+        let LinearError::NotPositive { column } = error else { panic!("{error}") };
+        let lonely = pattern.node_of_free()[column / 3];
+        assert!(!tets.as_flattened().contains(&lonely), "node {lonely} of {tets:?}");
+
+        matrix.assemble(&stiffnesses, Layout::Points, |node| 1.0 + node as f64)?;
+        cholesky.factor(matrix.values())?;
+        let mut x: Vec<f64> = vec![1.0; pattern.unknowns()];
+        cholesky.solve(&mut x)?;
+        for (free, &node) in pattern.node_of_free().iter().enumerate() {
+            let of_tet = if tets.as_flattened().contains(&node) { 1.0 } else { 0.0 };
+            // A quotient, as its root twice: three roundings.
+            let expected = 1.0 / (1.0 + node as f64 + of_tet);
+            assert!((x[3 * free] - expected).abs() <= 4.0 * f64::EPSILON, "node {node} of {tets:?}");
+        }
+        let pinned = BlockMatrix::new(nodes, tets, &Pins::at([lonely]))?;
+        assert_eq!(pinned.pattern().unknowns(), pattern.unknowns() - 3);
+    }
+    Ok(())
 }

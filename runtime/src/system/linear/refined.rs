@@ -124,7 +124,7 @@ impl System for Factored<'_> {
         for ((single, r), scale) in self.single.iter_mut().zip(r).zip(self.scales) {
             *single = (r * scale / largest) as f32;
         }
-        self.cholesky.solve(self.single);
+        self.cholesky.substitute(self.single);
         for ((z, single), scale) in z.iter_mut().zip(&*self.single).zip(self.scales) {
             *z = f64::from(*single) * largest * scale;
         }

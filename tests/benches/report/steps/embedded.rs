@@ -189,7 +189,7 @@ impl<'a, E: Stages> Flight<'a, E> {
                 unknown[c] = -self.gradient[node][c];
             }
         }
-        self.cholesky.solve(&mut self.direction);
+        self.cholesky.solve(&mut self.direction)?;
         Ok(())
     }
 }

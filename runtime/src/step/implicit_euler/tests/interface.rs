@@ -33,7 +33,7 @@ fn nonsense_is_refused_with_a_reason() {
         Err(SetupError::Spring { index: 0 })
     );
     let error = simulation.step(0.0).expect_err("no time");
-    assert_eq!(error.to_string(), "the time step is 0 s; it must be a positive number");
+    assert_eq!(error.to_string(), "the time step is 0 s; it must be positive and finite");
 }
 
 #[test]

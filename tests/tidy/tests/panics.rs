@@ -1,0 +1,203 @@
+//! Shipped code answers wrong arguments with errors.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use piola_tidy::{crates, forbid, read};
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::visit::{self, Visit};
+use syn::{Attribute, Block, ImplItemFn, Item, ItemFn, ReturnType, Signature, TraitItemFn, Visibility};
+
+/// Macros and methods whose purpose is to panic.
+const MACROS: [&str; 7] =
+    ["panic", "unreachable", "todo", "unimplemented", "assert", "assert_eq", "assert_ne"];
+const METHODS: [&str; 4] = ["unwrap", "unwrap_err", "expect", "expect_err"];
+
+/// A function that panics on purpose says so under `# Panics`, and does not return a `Result` beside it. So
+/// nothing that a function with a `Result` calls panics unannounced, but for an index, a division by zero or
+/// an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile.rs`.
+#[test]
+fn what_panics_says_so_and_returns_no_result() {
+    let mut found = Vec::new();
+    let mut judged = 0;
+    for one in crates().iter().filter(|one| one.is_published) {
+        for module in &one.modules {
+            for item in &module.items {
+                let mut functions = Functions::default();
+                functions.visit_item(item);
+                judged += functions.found.len();
+                let guilty = functions.found.iter().filter(|function| {
+                    !panics(function.body.clone()).is_empty()
+                        && (!function.says_so || function.returns_result)
+                });
+                found.extend(guilty.map(|function| {
+                    let line = function.signature.ident.span().start().line;
+                    format!("{}:{line}: {}", module.file.display(), function.signature.ident)
+                }));
+            }
+        }
+    }
+    forbid("functions that panic without a word, or beside a `Result`", &found);
+    assert!(judged > 1000, "{judged} functions");
+}
+
+/// Every public function of bodies and batches that returns a `Result` is called with hostile arguments.
+#[test]
+fn what_returns_a_result_is_tried_with_hostile_arguments() {
+    let tried = words(read(Path::new("runtime/tests/hostile.rs")).parse().expect("tokens"));
+    let crates = crates();
+    let runtime = crates.iter().find(|one| one.name == "piola").expect("the runtime");
+    let mut found = Vec::new();
+    let mut judged = 0;
+    for module in &runtime.modules {
+        if !module
+            .path
+            .first()
+            .is_some_and(|floor| ["mesh", "system", "step", "batch"].contains(&floor.as_str()))
+        {
+            continue;
+        }
+        for item in &module.items {
+            let mut functions = Functions::default();
+            functions.visit_item(item);
+            for function in
+                functions.found.iter().filter(|function| function.is_public && function.returns_result)
+            {
+                judged += 1;
+                let name = function.signature.ident.to_string();
+                // Of constructors the name of the type tells them apart.
+                let called = if name == "new" { function.owner.clone().unwrap_or(name) } else { name };
+                if !tried.contains(&called) {
+                    found.push(format!("{}: {called}", module.file.display()));
+                }
+            }
+        }
+    }
+    forbid("functions that `runtime/tests/hostile.rs` does not try", &found);
+    assert!(judged > 30, "{judged} functions");
+}
+
+/// A function of an item, with what these tests ask of it.
+struct Function {
+    signature: Signature,
+    body: TokenStream,
+    /// The type that it is a method of.
+    owner: Option<String>,
+    is_public: bool,
+    says_so: bool,
+    returns_result: bool,
+}
+
+/// The functions of an item and its methods.
+#[derive(Default)]
+struct Functions {
+    found: Vec<Function>,
+    owner: Option<String>,
+    is_of_trait: bool,
+}
+
+impl Functions {
+    fn add(
+        &mut self,
+        signature: &Signature,
+        body: &Block,
+        attributes: &[Attribute],
+        visibility: Option<&Visibility>,
+    ) {
+        let documentation = attributes.iter().map(|attribute| attribute.to_token_stream().to_string());
+        let result = match &signature.output {
+            ReturnType::Default => false,
+            ReturnType::Type(_, returned) => {
+                let returned = returned.to_token_stream().to_string();
+                returned.starts_with("Result ") || returned.contains(":: Result ")
+            }
+        };
+        self.found.push(Function {
+            signature: signature.clone(),
+            body: body.to_token_stream(),
+            owner: self.owner.clone(),
+            is_public: matches!(visibility, Some(Visibility::Public(_))),
+            says_so: documentation.into_iter().any(|line| line.contains("# Panics")),
+            returns_result: result,
+        });
+    }
+}
+
+impl<'a> Visit<'a> for Functions {
+    fn visit_item(&mut self, item: &'a Item) {
+        if let Item::Impl(block) = item {
+            let owner = block.self_ty.to_token_stream().to_string();
+            self.owner = Some(owner.split(' ').next().unwrap_or_default().to_owned());
+            self.is_of_trait = block.trait_.is_some();
+        }
+        visit::visit_item(self, item);
+    }
+
+    fn visit_item_fn(&mut self, function: &'a ItemFn) {
+        self.add(&function.sig, &function.block, &function.attrs, Some(&function.vis));
+    }
+
+    fn visit_impl_item_fn(&mut self, method: &'a ImplItemFn) {
+        let visibility = (!self.is_of_trait).then_some(&method.vis);
+        self.add(&method.sig, &method.block, &method.attrs, visibility);
+    }
+
+    fn visit_trait_item_fn(&mut self, method: &'a TraitItemFn) {
+        if let Some(body) = &method.default {
+            self.add(&method.sig, body, &method.attrs, None);
+        }
+    }
+}
+
+/// Macros and methods in tokens that panic. What is quoted becomes code of others.
+fn panics(tokens: TokenStream) -> Vec<String> {
+    let tokens: Vec<_> = tokens.into_iter().collect();
+    let mut found = Vec::new();
+    for (at, token) in tokens.iter().enumerate() {
+        let is_mark = |at: Option<usize>, mark: char| matches!(at.and_then(|at| tokens.get(at)), Some(TokenTree::Punct(punct)) if punct.as_char() == mark);
+        match token {
+            TokenTree::Ident(name) => {
+                let is_macro = is_mark(Some(at + 1), '!') && MACROS.iter().any(|one| name == one);
+                let is_method = is_mark(at.checked_sub(1), '.') && METHODS.iter().any(|one| name == one);
+                if is_macro || is_method {
+                    found.push(name.to_string());
+                }
+            }
+            TokenTree::Group(group) => {
+                let is_quoted = is_mark(at.checked_sub(1), '!')
+                    && matches!(at.checked_sub(2).map(|at| &tokens[at]),
+                        Some(TokenTree::Ident(name)) if name == "quote" || name == "quote_spanned");
+                if !is_quoted {
+                    found.extend(panics(group.stream()));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// All identifiers in tokens.
+fn words(tokens: TokenStream) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => drop(found.insert(name.to_string())),
+            TokenTree::Group(group) => found.extend(words(group.stream())),
+            _ => {}
+        }
+    }
+    found
+}
+
+#[test]
+fn panics_are_seen_wherever_they_hide() {
+    let found = |code: &str| panics(code.parse().expect("tokens"));
+    assert_eq!(found("{ x.unwrap(); if y { z.expect(\"z\") } }"), ["unwrap", "expect"]);
+    assert_eq!(
+        found("for x in f(|| assert_eq!(1, g())) { core::unreachable!() }"),
+        ["assert_eq", "unreachable"]
+    );
+    assert_eq!(found("x.unwrap_or(1); expect(2); quote!(panic!()); let panic = 3;"), [""; 0]);
+}
