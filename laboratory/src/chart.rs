@@ -32,7 +32,8 @@ const HEAD: u32 = 62;
 /// it of.
 ///
 /// # Errors
-/// [`ChartError`] if there is neither a point of a curve nor one of the data, or the library of charts fails.
+/// [`ChartError`] if there is neither a point of a curve nor one of the data, if one is too large for an
+/// axis, or the library of charts fails.
 pub fn draw(
     title: &str,
     note: &str,

@@ -24,6 +24,8 @@ pub(crate) mod lateral;
 use std::fmt;
 use std::str::FromStr;
 
+use piola::message::{number, quoted};
+
 use crate::specimen::{self, Specimen};
 use lateral::Side;
 
@@ -68,7 +70,8 @@ impl Mode {
         }
     }
 
-    fn quantity(self) -> &'static str {
+    /// Name of the control in messages.
+    pub(crate) fn quantity(self) -> &'static str {
         match self {
             Self::SimpleShear => "the shear",
             Self::Volumetric => "the volume ratio J",
@@ -131,7 +134,7 @@ impl FromStr for Mode {
 
 /// An unknown name of a test.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no test; write one of {known}", known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", "))]
+#[error("`{}` is no test; write one of {known}", quoted(.0), known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", "))]
 pub struct ModeError(
     /// The name as given.
     pub String,
@@ -178,7 +181,7 @@ impl Response {
 #[non_exhaustive]
 pub enum ResponseError {
     /// No specimen can be brought to the control.
-    #[error("{} is {control}; it must be {}finite", mode.quantity(), if *mode == Mode::SimpleShear { "" } else { "positive and " })]
+    #[error("{} is {}; it must be {}finite", mode.quantity(), number(*control), if *mode == Mode::SimpleShear { "" } else { "positive and " })]
     Control {
         /// The test.
         mode: Mode,

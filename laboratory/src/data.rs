@@ -10,10 +10,14 @@
 //! The modes are those of [`Mode`]; under `stretch` stands the control, which is γ for `simple_shear` and J
 //! for `volumetric`. The stress is in the unit that its header ends with, `_Pa`, `_kPa` or `_MPa`, and what
 //! [`crate::curve`](mod@crate::curve) says of each mode. The columns may come in any order.
+//!
+//! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
+//! size: far beyond what is measured, and well inside of what can be squared and divided.
 
 use std::fmt;
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
+use piola::message::{number, quoted};
 
 use crate::curve::{Mode, Response, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
@@ -41,7 +45,29 @@ impl Measured {
     pub fn is_rest(&self) -> bool {
         self.control == self.mode.rest()
     }
+
+    /// The mistake in a reading out of the range that the [module](self) states.
+    pub(crate) fn fault(&self) -> Option<Fault> {
+        let Self { mode, control, stress } = *self;
+        let (size, least) = match mode {
+            Mode::SimpleShear => (control.abs(), 0.0),
+            _ => (control, CONTROLS.0),
+        };
+        if !mode.allows(control) {
+            Some(Fault::Control(ResponseError::Control { mode, control }))
+        } else if !(least..=CONTROLS.1).contains(&size) {
+            Some(Fault::ControlRange { mode, control })
+        } else if stress != 0.0 && !(STRESSES.0..=STRESSES.1).contains(&stress.abs()) {
+            Some(Fault::StressRange { stress })
+        } else {
+            None
+        }
+    }
 }
+
+/// Sizes of controls and of stresses, Pa, that measurements may have.
+const CONTROLS: (f64, f64) = (1e-6, 1e6);
+const STRESSES: (f64, f64) = (1e-100, 1e100);
 
 /// Readings of one material in one or several tests.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,6 +96,7 @@ impl Measurements {
     /// # Errors
     /// [`DataError`] of the first malformed line, or if no data point differs from the rest state.
     pub fn read(text: &str) -> Result<Self, DataError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(Trim::All)
@@ -113,7 +140,7 @@ impl Measurements {
     /// ```
     ///
     /// of the stresses P with mean P̄, P̂ being those of the specimen. 1 is agreement; below 0 the mean would
-    /// be a better guess. A single point, whose mean is itself, has none and gives −∞ or NaN.
+    /// be a better guess. Stresses that are all equal, such as a single one, have none.
     ///
     /// # Errors
     /// [`PointError`] of the first point where the specimen has no stress.
@@ -140,24 +167,33 @@ impl Measurements {
 /// R² by mode and of all points together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
-    /// R² of each mode by itself.
-    pub modes: Vec<(Mode, f64)>,
-    /// R² of the points of all modes.
-    pub total: f64,
+    /// R² of each mode by itself; `None` where its stresses do not vary.
+    pub modes: Vec<(Mode, Option<f64>)>,
+    /// R² of the points of all modes; `None` where their stresses do not vary.
+    pub total: Option<f64>,
 }
 
 impl fmt::Display for Agreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = |determination: &Option<f64>| match determination {
+            Some(determination) => short(*determination),
+            None => "undefined (equal stresses)".to_owned(),
+        };
         for (mode, determination) in &self.modes {
-            write!(f, "{mode} {determination:.5}, ")?;
+            write!(f, "{mode} {}, ", shown(determination))?;
         }
-        write!(f, "all {:.5}", self.total)
+        write!(f, "all {}", shown(&self.total))
     }
+}
+
+/// R² with five digits behind the point, and one that is far below 0 with an exponent.
+pub(crate) fn short(determination: f64) -> String {
+    if determination > -1e6 { format!("{determination:.5}") } else { format!("{determination:.1e}") }
 }
 
 /// A measured point at which a specimen has no stress.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{} at {} = {}: {reason}", point.mode, point.mode.letter(), point.control)]
+#[error("{} at {} = {}: {reason}", point.mode, point.mode.letter(), number(point.control))]
 pub struct PointError {
     /// The point.
     pub point: Measured,
@@ -166,11 +202,15 @@ pub struct PointError {
     pub reason: ResponseError,
 }
 
-fn determination(pairs: &[(Measured, f64)]) -> f64 {
+fn determination(pairs: &[(Measured, f64)]) -> Option<f64> {
+    let (first, _) = pairs.first()?;
+    if pairs.iter().all(|(point, _)| point.stress == first.stress) {
+        return None;
+    }
     let mean = pairs.iter().map(|(point, _)| point.stress).sum::<f64>() / pairs.len() as f64;
     let unexplained: f64 = pairs.iter().map(|(point, stress)| (point.stress - stress).powi(2)).sum();
     let all: f64 = pairs.iter().map(|(point, _)| (point.stress - mean).powi(2)).sum();
-    1.0 - unexplained / all
+    Some(1.0 - unexplained / all).filter(|determination| determination.is_finite())
 }
 
 /// The places of the columns, and the factor that brings the stresses to Pa.
@@ -216,10 +256,8 @@ impl Columns {
         let mode: Mode = record[self.mode].parse().map_err(|unknown| at(Fault::Mode(unknown)))?;
         let control = number(self.control, "stretch")?;
         let stress = self.unit * number(self.stress, "nominal_stress")?;
-        match mode.allows(control) {
-            true => Ok(Measured { mode, control, stress }),
-            false => Err(at(Fault::Control(ResponseError::Control { mode, control }))),
-        }
+        let measured = Measured { mode, control, stress };
+        measured.fault().map_or(Ok(measured), |fault| Err(at(fault)))
     }
 }
 
@@ -242,7 +280,7 @@ pub enum Fault {
     #[error("there is no table; {HEADER}, then lines such as `uniaxial,1.5,0.37`")]
     NoHeader,
     /// A column is missing.
-    #[error("the header `{found}` has no column `{name}`; {HEADER}")]
+    #[error("the header `{}` has no column `{name}`; {HEADER}", quoted(found))]
     NoColumn {
         /// Its name.
         name: &'static str,
@@ -256,7 +294,7 @@ pub enum Fault {
         name: &'static str,
     },
     /// The header of the stress names no known unit.
-    #[error("`{found}` names no known unit; {HEADER}")]
+    #[error("`{}` names no known unit; {HEADER}", quoted(found))]
     Unit {
         /// The header as given.
         found: String,
@@ -268,7 +306,7 @@ pub enum Fault {
         crate::curve::ModeError,
     ),
     /// Something else stands where a finite number is needed.
-    #[error("`{found}` under `{column}` is not a number")]
+    #[error("`{}` under `{column}` is not a number", quoted(found))]
     Number {
         /// The header of its column.
         column: &'static str,
@@ -281,6 +319,26 @@ pub enum Fault {
         /// The reason.
         ResponseError,
     ),
+    /// A stretch, a shear or a volume is beyond all bounds.
+    #[error(
+        "{} is {}; it must be at most {:e}{}", mode.quantity(), number(*control), CONTROLS.1,
+        if *mode == Mode::SimpleShear { "" } else { " and at least 1e-6" }
+    )]
+    ControlRange {
+        /// The test.
+        mode: Mode,
+        /// The control as given.
+        control: f64,
+    },
+    /// A stress is beyond all bounds.
+    #[error(
+        "the stress is {} Pa; it must be at most {:e} Pa, and at least {:e} Pa if it is not 0: does the header name the right unit?",
+        number(*stress), STRESSES.1, STRESSES.0
+    )]
+    StressRange {
+        /// The stress, Pa.
+        stress: f64,
+    },
     /// There is no point apart from the rest state.
     #[error("below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`")]
     NoPoints,
@@ -340,6 +398,49 @@ mod tests {
         check(&format!("{HEADER}uniaxial,1,0\n\nuniaxial,2\n"), 4, &["2 fields", "3"]);
         check(&format!("{HEADER}uniaxial,1.1,1e999\n"), 2, &["1e999", "`nominal_stress`"]);
         check(&format!("{HEADER}uniaxial,-1.1,1\n"), 2, &["-1.1", "positive"]);
+    }
+
+    #[test]
+    fn numbers_beyond_all_bounds_are_named_with_their_line() {
+        // 1e303 MPa is infinite in Pa, 1e-320 MPa a subnormal number.
+        let megapascals = "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.5\n";
+        check(&format!("{megapascals}uniaxial,3,1e303\n"), 3, &["stress is inf Pa", "at most 1e100 Pa"]);
+        check(&format!("{megapascals}uniaxial,3,-1e200\n"), 3, &["stress is -1e206 Pa", "right unit"]);
+        check(&format!("{megapascals}uniaxial,3,1e-320\n"), 3, &["at least 1e-100 Pa"]);
+        for (mode, control) in [("uniaxial", "1e-7"), ("volumetric", "1e7"), ("simple_shear", "-1e300")] {
+            check(
+                &format!("{megapascals}{mode},{control},1\n"),
+                3,
+                &[&format!("is {control};"), "at most 1e6"],
+            );
+        }
+        let edge = format!("{megapascals}uniaxial,1e6,1e94\nsimple_shear,-1e6,0\nequibiaxial,1e-6,-1e-105\n");
+        assert_eq!(Measurements::read(&edge).map(|read| read.points.len()), Ok(4));
+    }
+
+    /// The mark is no part of the first header, nor of a comment before it.
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        let text = format!("# by hand\n{HEADER}uniaxial,2,1\n");
+        assert_eq!(Measurements::read(&format!("\u{feff}{text}")), Measurements::read(&text));
+        check(&format!("\u{feff}{text}uniaxial,x,1\n"), 4, &["`x`"]);
+    }
+
+    #[test]
+    fn messages_quote_nothing_that_a_terminal_obeys() {
+        let hostile = format!("\u{1b}[2J\u{202e}{}", "x".repeat(1_000_000));
+        for text in [
+            format!("{hostile}\n"),
+            format!("mode,stretch,nominal_stress{hostile}\n"),
+            format!("{HEADER}{hostile},1,2\n"),
+            format!("{HEADER}uniaxial,{hostile},2\n"),
+            format!("{HEADER}uniaxial,2,{hostile}\n"),
+            format!("{HEADER}\"{hostile}\n"),
+        ] {
+            let error = Measurements::read(&text).expect_err("nonsense").to_string();
+            assert!(error.chars().all(|c| !c.is_control() && c != '\u{202e}'), "{error:?}");
+            assert!(error.len() < 300, "{error}");
+        }
     }
 
     #[test]

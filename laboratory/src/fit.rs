@@ -68,7 +68,7 @@ pub struct FitSettings {
     /// Parameters that keep their values: names as declared, a list with all its entries, or an entry as
     /// `alpha_1`, counted from 1.
     pub held: Vec<String>,
-    /// Number of further starts from parameters at random about the given ones, default 20.
+    /// Number of further starts from parameters at random about the given ones, default 20, at most 10 000.
     pub restarts: usize,
     /// Seed of these random parameters, default 1: equal seeds give equal fits.
     pub seed: u64,
@@ -130,6 +130,15 @@ pub fn fit_parameters(
     data: &Measurements,
     settings: &FitSettings,
 ) -> Result<Fit, FitError> {
+    let restarts = settings.restarts;
+    if restarts > outcome::MOST_RESTARTS {
+        return Err(FitError::Restarts { restarts });
+    }
+    if let Some((index, fault)) =
+        data.points.iter().map(Measured::fault).enumerate().find_map(|(index, fault)| Some((index, fault?)))
+    {
+        return Err(FitError::Point { index, fault });
+    }
     let numbers = Numbers::of(start);
     let mut held = held(&numbers, &settings.held)?;
     let points = points(data, settings.difference)?;
@@ -144,7 +153,7 @@ pub fn fit_parameters(
     let elsewhere = starts::around(&elsewhere, &held, settings)
         .map(|values| problem(&vec![None; values.len()], values))
         .filter(|problem| problem.answers().is_ok())
-        .take(1 + settings.restarts);
+        .take(1 + restarts);
     let silent = uniqueness::unidentifiable(std::iter::once(first).chain(elsewhere), &numbers);
     for number in silent {
         held[number].get_or_insert(Standing::Unidentifiable);
@@ -160,7 +169,7 @@ pub fn fit_parameters(
     let minima: Vec<Minimum> = starts::around(&numbers.values, &held, settings)
         .map(|values| problem(&held, values))
         .filter(|problem| problem.answers().is_ok())
-        .take(1 + settings.restarts)
+        .take(1 + restarts)
         .enumerate()
         .filter_map(|(start, problem)| minimum::descend(problem, start))
         .collect();

@@ -33,6 +33,7 @@ mod path;
 pub mod wave;
 
 use piola::material::Moduli;
+use piola::message::number;
 
 use crate::Specimen;
 use criteria::{Criterion, Judgement};
@@ -44,9 +45,9 @@ pub use path::{Path, Walk};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurveySettings {
-    /// The least stretch, above 0 and below 1.
+    /// The least stretch, from 10⁻⁶ to below 1.
     pub from: f64,
-    /// The greatest stretch, above 1.
+    /// The greatest stretch, above 1 and up to 10⁶.
     pub to: f64,
     /// Stretches along each axis of the box, in equal steps of their logarithm, 2 … 400.
     pub resolution: usize,
@@ -105,9 +106,10 @@ pub struct Finding {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurveyError {
-    /// The range of stretches does not contain the rest state.
+    /// The range of stretches does not contain the rest state, or goes beyond what any solid is stretched to.
     #[error(
-        "the stretches are from {from} to {to}; they must satisfy 0 < from < 1 < to, with the rest state inside"
+        "the stretches are from {} to {}; they must be at least {:e} and at most {:e}, with the rest state, 1, between them",
+        number(*from), number(*to), STRETCHES.0, STRETCHES.1
     )]
     Range {
         /// The least stretch as given.
@@ -122,12 +124,16 @@ pub enum SurveyError {
         resolution: usize,
     },
     /// The rest state is not admitted, or its shear modulus, in which all others are shown, is not positive.
-    #[error("the shear modulus at rest is {mu} Pa and must be positive: no solid has this energy")]
+    #[error("the shear modulus at rest is {} Pa and must be positive: no solid has this energy", number(*mu))]
     Rest {
         /// The shear modulus, Pa; NaN where the rest state is not admitted.
         mu: f64,
     },
 }
+
+/// Limits of the stretches: a chain of a million links straightens by a factor of a thousand, and powers of
+/// these are far from overflow.
+const STRETCHES: (f64, f64) = (1e-6, 1e6);
 
 /// Limits of [`SurveySettings::resolution`]: 400 are 10.7 million points.
 const LIMITS: (usize, usize) = (2, 400);
@@ -167,7 +173,7 @@ impl Report {
 impl SurveySettings {
     fn check(&self) -> Result<(), SurveyError> {
         let Self { from, to, resolution } = *self;
-        if !(0.0 < from && from < 1.0 && 1.0 < to && to.is_finite()) {
+        if !(STRETCHES.0 <= from && from < 1.0 && 1.0 < to && to <= STRETCHES.1) {
             return Err(SurveyError::Range { from, to });
         }
         if !(LIMITS.0..=LIMITS.1).contains(&resolution) {

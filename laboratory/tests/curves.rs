@@ -2,7 +2,8 @@
 
 use piola::material::{Declared, Moduli};
 use piola::{Inversion, Material};
-use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
+use piola_laboratory::chart::{ChartError, Curve, draw};
+use piola_laboratory::curve::{Mode, Response, ResponseError, Volume, respond};
 use piola_laboratory::data::{DataError, Measurements, TRELOAR_1944};
 use piola_materials::{BlatzKo, CATALOGUE, Gent, NeoHookean, Ogden, RotatedLinear, Visitor};
 
@@ -196,7 +197,7 @@ fn ogdens_rubber_agrees_with_treloars() -> Outcome {
     for ((mode, found), (wanted, expected)) in agreement.modes.into_iter().zip(expected) {
         assert_eq!(mode, wanted);
         // As the figures are rounded.
-        assert!((found - expected).abs() <= 0.5e-5, "{mode}: {found}");
+        assert!(found.is_some_and(|found| (found - expected).abs() <= 0.5e-5), "{mode}: {found:?}");
     }
     Ok(())
 }
@@ -206,5 +207,52 @@ fn a_specimen_without_a_stress_at_a_point_is_named() -> Result<(), DataError> {
     let locking = Gent::new(3e5, 10.0, 2e7).expect("admissible");
     let error = Measurements::read(TRELOAR_1944)?.agreement(&locking, Volume::Kept).expect_err("it locks");
     assert!(error.to_string().starts_with("uniaxial at λ = 3.57: outside"), "{error}");
+    Ok(())
+}
+
+/// R² would divide by zero, or by the rounding of a mean.
+#[test]
+fn equal_stresses_have_no_determination() -> Outcome {
+    let rubber = NeoHookean::new(1e6, 5e6)?;
+    let read = |rows: &str| Measurements::read(&format!("mode,stretch,nominal_stress_kPa\n{rows}"));
+    for rows in ["uniaxial,2,1\n", "uniaxial,2,0.1\nuniaxial,3,0.1\nuniaxial,4,0.1\n"] {
+        let agreement = read(rows)?.agreement(&rubber, Volume::Kept)?;
+        assert_eq!((agreement.modes[0].1, agreement.total), (None, None));
+        assert_eq!(
+            agreement.to_string(),
+            "uniaxial undefined (equal stresses), all undefined (equal stresses)"
+        );
+    }
+    let agreement = read("uniaxial,2,1e-80\nequibiaxial,2,1e-70\n")?.agreement(&rubber, Volume::Kept)?;
+    assert_eq!(agreement.modes.iter().map(|(_, alone)| *alone).collect::<Vec<_>>(), [None; 2]);
+    assert!(agreement.total.is_some_and(|total| total < -1e100), "{agreement}");
+    assert!(agreement.to_string().len() < 120, "{agreement}");
+    Ok(())
+}
+
+/// Numbers that no axis reaches, or that no tick tells apart.
+#[test]
+fn charts_are_drawn_or_refused_and_never_without_end() -> Outcome {
+    let curve = |points: &[(f64, f64)]| {
+        let point = |&(control, stress): &(f64, f64)| {
+            Ok(Response { control, stretches: [1.0; 3], stress, weights: [1.0, 0.0, 0.0] })
+        };
+        Curve { mode: Mode::Uniaxial, points: points.iter().map(point).collect() }
+    };
+    let drawn = |points: &[(f64, f64)]| draw("title", "note", &[curve(points)], None);
+    for points in [
+        [(1.0, 0.0), (2.0, 0.0)],
+        [(1.0, 0.0), (1.0, 0.0)],
+        [(1e15, 1e15), (1e15 + 1.0, 1e15 + 1.0)],
+        [(0.0, 5e-324), (1e-300, 1e-300)],
+        [(-1e100, -1e100), (1e100, 1e100)],
+    ] {
+        assert!(drawn(&points)?.contains("</svg>"), "{points:?}");
+    }
+    for wild in [1e101, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        for points in [[(1.0, 0.0), (2.0, wild)], [(wild, 0.0), (2.0, 1.0)]] {
+            assert!(matches!(drawn(&points), Err(ChartError::Range { .. })), "{points:?}");
+        }
+    }
     Ok(())
 }

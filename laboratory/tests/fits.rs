@@ -140,7 +140,7 @@ fn three_terms_follow_treloar_more_closely_than_ogdens_own() -> Outcome {
     let found = fit_parameters(&ogdens, &data, &settings)?;
     assert!(found.agreement.total > before.total, "{found:?}");
     assert_ne!(found.ended, Ended::Unfinished);
-    assert!(found.agreement.modes.iter().all(|(_, determination)| *determination > 0.995), "{found:?}");
+    assert!(found.agreement.modes.iter().all(|(_, determination)| *determination > Some(0.995)), "{found:?}");
     // Nothing about κ, little about some combination of the six others.
     assert_eq!(found.warnings[0], Warning::Unidentifiable { parameter: "kappa".into() });
     assert!(found.warnings.iter().any(|warning| matches!(warning, Warning::Collinear { .. })), "{found:?}");
@@ -256,7 +256,10 @@ fn a_solid_that_gives_way_is_not_fitted_at_kept_volume_unsaid() -> Outcome {
     assert!(text.contains("`--compressible`, `FitSettings::with_volume(Volume::Free)`"), "{text}");
     let free = fit_parameters(&start, &treloar(), &FitSettings::default().with_volume(Volume::Free))?;
     assert_eq!(compressible(&free), None, "{free:?}");
-    assert!(free.agreement.total > 0.8 && kept.agreement.total < 0.0, "{free:?}, {kept:?}");
+    assert!(
+        free.agreement.total > Some(0.8) && kept.agreement.total.is_some_and(|total| total < 0.0),
+        "{free:?}, {kept:?}"
+    );
     // Simple shear keeps the volume of any solid.
     let sheared = synthetic(&start, Volume::Kept, &[Mode::SimpleShear]);
     assert_eq!(compressible(&fit_parameters(&start, &sheared, &FitSettings::default())?), None);
@@ -274,5 +277,24 @@ fn a_bulk_modulus_below_that_of_rubber_is_told_too() -> Outcome {
         Ok::<_, Box<dyn std::error::Error>>(compressible(&fitted).is_some())
     };
     assert!(told(1e6)? && !told(2e7)?);
+    Ok(())
+}
+
+/// Twenty draws for each start, and one more start, would be beyond usize.
+#[test]
+fn starts_and_points_beyond_all_bounds_are_refused() -> Outcome {
+    let rubber = NeoHookean::new(1e5, 5e6)?;
+    let data = Measurements::read(TRELOAR_1944)?;
+    for restarts in [10_001, usize::MAX / 20 + 1, usize::MAX] {
+        let error = fit_parameters(&rubber, &data, &FitSettings::default().with_restarts(restarts));
+        let error = error.expect_err("too many").to_string();
+        assert_eq!(error, format!("the number of random starts is {restarts}; it must be at most 10000"));
+    }
+    for (control, stress) in [(2.0, f64::NAN), (2.0, 1e300), (f64::INFINITY, 1e5), (1e-9, 1e5), (-1.0, 1e5)] {
+        let mut wild = data.clone();
+        wild.points[3] = Measured { mode: Mode::Uniaxial, control, stress };
+        let error = fit_parameters(&rubber, &wild, &FitSettings::default()).expect_err("no measurement");
+        assert!(error.to_string().starts_with("the point 3 (from 0) cannot be fitted: "), "{error}");
+    }
     Ok(())
 }

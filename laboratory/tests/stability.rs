@@ -4,10 +4,11 @@
 use piola::Material;
 use piola::material::{Blocks, Moduli};
 use piola::random::Random;
+use piola_laboratory::Specimen;
 use piola_laboratory::stability::criteria::{Criterion, Judgement};
 use piola_laboratory::stability::wave::slowest;
 use piola_laboratory::stability::*;
-use piola_materials::{BlatzKo, CiarletGeymonat, Gent, Hencky, NeoHookean, StVenantKirchhoff};
+use piola_materials::{BlatzKo, CiarletGeymonat, Fung, Gent, Hencky, NeoHookean, Ogden, StVenantKirchhoff};
 
 type Tested = Result<(), Box<dyn std::error::Error>>;
 
@@ -304,9 +305,13 @@ fn settings_are_checked() -> Tested {
     let solid = Hencky::new(1.0, 1.0)?;
     let good = SurveySettings::default().with_resolution(5);
     assert_eq!(survey(&solid, &good)?.points, 35);
-    for (from, to) in [(1.0, 3.0), (0.3, 1.0), (0.0, 2.0), (f64::NAN, 2.0), (0.5, f64::INFINITY)] {
-        assert!(matches!(survey(&solid, &good.with_range(from, to)), Err(SurveyError::Range { .. })));
+    let wrong = [(1.0, 3.0), (0.3, 1.0), (0.0, 2.0), (f64::NAN, 2.0), (0.5, f64::INFINITY)];
+    for (from, to) in wrong.into_iter().chain([(0.5, 1e200), (1e-300, 1e300), (0.9e-6, 2.0), (0.5, 1.1e6)]) {
+        let error = survey(&solid, &good.with_range(from, to));
+        assert!(matches!(error, Err(SurveyError::Range { .. })), "{from:e} to {to:e}");
     }
+    let error = survey(&solid, &good.with_range(0.5, 1e200)).expect_err("beyond any solid").to_string();
+    assert!(error.contains("from 0.5 to 1e200; they must be at least 1e-6 and at most 1e6"), "{error}");
     for resolution in [0, 1, 401] {
         let error = survey(&solid, &good.with_resolution(resolution));
         assert_eq!(error, Err(SurveyError::Resolution { resolution }));
@@ -325,6 +330,26 @@ fn reports_and_maps_are_complete() -> Tested {
     let svg = map(&rubber, &settings, "Gent, mu = 1e6")?;
     for word in ["Gent, mu = 1e6", "λ1", "λ2", "uniaxial", "plane strain", "strong ellipticity lost"] {
         assert!(svg.contains(word), "{word}");
+    }
+    Ok(())
+}
+
+/// At the limits powers and exponentials overflow: what is infinite has no eigenvalues, and the search for
+/// them would not end.
+#[test]
+fn surveys_end_at_the_limits_of_the_range() -> Tested {
+    let settings = SurveySettings::default().with_range(1e-6, 1e6).with_resolution(7);
+    let fung = Fung::new(2.7e4, 0.5, 0.5)?;
+    assert!(survey(&fung, &settings)?.admitted < 84, "an exponential of 10¹³ overflows");
+    for specimen in [&Hencky::new(1e5, 1e5)? as &dyn Specimen, &fung, &Ogden::new([1e5], [40.0], 1e6)?] {
+        let report = survey(specimen, &settings)?;
+        assert_eq!(report.points, 84);
+        assert!(map(specimen, &settings, "wide")?.contains("</svg>"));
+    }
+    // Whatever a walk is to lead to.
+    for to in [0.0, 5e-324, f64::MAX, f64::INFINITY, f64::NAN] {
+        let reached = Walk::along(Path::Uniaxial, &fung, to).reached;
+        assert!((to.min(1.0)..=to.max(1.0)).contains(&reached), "{reached:e} of {to:e}");
     }
     Ok(())
 }

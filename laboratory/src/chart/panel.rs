@@ -3,12 +3,13 @@
 use std::fmt;
 use std::ops::Range;
 
+use piola::message::number;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::{Curve, Group};
 use crate::curve::Mode;
-use crate::data::{Agreement, Measurements};
+use crate::data::{Agreement, Measurements, short as determined};
 
 const FONT: &str = "sans-serif";
 const GREY: RGBColor = RGBColor(90, 90, 90);
@@ -29,12 +30,20 @@ fn colour(mode: Mode) -> RGBColor {
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Why there is no chart.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
     /// There is no point to draw.
     #[error("there is no point to draw: the material has no stress at any of them")]
     Empty,
+    /// A number is infinite, NaN or beyond 10¹⁰⁰, and no axis reaches it.
+    #[error("an axis of the chart would have to be from {} to {}; its ends must be at most {MOST:e} in size", number(*from), number(*to))]
+    Range {
+        /// The least number.
+        from: f64,
+        /// The greatest number.
+        to: f64,
+    },
     /// The library of charts fails.
     #[error("the chart cannot be drawn: {reason}")]
     Drawing {
@@ -91,7 +100,7 @@ impl<'a> Panel<'a> {
                 mode,
                 strokes: curves.flat_map(strokes).collect(),
                 marks: points.map(|point| (point.control, point.stress)).collect(),
-                determination: agreement.map(|(_, determination)| *determination),
+                determination: agreement.and_then(|(_, determination)| *determination),
             }
         });
         let is_used = |series: &Series| !series.strokes.is_empty() || !series.marks.is_empty();
@@ -107,13 +116,13 @@ impl<'a> Panel<'a> {
 
         let lines = || self.series.iter().flat_map(|series| series.strokes.iter().flatten());
         let marks = || self.series.iter().flat_map(|series| &series.marks);
-        let across = range(lines().chain(marks()).map(|point| point.0));
+        let across = range(lines().chain(marks()).map(|point| point.0))?;
         // A curve that runs away from the data leaves the panel.
         let up = if marks().next().is_some() {
             range(marks().map(|point| point.1))
         } else {
             range(lines().map(|p| p.1))
-        };
+        }?;
         let (unit, scale) = unit(up.start.abs().max(up.end.abs()));
         let up = up.start / scale..up.end / scale;
 
@@ -173,7 +182,7 @@ impl Series {
         }
         let mut text = self.mode.name().replace('_', " ");
         if let Some(determination) = self.determination {
-            text += &format!(", R² = {determination:.5}");
+            text += &format!(", R² = {}", determined(determination));
         }
         legend.draw(&Text::new(text, (LEFT + 38, y - 6), (FONT, 15).into_font())).map_err(failed)
     }
@@ -190,13 +199,26 @@ fn strokes(curve: &Curve) -> Vec<Vec<(f64, f64)>> {
     parts.map(part).filter(|part| !part.is_empty()).collect()
 }
 
-/// From a little below the least number to a little above the greatest.
-fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
-    let (least, greatest) =
-        numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    let size = greatest - least;
-    let margin = if size > 0.0 { 0.04 * size } else { 0.5 * least.abs().max(f64::MIN_POSITIVE) };
-    least - margin..greatest + margin
+/// Size of the greatest number on an axis.
+const MOST: f64 = 1e100;
+
+/// From a little below the least number to a little above the greatest. Between ticks that rounding does not
+/// tell apart the library of charts would look for others without end.
+fn range(numbers: impl Iterator<Item = f64>) -> Result<Range<f64>, ChartError> {
+    let (from, to) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), x| {
+        if x.is_nan() || least.is_nan() { (f64::NAN, f64::NAN) } else { (x.min(least), x.max(greatest)) }
+    });
+    let largest = from.abs().max(to.abs());
+    if largest.is_nan() || largest > MOST {
+        return Err(ChartError::Range { from, to });
+    }
+    let (size, least_size) = (to - from, 1e-9 * largest);
+    let margin = match size > least_size {
+        true => 0.04 * size,
+        false if largest > 0.0 => 0.5 * largest,
+        false => 1.0,
+    };
+    Ok(from - margin..to + margin)
 }
 
 /// A unit in which stresses up to this one, Pa, have few digits before the point, and its size in Pa.

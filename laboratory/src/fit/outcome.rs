@@ -2,8 +2,10 @@
 
 use std::fmt;
 
+use piola::message::quoted;
+
 use super::trial::TrialError;
-use crate::data::Agreement;
+use crate::data::{Agreement, Fault, short};
 
 /// Parameters that fit, and how well.
 #[derive(Clone, Debug, PartialEq)]
@@ -225,8 +227,9 @@ impl fmt::Display for Warning {
             ),
             Self::Poor { determination } => write!(
                 f,
-                "R² of all points is {determination:.3}, below 0: the mean of the measured stresses would be a better \
-                 guess than these curves"
+                "R² of all points is {}, below 0: the mean of the measured stresses would be a better guess than these \
+                 curves",
+                short(*determination)
             ),
             Self::Unfinished => f.write_str("this is no minimum yet: start from these parameters"),
         }
@@ -242,12 +245,15 @@ impl fmt::Display for Percent {
     }
 }
 
+/// Limit of [`FitSettings::restarts`](super::FitSettings::restarts), far beyond the minima of any energy.
+pub(super) const MOST_RESTARTS: usize = 10_000;
+
 /// Why nothing can be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
     /// A parameter that is to be held does not exist.
-    #[error("there is no parameter `{name}` to hold; there are {}", known.join(", "))]
+    #[error("there is no parameter `{}` to hold; there are {}", quoted(name), known.join(", "))]
     UnknownParameter {
         /// The name as given.
         name: String,
@@ -257,6 +263,21 @@ pub enum FitError {
     /// No parameter is left that could change, or that the data say anything about.
     #[error("no parameter is left to fit: hold fewer, or add data of other tests")]
     NothingFree,
+    /// Too many starts were asked for.
+    #[error("the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}")]
+    Restarts {
+        /// The number as given.
+        restarts: usize,
+    },
+    /// A point is not in the range of measurements.
+    #[error("the point {} (from 0) cannot be fitted: {fault}", index)]
+    Point {
+        /// Its index among the measurements.
+        index: usize,
+        /// Why.
+        #[source]
+        fault: Fault,
+    },
     /// No point counts.
     #[error("there is no point with a stress to fit")]
     NoPoints,

@@ -41,8 +41,8 @@ pub(super) fn report(
     let mut warnings: Vec<_> =
         silent.map(|number| Warning::Unidentifiable { parameter: number.name.clone() }).collect();
     warnings.extend(compressible(best));
-    if agreement.total.is_finite() && agreement.total < 0.0 {
-        warnings.push(Warning::Poor { determination: agreement.total });
+    if let Some(determination) = agreement.total.filter(|&total| total < 0.0) {
+        warnings.push(Warning::Poor { determination });
     }
     warnings.extend(best.edges.iter().map(|reason| Warning::Edge { reason: reason.clone() }));
     if best.ended == Ended::Unfinished {

@@ -90,12 +90,15 @@ impl Judgement {
             return None;
         }
         let blocks = specimen.blocks(stretches);
-        let wave = slowest(&blocks);
-        let moduli = [baker_ericksen(&blocks), hill(&blocks, stretches), wave.modulus];
         let Blocks { gradient, hessian, flip, twist } = blocks;
-        let stiffest = largest(hessian).max(largest(flip)).max(largest(twist));
-        let steepest = largest(gradient);
-        if !(stiffest + steepest + moduli.iter().sum::<f64>()).is_finite() {
+        let (stiffest, steepest) =
+            (largest([largest(hessian), largest(flip), largest(twist)]), largest(gradient));
+        if !(stiffest + steepest).is_finite() {
+            return None;
+        }
+        let wave = slowest(&blocks);
+        let moduli = [baker_ericksen(&blocks), hill(&blocks, stretches)?, wave.modulus];
+        if !moduli.iter().sum::<f64>().is_finite() {
             return None;
         }
         let longest = stretches[0];
@@ -109,9 +112,8 @@ impl Judgement {
 const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
 
 fn largest<const N: usize>(numbers: [f64; N]) -> f64 {
-    numbers
-        .into_iter()
-        .fold(0.0, |largest, number| if number.is_nan() { number } else { largest.max(number.abs()) })
+    let sizes = numbers.into_iter().map(f64::abs);
+    sizes.fold(0.0, |largest, size| if size > largest || size.is_nan() { size } else { largest })
 }
 
 /// The least aij.
@@ -119,18 +121,21 @@ fn baker_ericksen(blocks: &Blocks<f64>) -> f64 {
     (0..PAIRS.len()).map(|pair| blocks.pair_block(pair).0).fold(f64::INFINITY, f64::min)
 }
 
-/// Half the least eigenvalue of dτ/d ln U.
-fn hill(blocks: &Blocks<f64>, stretches: [f64; 3]) -> f64 {
+/// Half the least eigenvalue of dτ/d ln U; `None` where that overflows, and has no eigenvalues.
+fn hill(blocks: &Blocks<f64>, stretches: [f64; 3]) -> Option<f64> {
     let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
     let hessian = Matrix3::new(h11, h12, h13, h12, h22, h23, h13, h23, h33);
     let diagonal = Matrix3::from_diagonal(&stretches.into());
     let stresses: [f64; 3] = std::array::from_fn(|i| stretches[i] * blocks.gradient[i]);
     let tangent = diagonal * hessian * diagonal + Matrix3::from_diagonal(&stresses.into());
+    if !tangent.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
     let shears = PAIRS.into_iter().enumerate().map(|(pair, (i, j))| {
         let mean = logarithmic_mean(stretches[i], stretches[j]);
         blocks.pair_block(pair).0 * (stretches[i] + stretches[j]) * mean
     });
-    0.5 * shears.fold(tangent.symmetric_eigenvalues().min(), f64::min)
+    Some(0.5 * shears.fold(tangent.symmetric_eigenvalues().min(), f64::min))
 }
 
 /// (x − y)/(ln x − ln y) for x ≥ y > 0, without a difference of logarithms.

@@ -76,8 +76,11 @@ pub struct Walk {
 
 const STEPS: u32 = 256;
 
+/// Halvings of the logarithms between two stretches: from one end of f64 to the other they leave 10⁻¹⁵.
+const HALVINGS: u32 = 60;
+
 impl Walk {
-    /// Walks from rest to a stretch.
+    /// Walks from rest to a stretch, which is positive.
     pub fn along(path: Path, specimen: &dyn Specimen, to: f64) -> Self {
         let judged = |stretch: f64| Judgement::of(specimen, path.stretches(specimen, stretch)?);
         let mut walk = Self { path, to, reached: 1.0, lost: [None; 3] };
@@ -115,9 +118,36 @@ impl Walk {
 
 /// The last stretch between one that holds, or rest, and one that does not.
 fn edge(mut holding: f64, mut beyond: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    while (holding / beyond).ln().abs() > 1e-9 {
-        let middle = (holding * beyond).sqrt();
+    for _ in 0..HALVINGS {
+        if (holding / beyond).ln().abs() <= 1e-9 {
+            break;
+        }
+        // Each root by itself: the product may overflow.
+        let middle = holding.sqrt() * beyond.sqrt();
         if holds(middle) { holding = middle } else { beyond = middle }
     }
     holding
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(holding: f64, beyond: f64, edge_at: f64) {
+        let found = edge(holding, beyond, |x| (x < edge_at) == (holding < edge_at));
+        assert!((found / edge_at).ln().abs() <= 1.1e-9, "{found:e} for {edge_at:e}");
+    }
+
+    #[test]
+    fn an_edge_is_found_over_the_whole_range() {
+        check(1.0, 2.0, 1.5);
+        check(1.0, 1e-300, 1e-299);
+        check(1e300, 1.7e308, 1e301);
+        check(f64::MAX, 5e-324, 1e-200);
+        // There is none: it ends all the same.
+        for nowhere in [0.0, f64::INFINITY, f64::NAN] {
+            edge(1.0, nowhere, |_| false);
+        }
+    }
 }
