@@ -48,7 +48,7 @@ impl Geometry {
                 Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
             }
             None => {
-                usable(&mesh_name, mesh.rest_shapes())?;
+                check_body(&mesh, &mesh_name)?;
                 let surface = boundary(&mesh);
                 Self::new(mesh, &mesh_name, &surface, &mesh_name)
             }
@@ -90,8 +90,7 @@ impl Geometry {
     }
 
     fn new(mesh: TetMesh, mesh_name: &str, surface: &Surface, surface_name: &str) -> Result<Self, Error> {
-        usable(mesh_name, mesh.rest_shapes())?;
-        let diagonal = mesh.bounds().size().iter().map(|side| side * side).sum::<f64>().sqrt();
+        let diagonal = check_body(&mesh, mesh_name)?;
         let embedding = usable(surface_name, Embedding::new(&mesh, surface, REACH * diagonal))?;
         let triangles =
             surface.triangles.iter().map(|triangle| triangle.map(|vertex| vertex as u32)).collect();
@@ -147,6 +146,29 @@ impl Geometry {
         let anchors = self.embedding.anchors().iter();
         anchors.map(|anchor| anchor.position(positions).map(|x| x as f32)).collect()
     }
+}
+
+/// Checks that the tetrahedra make a body of a size that can be simulated and drawn; returns the diagonal of
+/// its bounding box, m.
+fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
+    usable(name, mesh.rest_shapes())?;
+    let bounds = mesh.bounds();
+    let diagonal = bounds.size().iter().map(|side| side * side).sum::<f64>().sqrt();
+    let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |far: f64, x| far.max(x.abs()));
+    for (quantity, value, [low, high], requirement) in [
+        (
+            "the diagonal of the body",
+            diagonal,
+            [1e-9, 1e9],
+            "from 1e-9 to 1e9 m; are its coordinates in metres?",
+        ),
+        ("the farthest coordinate of the body", farthest, [0.0, 1e12], "at most 1e12 m; are they in metres?"),
+    ] {
+        if !(low <= value && value <= high) {
+            return Err(Error::OutOfRange { quantity, value, requirement });
+        }
+    }
+    Ok(diagonal)
 }
 
 /// A property of a mesh that is seldom meant. A body can be made of it.
@@ -229,6 +251,20 @@ mod tests {
         let pieces = GeometryWarning::InPieces { pieces: 2, largest: 12, tetrahedra: 24 };
         assert_eq!(warnings, [GeometryWarning::NodesDropped { nodes: 1 }, pieces]);
         Ok(())
+    }
+
+    #[test]
+    fn bodies_of_absurd_size_are_refused() {
+        let scaled = |scale: f64, away: f64| {
+            let mut mesh = tetrahedral_box([1; 3], [scale; 3]).expect("a box");
+            mesh.positions.iter_mut().for_each(|x| x[0] += away);
+            check_body(&mesh, "box").map_err(|error| error.to_string())
+        };
+        assert_eq!(scaled(1.0, 0.0), Ok(3f64.sqrt()));
+        for (scale, away) in [(1e-100, 0.0), (1e40, 0.0), (1e6, 1e13)] {
+            let error = scaled(scale, away).expect_err("absurd");
+            assert!(error.contains("metres"), "{error}");
+        }
     }
 
     #[test]

@@ -240,7 +240,7 @@ impl<'a> Course<'a> {
             frames_wanted: settings.frames,
             ended,
             failures: self.failures,
-            warnings: Vec::new(),
+            warnings: geometry.warnings().iter().map(ToString::to_string).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,
