@@ -7,10 +7,10 @@ mod fit;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use piola::message::number;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
-use piola_scenes::error::plain;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 
@@ -68,7 +68,7 @@ fn measurements(file: &Path) -> Result<Measurements, Error> {
 /// The values of all parameters as options of the command line, with seven digits.
 fn as_options<'a>(parameters: impl Iterator<Item = (&'a str, &'a [f64])>) -> String {
     let options = parameters.map(|(name, values)| {
-        let values: Vec<_> = values.iter().map(|&value| plain(rounded(value))).collect();
+        let values: Vec<_> = values.iter().map(|&value| number(rounded(value))).collect();
         format!("--param {name}={}", values.join(","))
     });
     options.collect::<Vec<_>>().join(" ")

@@ -22,6 +22,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
+use piola::message::printable;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::Ended;
 use piola_scenes::run::{Closed, run};
@@ -147,7 +148,8 @@ fn heard(said: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes a line to standard error, if anybody listens there.
+/// Writes a line to standard error, if anybody listens there. Names of files and what they say cannot speak
+/// to the terminal.
 fn warn(line: impl Display) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", printable(&line.to_string()));
 }

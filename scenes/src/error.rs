@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use piola::material::MaterialError;
 use piola::mesh::ReadError;
+use piola::message::{number, quoted};
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
 
@@ -15,7 +16,7 @@ use crate::region::RegionError;
 #[non_exhaustive]
 pub enum Error {
     /// No scene has that name.
-    #[error("there is no scene `{name}`; choose one of {}", list(known))]
+    #[error("there is no scene `{}`; choose one of {}", quoted(name), list(known))]
     UnknownScene {
         /// The name as given.
         name: String,
@@ -23,7 +24,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// No body has that name.
-    #[error("there is no body `{name}`; choose one of {}", list(known))]
+    #[error("there is no body `{}`; choose one of {}", quoted(name), list(known))]
     UnknownBody {
         /// The name as given.
         name: String,
@@ -31,7 +32,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// No material has that name.
-    #[error("there is no material `{name}`; choose one of {}", list(known))]
+    #[error("there is no material `{}`; choose one of {}", quoted(name), list(known))]
     UnknownMaterial {
         /// The name as given.
         name: String,
@@ -39,7 +40,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// The material has no parameter of that name.
-    #[error("{material} has no parameter `{parameter}`; it has {}", list(known))]
+    #[error("{material} has no parameter `{}`; it has {}", quoted(parameter), list(known))]
     UnknownParameter {
         /// Name of the material.
         material: &'static str,
@@ -65,7 +66,7 @@ pub enum Error {
         source: MaterialError,
     },
     /// A value of the settings is out of range.
-    #[error("{quantity} is {}; it must be {requirement}", plain(*value))]
+    #[error("{quantity} is {}; it must be {requirement}", number(*value))]
     OutOfRange {
         /// Name of the quantity, such as "the time step".
         quantity: &'static str,
@@ -92,7 +93,7 @@ pub enum Error {
         others: Vec<&'static str>,
     },
     /// A pin is neither a group of the mesh nor a box.
-    #[error("`{pin}` is neither a group of the mesh (it has {}) nor a box; {source}", list(groups))]
+    #[error("`{}` is neither a group of the mesh (it has {}) nor a box; {source}", quoted(pin), list(groups))]
     UnknownPin {
         /// The text as given.
         pin: String,
@@ -231,7 +232,7 @@ pub enum Error {
 fn explained(error: &StepError) -> String {
     match error {
         StepError::Newton(NewtonError::Inadmissible { element, stretches }) => {
-            let [l1, l2, l3] = stretches.map(plain);
+            let [l1, l2, l3] = stretches.map(number);
             format!("element {element} is where its material is not defined: its stretches are {l1}, {l2}, {l3}")
         }
         StepError::Newton(NewtonError::NotPositive { .. }) => {
@@ -253,22 +254,12 @@ fn some(names: &[String]) -> String {
     }
 }
 
-/// A value in as few characters as show all its digits: 0.1, 20000, 1e308.
-#[must_use]
-pub fn plain(value: f64) -> String {
-    const LONG: usize = 10;
-    let digits = value.to_string();
-    if digits.len() <= LONG {
-        return digits;
-    }
-    let scientific = format!("{value:e}");
-    if scientific.len() < digits.len() { scientific } else { digits }
-}
-
 /// Names in backquotes with commas, or "none".
 fn list(names: &[impl AsRef<str>]) -> String {
     match names {
         [] => "none".into(),
-        names => names.iter().map(|name| format!("`{}`", name.as_ref())).collect::<Vec<_>>().join(", "),
+        names => {
+            names.iter().map(|name| format!("`{}`", quoted(name.as_ref()))).collect::<Vec<_>>().join(", ")
+        }
     }
 }

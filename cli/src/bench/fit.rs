@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use piola::Inversion;
+use piola::message::number;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};
-use piola_scenes::error::{Error as SceneError, plain};
+use piola_scenes::error::Error as SceneError;
 
 use super::{
     FINE, Material, as_options, draw, keep_data, measured_range, measurements, rounded, spaced, titled,
@@ -91,11 +92,11 @@ impl Fit {
         let title = titled(material, volume);
         let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
         text += &format!("  {}\n", options(&fit.values));
-        for number in &fit.numbers {
-            text += &format!("  {:12} {:<14}", number.name, plain(rounded(number.value)));
-            match (number.standing, number.error) {
+        for component in &fit.numbers {
+            text += &format!("  {:12} {:<14}", component.name, number(rounded(component.value)));
+            match (component.standing, component.error) {
                 (Standing::Free, Some(error)) => {
-                    text += &format!(" ± {error:.1e} ({:.1} %)\n", 100.0 * (error / number.value).abs());
+                    text += &format!(" ± {error:.1e} ({:.1} %)\n", 100.0 * (error / component.value).abs());
                 }
                 (Standing::Free, None) => text.push('\n'),
                 (Standing::Held, _) => text += " held\n",

@@ -253,47 +253,54 @@ impl Folder {
             }
         };
         let mut moves = Moves::default();
-        let exchanged = (|| -> Result<(), Error> {
-            // Wherever this is cut off, each file is in the list of its folder.
-            let mut replaced = Listing::create(&aside)?;
-            for name in new.iter().chain(&old) {
-                earlier.listing.add(name)?;
-                replaced.add(name)?;
-            }
-            let rename = |moves: &mut Moves, name: &str, [from, to]: [&Path; 2]| {
-                moves.rename(from.join(name), to.join(name)).map_err(kept)
-            };
-            for name in old.iter().rev() {
-                if new.contains(name) {
-                    let permissions = fs::metadata(target.join(name)).map(|old| old.permissions());
-                    permissions.and_then(|old| fs::set_permissions(work.join(name), old)).map_err(kept)?;
-                }
-                rename(&mut moves, name, [&target, &aside])?;
-            }
-            for name in &new {
-                rename(&mut moves, name, [&work, &target])?;
-            }
-            fs::rename(work.join(LISTING), target.join(LISTING)).map_err(kept)
-        })();
-        if exchanged.is_err() {
-            moves.undo();
-            earlier.leave(&target);
-        } else {
+        let exchanged = earlier.exchange([&old, &new], [&target, &work, &aside], &mut moves);
+        if exchanged.is_ok() {
             sync_folder(&target);
             for name in &old {
                 let _ = fs::remove_file(aside.join(name));
             }
             let _ = fs::remove_dir(&work);
+        } else {
+            moves.undo();
+            earlier.leave(&target);
         }
         let _ = fs::remove_file(aside.join(LISTING));
         let _ = fs::remove_dir(&aside);
-        exchanged.map(|()| target)
+        exchanged.map(|()| target.clone()).map_err(kept)
     }
 }
 
 impl Earlier {
+    /// Moves the old files from the target to a folder aside, and the new ones from their folder to the target.
+    fn exchange(
+        &mut self,
+        [old, new]: [&[String]; 2],
+        [target, work, aside]: [&Path; 3],
+        moves: &mut Moves,
+    ) -> io::Result<()> {
+        // Wherever this is cut off, each file is in the list of its folder.
+        let mut replaced = Listing::create(aside).map_err(io::Error::other)?;
+        for name in new.iter().chain(old) {
+            self.listing.add(name).and_then(|()| replaced.add(name)).map_err(io::Error::other)?;
+        }
+        for name in old.iter().rev() {
+            if new.contains(name) {
+                let permissions = fs::metadata(target.join(name))?.permissions();
+                fs::set_permissions(work.join(name), permissions)?;
+            }
+            moves.rename(target.join(name), aside.join(name))?;
+        }
+        for name in new {
+            moves.rename(work.join(name), target.join(name))?;
+        }
+        fs::rename(work.join(LISTING), target.join(LISTING))
+    }
+
     /// Leaves the files as they are; a list that was made for files of somebody else goes.
     fn leave(mut self, target: &Path) {
+        for name in &self.given_up {
+            self.listing.withdraw(name);
+        }
         self.listing.tidy();
         if self.listing.names().next().is_none() {
             let _ = fs::remove_file(target.join(LISTING));

@@ -9,6 +9,7 @@
 //! not against malice.
 
 use crc32fast::Hasher;
+use piola::message::printable;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::ser::Error as _;
 use serde::{Deserialize, Serialize};
@@ -90,8 +91,8 @@ impl Unsealer {
 #[non_exhaustive]
 pub enum SealError {
     /// The line is not sealed JSON, or its content is something else than expected.
-    #[error(transparent)]
-    NotJson(serde_json::Error),
+    #[error("{}", printable(&.0.to_string()))]
+    NotJson(#[source] serde_json::Error),
     /// The checksum belongs to another content, or to other lines before.
     #[error("the checksum is wrong: the file has been changed or cut off")]
     Checksum,

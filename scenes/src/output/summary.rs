@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::plain;
+use piola::message::number;
 
 /// How far each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -188,7 +188,7 @@ impl Summary {
 /// A value in five digits.
 fn short(value: f64) -> String {
     let digits = format!("{value:.4e}");
-    digits.parse().map_or(digits, plain)
+    digits.parse().map_or(digits, number)
 }
 
 impl fmt::Display for Summary {

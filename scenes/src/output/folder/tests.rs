@@ -159,6 +159,22 @@ fn an_exchange_that_fails_leaves_both_runs() -> TestResult {
     Ok(())
 }
 
+/// Files that may be replaced stay those of somebody else where they are not.
+#[test]
+fn files_that_were_given_up_and_not_replaced_stay_foreign() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let target = scratch.path();
+    fs::write(target.join("frame_0000.ply"), "mine")?;
+    let mut folder = Folder::prepare(target, NAMES, true)?;
+    fill(&mut folder, 2, "new")?;
+    fs::write(target.join("frame_0001.ply"), "mine")?;
+    assert!(matches!(folder.finish(true), Err(Error::Exchange { .. })));
+    let next = Folder::prepare(target, NAMES, false);
+    assert!(matches!(next, Err(Error::ForeignFiles { ref names, .. }) if names.len() == 2), "{next:?}");
+    assert!(!target.join(LISTING).exists());
+    Ok(())
+}
+
 #[test]
 fn a_file_that_appears_meanwhile_stays() -> TestResult {
     let scratch = tempfile::tempdir()?;
