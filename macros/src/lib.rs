@@ -20,6 +20,8 @@ use proc_macro::TokenStream;
 /// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's
 /// `mixed_script_confusables` says so of the crate; calling the stretches `[λ1, λ2, λ3]` is enough for it.
 ///
+/// Parentheses, blocks, signs and calls may be nested 64 deep; a sum may have thousands of terms.
+///
 /// A logarithm, a denominator or a real power of an expression that vanishes inside the domain is refused if
 /// a usual deformation shows it, and so is a real power of one that vanishes at rest: `(I1b - 3.0).powf(n)`.
 ///

@@ -57,6 +57,108 @@ pub fn Springs([l1, l2, l3]: [f64; 3]) -> f64 {
     (l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2)
 }
 
+/// Materials with names that their own expansions use, each in a block of its own.
+macro_rules! with_names {
+    ($($declare:ident: $($name:ident)*;)*) => { $($($declare!($name);)*)* };
+}
+
+macro_rules! types {
+    ($name:ident) => {
+        const _: () = {
+            /// Rubber.
+            #[piola::material(domain(J > 0.0), extend, fit)]
+            fn $name(
+                [l1, l2, l3]: [f64; 3],
+                /** Pa. */
+                mu: f64,
+                /** Pa. */
+                lambda: f64,
+            ) -> f64 {
+                mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+            }
+        };
+    };
+}
+
+macro_rules! numbers {
+    ($name:ident) => {
+        const _: () = {
+            /// Rubber.
+            #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0), fit)]
+            fn Energy(
+                [l1, l2, l3]: [f64; 3],
+                /** Pa. */
+                $name: f64,
+                /** Pa. */
+                lambda: f64,
+            ) -> f64 {
+                $name / 2.0 * (I1 - 3.0) - $name * J.ln() + lambda / 2.0 * J.ln().powi(2)
+            }
+        };
+    };
+}
+
+macro_rules! lists {
+    ($name:ident) => {
+        const _: () = {
+            /// Sum.
+            #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend, fit)]
+            fn Energy<const N: usize>(
+                [l1, l2, l3]: [f64; 3],
+                /** Pa. */
+                $name: [f64; N],
+            ) -> f64 {
+                sum(|p| $name[p] * (I1 - 3.0 - 2.0 * J.ln()))
+            }
+        };
+    };
+}
+
+macro_rules! stretches {
+    ($name:ident) => {
+        const _: () = {
+            /// Logarithms.
+            #[piola::material(domain(J > 0.0), extend, fit)]
+            fn Energy(
+                [$name, l2, l3]: [f64; 3],
+                /** Pa. */
+                mu: f64,
+            ) -> f64 {
+                mu * ($name.ln().powi(2) + l2.ln().powi(2) + l3.ln().powi(2))
+            }
+        };
+    };
+}
+
+macro_rules! lengths {
+    ($name:ident) => {
+        const _: () = {
+            /// Sum.
+            #[piola::material(domain(J > 0.0), extend, fit)]
+            fn Energy<const $name: usize>(
+                [l1, l2, l3]: [f64; 3],
+                /** Pa. */
+                mu: [f64; $name],
+            ) -> f64 {
+                sum(|p| mu[p] * (I1 - 3.0 - 2.0 * J.ln()))
+            }
+        };
+    };
+}
+
+#[allow(dead_code, non_camel_case_types, non_upper_case_globals)]
+mod names_of_expansions {
+    with_names! {
+        types: Some None Ok Err Option Result Vec Clone Copy Fn Debug PartialEq Default Real Mask Inversion Material
+            Declared Fittable Graded PerLane ParameterValue P V Value R D S T Self_ serde core_ mu l1 t1 energy;
+        numbers: t1 t2 p q k x a one lane material value splat ln len core std piola __p f64 u8 str R P V Value T
+            epsilon strains stretch self_ args index;
+        lists: t1 q k x one lane material value len iter core std __p f64 R P V T epsilon strains;
+        stretches: t1 t2 q k x one lane material value core std __p f64 R P V epsilon strains stretch;
+        lengths: P V Value D S T K M Real Mask Material Declared PerLane _N;
+    }
+}
+
 #[test]
 fn the_names_are_those_of_the_declaration() {
     let solid = Solid::new(1e6, [2.0, 4.0], [1e5, 1e3], 1e4, 30.0).expect("admissible");

@@ -56,7 +56,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             type OnLanes = #name<#(#lengths,)* #per_lane>;
 
             #[inline(always)]
-            fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes
             where
                 Self: 'a,
             {

@@ -39,7 +39,7 @@ pub(super) fn serde(declaration: &Declaration) -> TokenStream {
         let format = format!("`{name}` must have {{}} entries, not {{}}");
         Some(quote! {
             let #name = <[f64; #length]>::try_from(#name).map_err(|list| {
-                <D::Error as serde::de::Error>::custom(::std::format!(#format, #length, list.len()))
+                <__D::Error as __p::serde::de::Error>::custom(::std::format!(#format, #length, list.len()))
             })?;
         })
     });
@@ -51,29 +51,29 @@ pub(super) fn serde(declaration: &Declaration) -> TokenStream {
     quote! {
         #[allow(non_snake_case)]
         const _: () = {
-            use ::piola::__private::serde;
+            use ::piola::__private as __p;
 
-            #[derive(serde::Serialize, serde::Deserialize)]
+            #[derive(__p::serde::Serialize, __p::serde::Deserialize)]
             #[serde(crate = "::piola::__private::serde", rename = #text, deny_unknown_fields)]
-            struct Parameters {
+            struct __Parameters {
                 #(#names: #types,)*
                 #field
             }
 
-            impl #bounds serde::Serialize for #name #arguments {
-                fn serialize<S: serde::Serializer>(&self, serializer: S) -> ::core::result::Result<S::Ok, S::Error> {
-                    let parameters = Parameters { #(#names: #plain,)* #own_inversion };
-                    serde::Serialize::serialize(&parameters, serializer)
+            impl #bounds __p::serde::Serialize for #name #arguments {
+                fn serialize<__S: __p::serde::Serializer>(&self, serializer: __S) -> ::core::result::Result<__S::Ok, __S::Error> {
+                    let parameters = __Parameters { #(#names: #plain,)* #own_inversion };
+                    __p::serde::Serialize::serialize(&parameters, serializer)
                 }
             }
 
-            impl<'de, #(const #lengths: usize),*> serde::Deserialize<'de> for #name #arguments {
-                fn deserialize<D: serde::Deserializer<'de>>(
-                    deserializer: D,
-                ) -> ::core::result::Result<Self, D::Error> {
-                    let Parameters { #(#names,)* #inversion } = serde::Deserialize::deserialize(deserializer)?;
+            impl<'de, #(const #lengths: usize),*> __p::serde::Deserialize<'de> for #name #arguments {
+                fn deserialize<__D: __p::serde::Deserializer<'de>>(
+                    deserializer: __D,
+                ) -> ::core::result::Result<Self, __D::Error> {
+                    let __Parameters { #(#names,)* #inversion } = __p::serde::Deserialize::deserialize(deserializer)?;
                     #(#arrays)*
-                    Self::new(#(#names),*)#extended.map_err(<D::Error as serde::de::Error>::custom)
+                    Self::new(#(#names),*)#extended.map_err(<__D::Error as __p::serde::de::Error>::custom)
                 }
             }
         };

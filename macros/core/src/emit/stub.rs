@@ -6,13 +6,15 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
 
-use crate::read::parse::{Function, identifiers, is_f64, is_reserved, may_be_function};
+use crate::read::parse::{Function, identifiers, is_f64, is_reserved, is_type, may_be_function};
 
 /// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
 #[must_use]
 pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
     let errors = mistakes.to_compile_error();
     let inert = match Function::read(item.clone()) {
+        // A type of such a name would make mistakes of its own.
+        Ok(function) if is_type(&function.signature.ident) => TokenStream::new(),
         Ok(function) => inert_type(&function),
         Err(_) => syn::parse2::<Item>(item).map(Item::into_token_stream).unwrap_or_default(),
     };
@@ -155,7 +157,7 @@ fn inert_type(function: &Function) -> TokenStream {
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Graded for #name<#(#generics),*> {
             type OnLanes = Self;
-            fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self
+            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self
             where
                 Self: 'a,
             {

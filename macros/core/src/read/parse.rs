@@ -17,11 +17,12 @@ use crate::algebra::expr::Length;
 use crate::read::diagnostics::Diagnostics;
 pub(crate) use function::Function;
 pub use options::Options;
-use signature::{Lists, generics, parameters, plain, result, stretches};
-pub(crate) use signature::{is_f64, is_reserved, may_be_function};
+use signature::{Lists, generics, named, parameters, plain, result, stretches};
+pub(crate) use signature::{is_f64, is_reserved, is_type, may_be_function};
 pub use typical::{Typical, Values};
 
 mod function;
+mod nesting;
 mod options;
 mod signature;
 mod typical;
@@ -132,6 +133,7 @@ pub fn parse_declaration(
 ) -> Option<Declaration> {
     let mut options = Options::read(arguments, diagnostics);
     let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
+    named(&signature, diagnostics);
     plain(&signature, diagnostics);
     let generics = generics(&signature, diagnostics);
     let stretches = stretches(&signature, &generics, diagnostics);
@@ -141,7 +143,7 @@ pub fn parse_declaration(
     if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
         typical.check(&parameters, diagnostics);
     }
-    let body = diagnostics.take(syn::parse2(body));
+    let body = diagnostics.take(nesting::check(&body).and_then(|()| syn::parse2(body)));
     Some(Declaration {
         attributes,
         visibility,

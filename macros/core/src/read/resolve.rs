@@ -229,7 +229,12 @@ impl<'a> Resolver<'a> {
     }
 
     fn expression(&mut self, expression: &Expr) -> Id {
-        let mut id = self.resolve(expression);
+        let id = self.resolve(expression);
+        self.note(expression, id)
+    }
+
+    /// Keeps the node of an expression.
+    fn note(&mut self, expression: &Expr, mut id: Id) -> Id {
         // The innermost expression that overflows reports it and is marked as a mistake.
         if self.graph.take_overflow() {
             id = self.mistake(expression, "the exact fraction here leaves 128 bits: use smaller numbers");
@@ -292,8 +297,25 @@ impl<'a> Resolver<'a> {
         )
     }
 
+    /// A loop along the left sides, which nest as deep as a sum has terms.
     fn binary(&mut self, binary: &syn::ExprBinary) -> Id {
-        let (left, right) = (self.expression(&binary.left), self.expression(&binary.right));
+        let mut left_sides = Vec::new();
+        let mut leftmost = &*binary.left;
+        while let Expr::Binary(left) = leftmost {
+            left_sides.push((leftmost, left));
+            leftmost = &left.left;
+        }
+        let mut value = self.expression(leftmost);
+        for (expression, left) in left_sides.into_iter().rev() {
+            let id = self.connect(value, left);
+            value = self.note(expression, id);
+        }
+        self.connect(value, binary)
+    }
+
+    /// The value of a binary expression whose left side has this one.
+    fn connect(&mut self, left: Id, binary: &syn::ExprBinary) -> Id {
+        let right = self.expression(&binary.right);
         match binary.op {
             BinOp::Add(_) => self.graph.add(left, right),
             BinOp::Sub(_) => self.graph.sub(left, right),

@@ -625,7 +625,9 @@ const _: () = {
     impl __p::Graded for Gent {
         type OnLanes = Gent<__p::PerLane>;
         #[inline(always)]
-        fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+        fn on_lanes<'a>(
+            material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
+        ) -> Self::OnLanes
         where
             Self: 'a,
         {

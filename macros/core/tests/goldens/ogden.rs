@@ -689,7 +689,9 @@ const _: () = {
     impl<const N: usize> __p::Graded for Ogden<N> {
         type OnLanes = Ogden<N, __p::PerLane>;
         #[inline(always)]
-        fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+        fn on_lanes<'a>(
+            material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
+        ) -> Self::OnLanes
         where
             Self: 'a,
         {

@@ -1,8 +1,10 @@
 //! The outer form of a declaration: a function whose body is only tokens yet.
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Signature, Visibility};
+
+use super::nesting;
 
 /// A function with its body as tokens: while it is being typed, the body may be half an expression.
 pub(crate) struct Function {
@@ -15,6 +17,7 @@ pub(crate) struct Function {
 impl Function {
     /// Reads the function below an attribute.
     pub(crate) fn read(item: TokenStream) -> syn::Result<Self> {
+        nesting::check(&without_body(&item))?;
         let is_function =
             item.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));
         syn::parse2(item).map_err(|error| {
@@ -26,6 +29,13 @@ impl Function {
             syn::Error::new(error.span(), message)
         })
     }
+}
+
+/// The tokens of a function before its body.
+fn without_body(item: &TokenStream) -> TokenStream {
+    let is_body =
+        |token: &TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
+    item.clone().into_iter().filter(|token| !is_body(token)).collect()
 }
 
 impl Parse for Function {

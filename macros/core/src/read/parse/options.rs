@@ -8,6 +8,7 @@ use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::nearest;
 
+use super::nesting;
 use super::typical::Typical;
 
 /// The arguments of the attribute.
@@ -51,6 +52,9 @@ impl Options {
     /// Understands what it can and reports the rest.
     pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
         let mut options = Self::default();
+        if diagnostics.take(nesting::check(&arguments)).is_none() {
+            return options;
+        }
         let arguments = Punctuated::<Meta, Token![,]>::parse_terminated.parse2(arguments).map_err(|error| {
             let forms = FORMS.map(|(_, form)| format!("`{form}`")).join(", ");
             syn::Error::new(error.span(), format!("{error}; the arguments are {forms}"))

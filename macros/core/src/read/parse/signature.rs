@@ -44,12 +44,40 @@ const MEMBERS: [&str; 27] = [
     "on_lanes",
 ];
 
+/// Values that are patterns wherever they stand, so that no argument can have their name.
+const PATTERNS: [&str; 4] = ["Some", "None", "Ok", "Err"];
+
 /// The parameters of a signature, with the lengths of the lists among them.
 #[derive(Default)]
 pub(super) struct Lists {
     pub(super) parameters: Vec<Parameter>,
     pub(super) lengths: Vec<Expr>,
     pub(super) mistaken: Vec<Ident>,
+}
+
+/// Types and crates that a material of their name would hide from its own expansion, and that a length of
+/// their name would be taken for.
+const TYPES: [&str; 22] = [
+    "bool", "char", "f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
+    "u16", "u32", "u64", "u128", "usize", "core", "std", "__p",
+];
+
+/// Reports a name that the type cannot have.
+pub(super) fn named(signature: &Signature, diagnostics: &mut Diagnostics) {
+    let name = &signature.ident;
+    if is_type(name) {
+        diagnostics.error(name, meaning(name));
+    }
+}
+
+/// Whether a name is that of a type, or a keyword of Rust all the same.
+pub(crate) fn is_type(name: &Ident) -> bool {
+    TYPES.iter().any(|ty| name == ty) || is_raw(name)
+}
+
+/// Whether a name is a keyword of Rust, written as `r#type`.
+fn is_raw(name: &Ident) -> bool {
+    name.to_string().starts_with("r#")
 }
 
 /// Reports what only functions that run can have.
@@ -89,8 +117,15 @@ pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> 
     for generic in &signature.generics.params {
         match generic {
             // The real type of generated functions is called R.
-            GenericParam::Const(constant) if constant.ident == "R" => {
-                diagnostics.error(&constant.ident, "`R` has a meaning of its own: choose another name");
+            GenericParam::Const(constant) if constant.ident == "R" || is_type(&constant.ident) => {
+                diagnostics.error(&constant.ident, meaning(&constant.ident));
+                names.push(constant.ident.clone());
+            }
+            // Those are variables in generated functions.
+            GenericParam::Const(constant) if constant.ident.to_string().starts_with(char::is_lowercase) => {
+                let message =
+                    "the length of a list is a constant: begin its name with a capital, such as `N`";
+                diagnostics.error(&constant.ident, message);
                 names.push(constant.ident.clone());
             }
             GenericParam::Const(constant) if constant.ty.to_token_stream().to_string() == "usize" => {
@@ -309,12 +344,21 @@ fn plain_name(pattern: &Pat) -> Option<Ident> {
 
 fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
     if is_reserved(name) {
-        diagnostics.error(name, format!("`{name}` has a meaning of its own: choose another name"));
+        diagnostics.error(name, meaning(name));
     }
 }
 
-/// Whether a name is a word of energies or a member of materials.
+fn meaning(name: &Ident) -> String {
+    format!("`{name}` has a meaning of its own: choose another name")
+}
+
+/// Whether a name is a word of energies, a member of materials, or a pattern or keyword to Rust.
 pub(crate) fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
-    WORDS.contains(&text.as_str()) || MEMBERS.contains(&text.as_str()) || text == "sum"
+    let text = text.as_str();
+    WORDS.contains(&text)
+        || MEMBERS.contains(&text)
+        || PATTERNS.contains(&text)
+        || text == "sum"
+        || is_raw(name)
 }
