@@ -271,7 +271,8 @@ impl Folder {
 }
 
 impl Earlier {
-    /// Moves the old files from the target to a folder aside, and the new ones from their folder to the target.
+    /// Moves the old files from the target to a folder aside, and the new ones from their folder to the
+    /// target.
     fn exchange(
         &mut self,
         [old, new]: [&[String]; 2],
