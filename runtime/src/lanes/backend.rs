@@ -65,14 +65,12 @@ impl Backend {
     /// The back ends of this processor, the fastest first.
     pub fn available() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
-        let vector = [
-            is_x86_feature_detected!("avx512f")
-                .then_some(Instructions::Avx512)
-                .filter(|_| is_x86_feature_detected!("avx512dq")),
-            is_x86_feature_detected!("avx2")
-                .then_some(Instructions::Avx2)
-                .filter(|_| is_x86_feature_detected!("fma")),
-        ];
+        let vector = {
+            let has_avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            let has_avx512 = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+            // Kernels on the registers of AVX-512 are compiled for the instructions of both.
+            [(has_avx512 && has_avx2).then_some(Instructions::Avx512), has_avx2.then_some(Instructions::Avx2)]
+        };
         #[cfg(not(target_arch = "x86_64"))]
         let vector: [Option<Instructions>; 0] = [];
         vector.into_iter().flatten().chain([Instructions::Portable]).map(Self)
