@@ -538,7 +538,7 @@ impl fmt::Display for LengthError {
         write!(
             f,
             "`{slice}` has {found} entries; {points} points of {components} entries each would make {}",
-            points * components
+            points.saturating_mul(*components)
         )?;
         if *group > 1 {
             write!(f, ", and the layout in lines wants a multiple of {group} points")?;

@@ -121,11 +121,10 @@ fn matrices_are_transposed_within_their_slices() {
                         assert_eq!(to[j * strides[1] + i], from[i * strides[0] + j], "{backend}: {size:?}");
                     }
                 }
-                let (shorter, mut short) = (&from[..from.len() - 1], to[..to.len() - 1].to_vec());
-                let mut to = to.clone();
-                // In an allocation of its own, which ends where it ends.
-                let shorter = Box::<[E]>::from(shorter);
-                let cut = Transpose { size, from: &shorter, to: &mut to, strides };
+                // In allocations of their own.
+                let few: Box<[E]> = from[..from.len() - 1].into();
+                let mut short: Box<[E]> = to[..to.len() - 1].into();
+                let cut = Transpose { size, from: &few, to: &mut to, strides };
                 assert!(outcome(backend, cut).is_none(), "{backend}: {size:?} of too few");
                 let cut = Transpose { size, from: &from, to: &mut short, strides };
                 assert!(outcome(backend, cut).is_none(), "{backend}: {size:?} into too few");

@@ -176,6 +176,9 @@ impl<R: Real> Blocks<R> {
     }
 
     /// a = (D⁻ + D⁺)/2 and b = (D⁻ − D⁺)/2, Pa, of a pair: its place in [`PAIRS`].
+    ///
+    /// # Panics
+    /// If there is no such place.
     #[inline(always)]
     #[must_use]
     pub fn pair_block(&self, pair: usize) -> (R, R) {

@@ -130,3 +130,22 @@ fn where_nothing_is_free_nothing_is_said() {
     let equilibrium = Equilibrium::of(&body).expect("finite");
     assert_eq!((equilibrium.smallest_eigenvalue, equilibrium.stability()), (None, Stability::Stable));
 }
+
+/// Where the squares of M⁻¹K overflow, the answer is an error and no NaN, which would pass for stable.
+#[test]
+fn a_body_too_small_for_its_eigenvalues_is_an_error() {
+    for scale in [1e-90, 1e-100, 1e100] {
+        let mut mesh = beam(2);
+        mesh.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
+        match Equilibrium::of(&simulation(&mesh, ROTATED, &Pins::none())) {
+            Ok(found) => {
+                let eigenvalue = found.smallest_eigenvalue.expect("a free body deforms");
+                assert!(
+                    eigenvalue.value.is_finite() && eigenvalue.error.is_finite(),
+                    "{scale:e}: {eigenvalue:?}"
+                );
+            }
+            Err(error) => assert!(scale < 1e-80 && error == NewtonError::NotFinite, "{scale:e}: {error}"),
+        }
+    }
+}

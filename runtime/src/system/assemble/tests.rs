@@ -151,4 +151,14 @@ fn parts_that_do_not_fit_are_errors() {
     );
     let error = Body::new(&mesh, KIRCHHOFF, 0.0).expect_err("no mass");
     assert_eq!(error.to_string(), "the density is 0 kg/m³; it must be positive and finite");
+    for (density, word) in [(1e-308, "underflows"), (1e308, "overflows")] {
+        let mut large = mesh.clone();
+        large
+            .positions
+            .as_flattened_mut()
+            .iter_mut()
+            .for_each(|x| *x *= if density > 1.0 { 1e3 } else { 1.0 });
+        let message = Body::new(&large, KIRCHHOFF, density).expect_err("masses out of range").to_string();
+        assert!(message.starts_with("the mass of node 0 (from 0)") && message.contains(word), "{message}");
+    }
 }

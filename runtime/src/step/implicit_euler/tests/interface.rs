@@ -34,6 +34,24 @@ fn nonsense_is_refused_with_a_reason() {
     );
     let error = simulation.step(0.0).expect_err("no time");
     assert_eq!(error.to_string(), "the time step is 0 s; it must be positive and finite");
+    for dt in [1e-200, 1e-308, 5e-324] {
+        let message = simulation.step(dt).expect_err("inertia overflows").to_string();
+        assert!(message.contains("so short that mass over its square overflows"), "{dt:e}: {message}");
+    }
+    assert!(simulation.step(1e-100).is_ok(), "that is still in range");
+}
+
+/// Moduli whose energy overflows, and a material that admits every deformation: the domain is not to blame.
+#[test]
+fn what_overflows_is_not_outside_of_a_domain() {
+    let mesh = beam(1);
+    let stiff = crate::material::Scaled::new(1e308, crate::hand_written::RotatedLinear).expect("finite");
+    let mut body = simulation(&mesh, stiff, &Pins::none(), SimulationSettings::default());
+    let stretched: Vec<_> = mesh.positions.iter().map(|[x, y, z]| [9.0 * x, *y, *z]).collect();
+    body.set_positions(&stretched).expect("finite");
+    let error = body.step(0.01).expect_err("an infinite energy");
+    let StepError::Newton(NewtonError::ElementNotFinite { .. }) = error else { panic!("{error}") };
+    assert!(error.to_string().contains("exceed the range of f64"), "{error}");
 }
 
 #[test]
