@@ -50,17 +50,21 @@ fn replace(path: &Path, content: &[u8], earlier: Option<&Metadata>) -> io::Resul
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut aside = new_file().tempfile_in(folder)?;
+    let mut aside = new_file().tempfile_in(folder).map_err(unnamed)?;
     if let Some(earlier) = earlier {
         keep_owner(aside.path(), earlier);
         aside.as_file().set_permissions(earlier.permissions())?;
     }
     aside.write_all(content)?;
     aside.as_file().sync_all()?;
-    // Without the name of the temporary file, which nobody has given.
     aside.persist(path).map_err(|error| error.error)?;
     sync_folder(folder);
     Ok(())
+}
+
+/// An error without the name of a temporary file, which nobody has given.
+fn unnamed(error: io::Error) -> io::Error {
+    error.kind().into()
 }
 
 /// Temporary files with the permissions that new files have.
@@ -93,7 +97,7 @@ pub(super) fn new_folder(inside: &Path, prefix: &str) -> io::Result<PathBuf> {
     builder.prefix(prefix);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let folder = builder.tempdir_in(inside)?.keep();
+    let folder = builder.tempdir_in(inside).map_err(unnamed)?.keep();
     // As it was given, not from the root on.
     Ok(folder.file_name().map_or(folder.clone(), |name| inside.join(name)))
 }
