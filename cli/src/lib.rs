@@ -90,7 +90,7 @@ fn report(closed: Closed, wanted: &Path, signal: Option<u8>) -> Result<ExitCode,
     for leftover in leftovers {
         let leftover = leftover.display();
         warn(format_args!(
-            "note: {leftover} holds a run that was cut off; go on with it by --out {leftover} --resume, or delete it"
+            "note: {leftover} holds files of a run that was cut off; go on with it by --out {leftover} --resume, or delete it"
         ));
     }
     if folder != wanted {
@@ -99,7 +99,7 @@ fn report(closed: Closed, wanted: &Path, signal: Option<u8>) -> Result<ExitCode,
             wanted.display()
         ));
     }
-    let again = format_args!("; the same command with --out {place} --resume goes on from there").to_string();
+    let again = format!("; the same command with --out {place} --resume goes on from there");
     let frames = summary.frames;
     match summary.ended {
         Ended::Interrupted => warn(format_args!("interrupted after {frames} steps{again}")),

@@ -41,10 +41,10 @@ pub const STATE_FILE: &str = "state.json";
 pub const SUMMARY_FILE: &str = "summary.json";
 
 /// Name of a file that keeps room on the disk while a run goes on.
-const RESERVE: &str = ".reserve";
+const RESERVE: &str = ".piola-reserve";
 
 /// Name of a file that is being written.
-const PARTIAL: &str = ".partial";
+const PARTIAL: &str = ".piola-partial";
 
 /// Names of the files of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,14 +9,13 @@ use crate::geometry::Geometry;
 use crate::output::{
     CAGES_FILE, Ended, Folder, Names, SUMMARY_FILE, Summary, cage_file, frame_file, read_vertices, write_pvd,
 };
-use crate::play::Play;
 use crate::settings::Settings;
 use crate::watch::Watch;
 
 mod course;
 mod progress;
 
-use course::Course;
+use course::{Course, Setup};
 
 /// Files that a run leaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,19 +96,15 @@ pub struct Closed {
 /// An error of the settings, the body or the folder, and one of the first step or its files: nothing is
 /// written then. [`Error::Interrupted`] if `watch` stops the run before its first step.
 pub fn run(settings: &Settings, output: &Output, watch: &mut dyn Watch) -> Result<Finished, Error> {
-    let geometry = Geometry::load(settings)?;
-    let mut play = Play::new(settings, &geometry)?;
+    let mut setup = Setup::new(settings, output.vtu)?;
     let names = Names { last_frame: settings.frames, vtu: output.vtu };
     refuse_inputs(settings, &output.folder, names)?;
     let course = match output.existing {
-        Existing::Resume => {
-            let folder = Folder::reopen(&output.folder, names)?;
-            Course::resume(settings, output, geometry, folder)?
-        }
+        Existing::Resume => Course::resume(setup, Folder::reopen(&output.folder, names)?)?,
         existing => {
-            play.check_start(settings, &geometry)?;
+            setup.play.check_start(settings, &setup.geometry)?;
             let folder = Folder::prepare(&output.folder, names, existing == Existing::Replace)?;
-            Course::begin(settings, output, geometry, play, folder)?
+            Course::begin(setup, folder)?
         }
     };
     course.play(watch)

@@ -98,7 +98,8 @@ impl Equilibrium {
     ///
     /// # Errors
     /// [`NewtonError::Inadmissible`] for an element outside the domain of its material,
-    /// [`NewtonError::ElementNotFinite`], [`NewtonError::NotFinite`], [`NewtonError::NotPositive`] if no shift makes the stiffness definite,
+    /// [`NewtonError::ElementNotFinite`], [`NewtonError::NotFinite`],
+    /// [`NewtonError::NotPositive`] if no shift makes the stiffness definite,
     /// [`NewtonError::Linear`].
     pub fn of(simulation: &Simulation) -> Result<Self, NewtonError> {
         let (body, positions) = (simulation.body(), simulation.positions());

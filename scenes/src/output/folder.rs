@@ -5,6 +5,7 @@
 //! an earlier run gets another folder inside it for the new one, which takes the place of the earlier run at
 //! the end, if it is complete; otherwise it stays where it is.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -48,7 +49,7 @@ pub struct Folder {
 struct Earlier {
     listing: Listing,
     /// Files that piola has not written, and that may be replaced nevertheless.
-    given_up: Vec<String>,
+    given_up: BTreeSet<String>,
 }
 
 impl Folder {
@@ -85,7 +86,7 @@ impl Folder {
         if !force && !content.foreign.is_empty() {
             return Err(Error::ForeignFiles { folder: target.into(), names: content.foreign });
         }
-        let given_up: Vec<_> = content.foreign.into_iter().filter(|name| names.contain(name)).collect();
+        let given_up: BTreeSet<_> = content.foreign.into_iter().filter(|name| names.contain(name)).collect();
         let is_free = content.frames == 0 && given_up.is_empty();
         let (work, listing, earlier) = match listing {
             // A list without files is what is left of a run that wrote none.
@@ -93,8 +94,14 @@ impl Folder {
             None if is_free => (target.to_owned(), Listing::create(target)?, None),
             listing => {
                 let listing = listing.map_or_else(|| Listing::create(target), Ok)?;
-                let work = new_folder(target, UNFINISHED).map_err(failed)?;
-                (work.clone(), Listing::create(&work)?, Some(Earlier { listing, given_up }))
+                let earlier = Earlier { listing, given_up };
+                match beside(target) {
+                    Ok((work, listing)) => (work, listing, Some(earlier)),
+                    Err(error) => {
+                        earlier.leave(target);
+                        return Err(error);
+                    }
+                }
             }
         };
         Ok(Self { target: target.into(), work, listing, earlier, created, leftovers: content.leftovers })
@@ -241,7 +248,7 @@ impl Folder {
         let new = sorted(listing.names());
         let set_up = sync_all(&work, &new).and_then(|()| {
             for name in &new {
-                nothing_in_the_way(&target.join(name), old.contains(name))?;
+                nothing_in_the_way(&target.join(name), earlier.covers(name))?;
             }
             new_folder(&target, REPLACED)
         });
@@ -253,7 +260,7 @@ impl Folder {
             }
         };
         let mut moves = Moves::default();
-        let exchanged = earlier.exchange([&old, &new], [&target, &work, &aside], &mut moves);
+        let exchanged = earlier.exchange([&old, &new], [&target, &work, &aside], &listing, &mut moves);
         if exchanged.is_ok() {
             sync_folder(&target);
             for name in &old {
@@ -277,6 +284,7 @@ impl Earlier {
         &mut self,
         [old, new]: [&[String]; 2],
         [target, work, aside]: [&Path; 3],
+        listing: &Listing,
         moves: &mut Moves,
     ) -> io::Result<()> {
         // Wherever this is cut off, each file is in the list of its folder.
@@ -285,7 +293,7 @@ impl Earlier {
             self.listing.add(name).and_then(|()| replaced.add(name)).map_err(io::Error::other)?;
         }
         for name in old.iter().rev() {
-            if new.contains(name) {
+            if listing.contains(name) {
                 let permissions = fs::metadata(target.join(name))?.permissions();
                 fs::set_permissions(work.join(name), permissions)?;
             }
@@ -308,11 +316,29 @@ impl Earlier {
         }
     }
 
+    /// Whether a complete run may take the place of a file of this name.
+    fn covers(&self, name: &str) -> bool {
+        self.listing.contains(name) || self.given_up.contains(name)
+    }
+
     /// The files that exist, in the order in which a run writes them.
     fn files(&self, target: &Path) -> Vec<String> {
         let given_up = self.given_up.iter().map(String::as_str);
         let names = self.listing.names().chain(given_up);
         sorted(names.filter(|name| target.join(name).is_file()))
+    }
+}
+
+/// A folder in the target for a new run beside an earlier one.
+fn beside(target: &Path) -> Result<(PathBuf, Listing), Error> {
+    let failed = |source| Error::Folder { path: target.into(), source };
+    let work = new_folder(target, UNFINISHED).map_err(failed)?;
+    match Listing::create(&work) {
+        Ok(listing) => Ok((work, listing)),
+        Err(error) => {
+            let _ = fs::remove_dir(work);
+            Err(error)
+        }
     }
 }
 

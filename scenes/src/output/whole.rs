@@ -25,7 +25,7 @@ fn write(path: &Path, content: &[u8]) -> io::Result<()> {
             if earlier.is_file() && !is_descriptor(path) {
                 replace(&real, content, Some(&earlier))
             } else {
-                File::options().write(true).open(path)?.write_all(content)
+                File::options().append(true).open(path)?.write_all(content)
             }
         }
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -41,7 +41,7 @@ fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 
 /// Whether a path leads to something that is open already: another file in its place would reach nobody.
 fn is_descriptor(path: &Path) -> bool {
-    path.starts_with("/dev") || path.starts_with("/proc")
+    ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"].iter().any(|open| path.starts_with(open))
 }
 
 /// Writes a file beside its place, and moves it there.
@@ -68,7 +68,7 @@ fn unnamed(error: io::Error) -> io::Error {
 }
 
 /// Temporary files with the permissions that new files have.
-fn new_file() -> tempfile::Builder<'static, 'static> {
+pub(super) fn new_file() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".piola-");
     #[cfg(unix)]
@@ -120,6 +120,20 @@ mod tests {
         assert!(write_whole(&scratch.path().join("no/map.svg"), b"").is_err());
         assert!(write_whole(scratch.path(), b"").is_err(), "a folder");
         Ok(())
+    }
+
+    /// Shared memory is no descriptor, though it lies beside them.
+    #[test]
+    fn descriptors_are_told_from_files_beside_them() {
+        for (path, expected) in [
+            ("/dev/stdout", true),
+            ("/dev/fd/3", true),
+            ("/proc/self/fd/1", true),
+            ("/dev/shm/map.svg", false),
+            ("dev/stdout", false),
+        ] {
+            assert_eq!(is_descriptor(Path::new(path)), expected, "{path}");
+        }
     }
 
     #[cfg(unix)]

@@ -8,8 +8,8 @@ use piola::batch::TileMaterial;
 use piola::step::StepReport;
 use rayon::ThreadPool;
 
+use super::Finished;
 use super::progress::{MAX_LENGTH, Pace, Progress, Saved};
-use super::{Finished, Output};
 use crate::error::Error;
 use crate::fields;
 use crate::geometry::Geometry;
@@ -27,15 +27,30 @@ use crate::watch::Watch;
 /// still.
 const NO_FORCE: f64 = 1e-11;
 
-/// A run between its first frame and its last.
-pub(super) struct Course<'a> {
+/// A scene with all that it takes to be played.
+pub(super) struct Setup<'a> {
     settings: &'a Settings,
-    geometry: Geometry,
-    play: Play,
+    pub(super) geometry: Geometry,
+    pub(super) play: Play,
     threads: ThreadPool,
-    folder: Folder,
     /// The material where tetrahedra are written, too.
     cages_of: Option<Box<dyn TileMaterial<f64>>>,
+}
+
+impl<'a> Setup<'a> {
+    pub(super) fn new(settings: &'a Settings, vtu: bool) -> Result<Self, Error> {
+        let geometry = Geometry::load(settings)?;
+        let play = Play::new(settings, &geometry)?;
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
+        let cages_of = if vtu { Some(settings.material.build()?.elements) } else { None };
+        Ok(Self { settings, geometry, play, threads, cages_of })
+    }
+}
+
+/// A run between its first frame and its last.
+pub(super) struct Course<'a> {
+    setup: Setup<'a>,
+    folder: Folder,
     progress: Progress,
     /// Positions of the nodes in the last frame that was written, m.
     positions: Vec<[f64; 3]>,
@@ -46,15 +61,9 @@ pub(super) struct Course<'a> {
 
 impl<'a> Course<'a> {
     /// A run that begins, with its frame 0.
-    pub(super) fn begin(
-        settings: &'a Settings,
-        output: &Output,
-        geometry: Geometry,
-        play: Play,
-        folder: Folder,
-    ) -> Result<Self, Error> {
-        let mesh = &geometry.mesh;
-        let simulation = play.simulation();
+    pub(super) fn begin(setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
+        let mesh = &setup.geometry.mesh;
+        let simulation = setup.play.simulation();
         let start = simulation.positions();
         let starts_at_rest =
             measure::distance_from_rest(mesh, start, simulation.pinned().len()) <= Summary::RECOVERED;
@@ -67,68 +76,46 @@ impl<'a> Course<'a> {
             energy: 0.0,
             motion: Vec::new(),
         };
-        let mut course = Self::new(settings, output, geometry, play, folder, progress)?;
+        let mut course = Self::new(setup, folder, progress);
         match course.folder.reserve().and_then(|()| course.write_frame(0)) {
             Ok(()) => Ok(course),
             Err(error) => Err(course.abandon(error)),
         }
     }
 
-    /// A run that goes on from its last state.
-    pub(super) fn resume(
-        settings: &'a Settings,
-        output: &Output,
-        geometry: Geometry,
-        folder: Folder,
-    ) -> Result<Self, Error> {
-        let refused = |reason| Error::Resume { folder: output.folder.clone(), reason };
-        let path = folder.path().join(STATE_FILE);
+    /// A run that goes on from its last state, in this folder.
+    pub(super) fn resume(mut setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
+        let target = folder.path().to_owned();
+        let refused = |reason| Error::Resume { folder: target.clone(), reason };
         let mut text = String::new();
-        let read = File::open(&path).and_then(|file| file.take(MAX_LENGTH).read_to_string(&mut text));
-        read.map_err(|_| Error::NothingToResume { folder: output.folder.clone() })?;
-        let saved = Saved::read(text.trim_end_matches('\n'), settings, output.vtu).map_err(refused)?;
-        let play = saved.moment.resume(&geometry)?;
-        for frame in 0..=play.clock().frame() {
+        let state = File::open(target.join(STATE_FILE));
+        let read = state.and_then(|file| file.take(MAX_LENGTH).read_to_string(&mut text));
+        read.map_err(|_| Error::NothingToResume { folder: target.clone() })?;
+        let vtu = setup.cages_of.is_some();
+        let saved = Saved::read(text.trim_end_matches('\n'), setup.settings, vtu).map_err(refused)?;
+        setup.play = saved.moment.resume(&setup.geometry)?;
+        for frame in 0..=setup.play.clock().frame() {
             if !folder.contains(&frame_file(frame)) {
                 return Err(refused(format!("{} is missing", frame_file(frame))));
             }
         }
-        let mut course = Self::new(settings, output, geometry, play, folder, saved.progress)?;
+        let mut course = Self::new(setup, folder, saved.progress);
         course.folder.reserve()?;
         Ok(course)
     }
 
-    fn new(
-        settings: &'a Settings,
-        output: &Output,
-        geometry: Geometry,
-        play: Play,
-        folder: Folder,
-        progress: Progress,
-    ) -> Result<Self, Error> {
-        let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
-        let material = if output.vtu { Some(settings.material.build()?) } else { None };
-        Ok(Self {
-            settings,
-            positions: play.simulation().positions().to_vec(),
-            geometry,
-            play,
-            threads,
-            folder,
-            cages_of: material.map(|material| material.elements),
-            progress,
-            times: Vec::new(),
-            failures: Vec::new(),
-        })
+    fn new(setup: Setup<'a>, folder: Folder, progress: Progress) -> Self {
+        let positions = setup.play.simulation().positions().to_vec();
+        Self { setup, folder, progress, positions, times: Vec::new(), failures: Vec::new() }
     }
 
     /// Plays the scene to its end.
     pub(super) fn play(mut self, watch: &mut dyn Watch) -> Result<Finished, Error> {
         let mut ended = Ended::Finished;
         let mut pace = Pace::new();
-        let first = self.play.clock().frame() + 1;
+        let first = self.setup.play.clock().frame() + 1;
         watch.frame(first - 1);
-        for frame in first..=self.settings.frames {
+        for frame in first..=self.setup.settings.frames {
             let made = if watch.stops() { Err(Error::Interrupted) } else { self.step(frame, &mut pace) };
             match made {
                 Ok(()) => watch.frame(frame),
@@ -145,7 +132,7 @@ impl<'a> Course<'a> {
             }
         }
         // Where a file could not be written, the state of an earlier frame stays.
-        if self.play.clock().frame() + 1 == self.progress.motion.len() {
+        if self.setup.play.clock().frame() + 1 == self.progress.motion.len() {
             self.save_state().unwrap_or_else(|error| self.failures.push(error.to_string()));
         }
         Ok(self.finish(ended, watch))
@@ -154,7 +141,7 @@ impl<'a> Course<'a> {
     /// Makes a step and writes its files.
     fn step(&mut self, frame: usize, pace: &mut Pace) -> Result<(), Error> {
         let clock = Instant::now();
-        let report = self.threads.install(|| self.play.step())?;
+        let report = self.setup.threads.install(|| self.setup.play.step())?;
         self.times.push(clock.elapsed());
         self.write_frame(frame)?;
         self.note(frame, &report);
@@ -168,21 +155,21 @@ impl<'a> Course<'a> {
 
     fn note(&mut self, frame: usize, report: &StepReport) {
         if frame == 1 {
-            let mesh = &self.geometry.mesh;
+            let mesh = &self.setup.geometry.mesh;
             let size = measure::total_volume(&mesh.positions, &mesh.tets).cbrt();
-            let no_force = NO_FORCE * self.play.moduli().young() * size * size;
+            let no_force = NO_FORCE * self.setup.play.moduli().young() * size * size;
             self.progress.stationary_start &= report.newton.first_residual <= no_force;
         }
         self.progress.step(report);
     }
 
     fn write_frame(&mut self, frame: usize) -> Result<(), Error> {
-        let simulation = self.play.simulation();
-        let (nodes, mesh) = (simulation.positions(), &self.geometry.mesh);
-        let surface = self.geometry.surface_at(nodes);
-        let triangles = &self.geometry.triangles;
+        let simulation = self.setup.play.simulation();
+        let (nodes, mesh) = (simulation.positions(), &self.setup.geometry.mesh);
+        let surface = self.setup.geometry.surface_at(nodes);
+        let triangles = &self.setup.geometry.triangles;
         self.folder.write(&frame_file(frame), |file| write_ply(file, &surface, triangles))?;
-        if let Some(material) = &self.cages_of {
+        if let Some(material) = &self.setup.cages_of {
             self.folder
                 .write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
         }
@@ -193,8 +180,8 @@ impl<'a> Course<'a> {
     }
 
     fn save_state(&mut self) -> Result<(), Error> {
-        let moment = Moment::of(self.settings, &self.geometry, &self.play);
-        let saved = Saved::new(self.cages_of.is_some(), moment, self.progress.clone());
+        let moment = Moment::of(self.setup.settings, &self.setup.geometry, &self.setup.play);
+        let saved = Saved::new(self.setup.cages_of.is_some(), moment, self.progress.clone());
         self.folder.replace(STATE_FILE, |file| file.write_all(&saved.to_line()?))
     }
 
@@ -205,14 +192,20 @@ impl<'a> Course<'a> {
     }
 
     fn finish(mut self, mut ended: Ended, watch: &mut dyn Watch) -> Finished {
-        let pinned = self.play.simulation().pinned().len();
-        let distance = measure::distance_from_rest(&self.geometry.mesh, &self.positions, pinned);
+        let pinned = self.setup.play.simulation().pinned().len();
+        let distance = measure::distance_from_rest(&self.setup.geometry.mesh, &self.positions, pinned);
         let recovered = distance <= Summary::RECOVERED;
-        let reading = self.settings.scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
-            let material = self.settings.material.specimen();
-            let material = material.map_err(|error| self.failures.push(error.to_string())).ok()?;
-            Some(read_specimen(&self.geometry.mesh, self.play.simulation(), marks, material.as_ref()))
-        });
+        let reading =
+            self.setup.settings.scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
+                let material = self.setup.settings.material.specimen();
+                let material = material.map_err(|error| self.failures.push(error.to_string())).ok()?;
+                Some(read_specimen(
+                    &self.setup.geometry.mesh,
+                    self.setup.play.simulation(),
+                    marks,
+                    material.as_ref(),
+                ))
+            });
         let final_state = match ended {
             Ended::Finished if !recovered => self.examine(watch).unwrap_or_else(|error| {
                 match error {
@@ -228,7 +221,14 @@ impl<'a> Course<'a> {
         };
         let frames = self.progress.motion.len() - 1;
         let total: Duration = self.times.iter().sum();
-        let Self { settings, geometry, play, folder, progress, .. } = self;
+        let Self {
+            setup: Setup { settings, geometry, play, cages_of, .. },
+            folder,
+            progress,
+            times,
+            failures,
+            ..
+        } = self;
         let summary = Summary {
             scene: settings.scene.name.into(),
             material: play.material().into(),
@@ -239,7 +239,7 @@ impl<'a> Course<'a> {
             frames,
             frames_wanted: settings.frames,
             ended,
-            failures: self.failures,
+            failures,
             warnings: geometry.warnings().iter().map(ToString::to_string).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
@@ -248,19 +248,19 @@ impl<'a> Course<'a> {
             min_det_f: progress.min_det_f,
             max_distance_from_rest: distance,
             energy: progress.energy,
-            ms_per_step_median: median(&self.times).map(|time| 1e3 * time.as_secs_f64()),
-            steps_per_second: (!self.times.is_empty()).then(|| self.times.len() as f64 / total.as_secs_f64()),
+            ms_per_step_median: median(&times).map(|time| 1e3 * time.as_secs_f64()),
+            steps_per_second: (!times.is_empty()).then(|| times.len() as f64 / total.as_secs_f64()),
             newton: settings.newton,
             recovered,
             reading,
             final_state,
         };
-        Finished { summary, geometry, motion: progress.motion, folder, vtu: self.cages_of.is_some() }
+        Finished { summary, geometry, motion: progress.motion, folder, vtu: cages_of.is_some() }
     }
 
     /// The equilibrium that the body is drawn to.
     fn examine(&mut self, watch: &mut dyn Watch) -> Result<Option<FinalState>, Error> {
-        let Self { play, geometry, threads, .. } = self;
+        let Setup { play, geometry, threads, .. } = &mut self.setup;
         threads.install(|| find_equilibrium(play, &geometry.mesh, watch)).map(Some)
     }
 }

@@ -6,6 +6,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::super::is_result;
+use super::super::whole::new_file;
 use crate::error::Error;
 
 /// Name of the list.
@@ -42,8 +43,10 @@ impl Listing {
             Err(source) => return Err(Error::Folder { path: folder.into(), source }),
         };
         lock(&file, folder)?;
-        let begun = writeln!(file, "{HEADER}");
-        begun.map_err(|source| Error::Write { path: path.clone(), source })?;
+        if let Err(source) = writeln!(file, "{HEADER}") {
+            let _ = fs::remove_file(&path);
+            return Err(Error::Write { path, source });
+        }
         Ok(Self { file, path, names: BTreeSet::new(), is_stale: false })
     }
 
@@ -123,17 +126,14 @@ impl Listing {
         }
         let mut text = format!("{HEADER}\n");
         text.extend(self.names.iter().flat_map(|name| [name, "\n"]));
-        let aside = self.path.with_extension("new");
-        let written = fs::write(&aside, text).and_then(|()| {
-            let file = File::options().read(true).append(true).open(&aside)?;
+        let written = new_file().tempfile_in(folder).and_then(|mut aside| {
+            aside.write_all(text.as_bytes())?;
             // Nobody else can know of it yet; where there are no locks, there was none before.
-            let _ = file.try_lock();
-            fs::rename(&aside, &self.path)?;
-            (self.file, self.is_stale) = (file, false);
-            Ok(())
+            let _ = aside.as_file().try_lock();
+            Ok(aside.persist(&self.path)?)
         });
-        if written.is_err() {
-            let _ = fs::remove_file(aside);
+        if let Ok(file) = written {
+            (self.file, self.is_stale) = (file, false);
         }
     }
 }

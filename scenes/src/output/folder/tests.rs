@@ -216,3 +216,23 @@ fn a_file_in_place_of_the_folder_is_an_error() -> TestResult {
     assert!(error.as_ref().is_some_and(|error| error.contains(&name)), "{error:?}");
     Ok(())
 }
+
+/// Files of the user with names close to those that piola uses for a moment.
+#[test]
+fn names_for_a_moment_are_nobody_elses() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let theirs = ["piola-files.new", "piola-files.tmp", ".partial", ".reserve", "state.json.new"];
+    for name in theirs {
+        fs::write(scratch.path().join(name), "mine")?;
+    }
+    for _ in 0..2 {
+        let mut folder = Folder::prepare(scratch.path(), NAMES, false)?;
+        folder.reserve()?;
+        fill(&mut folder, 2, "new")?;
+        folder.finish(true)?;
+    }
+    for name in theirs {
+        assert_eq!(fs::read_to_string(scratch.path().join(name))?, "mine", "{name}");
+    }
+    Ok(())
+}
