@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 use serde_json::Value;
 
@@ -197,9 +197,11 @@ fn only_the_same_run_goes_on() {
     refused(&["--frames", "4", "--resume"], &["frame_0001.ply is missing"]);
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn output_that_cannot_be_written_is_an_error() {
+    use std::process::Stdio;
+
     let scratch = tempfile::tempdir().expect("a scratch folder");
     let full = || Stdio::from(fs::File::options().write(true).open("/dev/full").expect("/dev/full"));
     let mut sheets: Vec<Vec<&str>> = vec![vec!["materials"], vec!["--help"], vec!["curve", "gent"]];
