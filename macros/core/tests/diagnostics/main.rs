@@ -483,7 +483,8 @@ fn the_compiler_shows_these_messages() {
     let mut compared = 0;
     for file in fs::read_dir(&folder).expect("the cases") {
         let path = file.expect("a case").path();
-        // A thousand parentheses overflow the stack of a test before they are a declaration: tests/nesting.rs.
+        // A thousand parentheses overflow the stack of a test before they are a declaration:
+        // tests/nesting.rs.
         let is_too_deep = path.ends_with("nested_too_deep.rs");
         if is_too_deep || path.extension().is_none_or(|extension| extension != "rs") {
             continue;
