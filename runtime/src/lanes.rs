@@ -24,6 +24,7 @@ mod vector;
 mod x86;
 
 pub use backend::{Backend, Kernel};
+pub(crate) use elementary::scaled_complement;
 pub use lanes2::Lanes2;
 pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};

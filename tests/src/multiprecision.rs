@@ -300,6 +300,58 @@ impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
         self.exponential()
     }
 
+    fn ln_1p(self) -> Self {
+        self.logarithm_of_one_more()
+    }
+
+    fn exp_m1(self) -> Self {
+        self.exponential_less_one()
+    }
+
+    fn sinh(self) -> Self {
+        self.hyperbolic_sine()
+    }
+
+    fn cosh(self) -> Self {
+        let exponential = self.abs().exponential();
+        (exponential + exponential.inverse_root(1)).scaled(-1)
+    }
+
+    fn tanh(self) -> Self {
+        self.hyperbolic_tangent()
+    }
+
+    fn asinh(self) -> Self {
+        self.inverse_hyperbolic_sine()
+    }
+
+    fn sin(self) -> Self {
+        self.sine_after_quarters(0)
+    }
+
+    fn cos(self) -> Self {
+        self.sine_after_quarters(1)
+    }
+
+    fn atan(self) -> Self {
+        self.arctangent()
+    }
+
+    fn erf(self) -> Self {
+        self.error_function()
+    }
+
+    fn softplus(self) -> Self {
+        let positive = if self.negative { Self::ZERO } else { self };
+        positive + (-self.abs()).exponential().logarithm_of_one_more()
+    }
+
+    fn sigmoid(self) -> Self {
+        let exponential = (-self.abs()).exponential();
+        let numerator = if self.negative { exponential } else { Self::splat(1.0) };
+        numerator / (Self::splat(1.0) + exponential)
+    }
+
     fn logarithm(self) -> Self {
         self.natural_logarithm()
     }

@@ -5,7 +5,7 @@
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
-use std::f64::consts::{LN_2, SQRT_2};
+use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 
 use piola::Real;
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
@@ -28,12 +28,47 @@ enum Function {
     Sqrt,
     ReciprocalSqrt,
     RoughSqrt,
+    ExpM1,
+    Ln1p,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Sin,
+    Cos,
+    Atan,
+    Erf,
+    Softplus,
+    Sigmoid,
 }
 
-use Function::{Cbrt, Exp, Ln, Powf, ReciprocalSqrt, RoughSqrt, Sqrt};
+use Function::{
+    Asinh, Atan, Cbrt, Cos, Cosh, Erf, Exp, ExpM1, Ln, Ln1p, Powf, ReciprocalSqrt, RoughSqrt, Sigmoid, Sin,
+    Sinh, Softplus, Sqrt, Tanh,
+};
 
 impl Function {
-    const ALL: [Self; 7] = [Exp, Ln, Powf, Cbrt, Sqrt, ReciprocalSqrt, RoughSqrt];
+    const ALL: [Self; 19] = [
+        Exp,
+        Ln,
+        Powf,
+        Cbrt,
+        Sqrt,
+        ReciprocalSqrt,
+        RoughSqrt,
+        ExpM1,
+        Ln1p,
+        Sinh,
+        Cosh,
+        Tanh,
+        Asinh,
+        Sin,
+        Cos,
+        Atan,
+        Erf,
+        Softplus,
+        Sigmoid,
+    ];
 
     #[inline(always)]
     fn of<R: Real>(self, x: R, y: R) -> R {
@@ -45,6 +80,18 @@ impl Function {
             Sqrt => x.sqrt(),
             ReciprocalSqrt => x.reciprocal_sqrt(),
             RoughSqrt => x.rough_sqrt(),
+            ExpM1 => x.exp_m1(),
+            Ln1p => x.ln_1p(),
+            Sinh => x.sinh(),
+            Cosh => x.cosh(),
+            Tanh => x.tanh(),
+            Asinh => x.asinh(),
+            Sin => x.sin(),
+            Cos => x.cos(),
+            Atan => x.atan(),
+            Erf => x.erf(),
+            Softplus => x.softplus(),
+            Sigmoid => x.sigmoid(),
         }
     }
 
@@ -58,19 +105,41 @@ impl Function {
         }
     }
 
-    /// Whether `Real` promises digits at x > 0.
-    fn promises(self, x: f64, min_positive: f64) -> bool {
-        !matches!(self, ReciprocalSqrt | RoughSqrt) || x >= min_positive
+    /// Whether `Real` promises digits at x.
+    fn promises<E: Precision>(self, x: f64) -> bool {
+        match self {
+            ReciprocalSqrt | RoughSqrt => x >= E::MIN_POSITIVE,
+            Ln1p => x > -1.0,
+            Sin | Cos => x.abs() <= last_exact_turn::<E>(),
+            Sinh | Cosh | ExpM1 | Softplus | Sigmoid => x.abs() < 1e6,
+            _ => true,
+        }
+    }
+
+    /// Whether the argument is that of an exponential, for which logarithms in range are wide.
+    fn is_exponential(self) -> bool {
+        matches!(self, Exp | ExpM1 | Sinh | Cosh | Tanh | Softplus | Sigmoid)
+    }
+
+    /// Where one formula takes over from another.
+    fn switches(self) -> &'static [f64] {
+        match self {
+            Ln1p => &[SQRT_2 - 1.0, 1.0 / SQRT_2 - 1.0, 1.0, -0.75, -0.999],
+            Asinh => &[1.0, 9.5e-7, 3.9e-3, 5.4e8, 3.3e4, 0.35],
+            Atan => &[SQRT_2 - 1.0, SQRT_2 + 1.0, 1.0],
+            Erf => &[1.0, 3.5, 6.0],
+            _ => &[],
+        }
     }
 
     /// What `Real` promises, in units in the last place.
     fn bound<E: Precision>(self) -> f64 {
         match self {
-            Exp | Ln | Powf | Cbrt => 1.5,
             Sqrt => 0.5,
             ReciprocalSqrt => 2.0,
             // A relative error ε is less than ε/u units.
             RoughSqrt => 2f64.powi(-12) / E::UNIT_ROUNDOFF,
+            _ => 1.5,
         }
     }
 }
@@ -132,12 +201,12 @@ fn draw<E: Precision>(function: Function, region: Region, random: &mut Random) -
     let ignored = E::splat(1.0);
     match (function, region) {
         (Exp, Region::Ordinary) => (E::splat(random.uniform(-20.0, 20.0)), ignored),
-        (Exp, Region::Wide) => {
+        (_, Region::Wide) if function.is_exponential() => {
             let tiny = random.uniform(-1.0, 1.0) * power_of_two::<E>(random).min(1.0);
             let wide = logarithm_in_range::<E>(random);
             (E::splat(if random.once_in(2) { tiny } else { wide }), ignored)
         }
-        (Exp, Region::Critical) => {
+        (_, Region::Critical) if function.is_exponential() && (function == Exp || random.once_in(2)) => {
             // Halfway between multiples of ln 2 the next multiple is taken.
             let halves = (logarithm_in_range::<E>(random) / LN_2 * 2.0).round();
             (near(halves * LN_2 / 2.0, random), ignored)
@@ -160,6 +229,9 @@ fn draw<E: Precision>(function: Function, region: Region, random: &mut Random) -
             let extreme = E::splat(logarithm_in_range::<E>(random) / x.widen().ln());
             (x, if random.once_in(8) || !extreme.is_finite() { whole } else { extreme })
         }
+        (ExpM1 | Ln1p | Sinh | Cosh | Tanh | Asinh | Sin | Cos | Atan | Erf | Softplus | Sigmoid, region) => {
+            (draw_signed(function, region, random), ignored)
+        }
         (_, Region::Ordinary) => (E::splat(random.uniform(0.05, 20.0)), ignored),
         (_, Region::Wide) => (positive(random), ignored),
         (Cbrt, Region::Critical) if random.once_in(2) => {
@@ -168,6 +240,54 @@ fn draw<E: Precision>(function: Function, region: Region, random: &mut Random) -
         }
         (Ln, Region::Critical) if random.once_in(2) => (close_to_one(random), ignored),
         (_, Region::Critical) => (critical(random), ignored),
+    }
+}
+
+/// The largest argument for which `Real` promises the digits of sin and cos.
+fn last_exact_turn<E: Precision>() -> f64 {
+    if E::UNIT_ROUNDOFF < 1e-10 { 1.6e6 } else { 1600.0 }
+}
+
+/// An argument of a function that takes either sign.
+fn draw_signed<E: Precision>(function: Function, region: Region, random: &mut Random) -> E {
+    let sign = if random.once_in(2) { 1.0 } else { -1.0 };
+    let switches = function.switches();
+    match (function, region) {
+        (Ln1p, Region::Ordinary) => E::splat(random.uniform(-0.95, 20.0)),
+        (_, Region::Ordinary) => E::splat(random.uniform(-20.0, 20.0)),
+        (Ln1p, Region::Wide) if random.once_in(2) => positive(random),
+        (Ln1p, Region::Wide) => {
+            E::splat(-1.0 + random.uniform(0.0, 1.0) * 2f64.powi(-(random.below(30) as i32)))
+        }
+        (Sin | Cos, Region::Wide) => {
+            // Evenly on the scale of logarithms, and evenly.
+            let end = last_exact_turn::<E>();
+            let magnitude = if random.once_in(2) {
+                end * 2f64.powf(-random.uniform(0.0, 60.0))
+            } else {
+                random.uniform(0.0, end)
+            };
+            E::splat(sign * magnitude)
+        }
+        (Sin | Cos, Region::Critical) => {
+            // Multiples of π/4: zeros of the function and of its derivative, and where the quadrant changes.
+            let turns = last_exact_turn::<E>() / FRAC_PI_4;
+            let few = if random.once_in(2) { 40.0 } else { turns };
+            near(sign * random.uniform(0.0, few).floor() * FRAC_PI_4, random)
+        }
+        (_, Region::Critical) if !switches.is_empty() && random.once_in(2) => {
+            let switch = switches[random.below(switches.len())];
+            let beside = switch * (1.0 + random.uniform(-1.0, 1.0) * 2f64.powi(-(random.below(50) as i32)));
+            E::splat(if matches!(function, Ln1p) { beside.max(-0.9999) } else { sign * beside })
+        }
+        (Ln1p, Region::Critical) => E::splat(random.uniform(-0.6, 1.5)),
+        (Asinh, Region::Critical) => E::splat(sign * 2f64.powf(random.uniform(-30.0, 40.0))),
+        (Atan | Erf, Region::Critical) => E::splat(sign * 2f64.powf(random.uniform(-10.0, 4.0))),
+        (_, Region::Critical) => E::splat(random.uniform(-2.0, 2.0)),
+        (_, Region::Wide) => {
+            let x: E = positive(random);
+            E::splat(sign * x.widen())
+        }
     }
 }
 
@@ -247,7 +367,7 @@ fn judge<E: Scalar + Precision>() {
         for region in [Region::Ordinary, Region::Wide, Region::Critical] {
             let mut random = Random::new(5);
             let arguments: Vec<(E, E)> = std::iter::repeat_with(|| draw::<E>(function, region, &mut random))
-                .filter(|(x, _)| function.promises(x.widen(), E::MIN_POSITIVE))
+                .filter(|(x, _)| function.promises::<E>(x.widen()))
                 .take(samples())
                 .collect();
             let exact: Vec<_> = arguments.iter().map(|(x, y)| function.exact(x.widen(), y.widen())).collect();
@@ -285,4 +405,126 @@ fn doubles_are_within_the_promised_units() {
 #[test]
 fn floats_are_within_the_promised_units() {
     judge::<f32>();
+}
+
+/// sin and cos of numbers beyond those for which digits are promised.
+fn judge_large_turns<E: Scalar + Precision>(largest: f64) {
+    let mut random = Random::new(7);
+    let arguments: Vec<(E, E)> = (0..samples())
+        .map(|_| {
+            let scale = 2f64.powf(random.uniform(0.0, largest.log2()));
+            (
+                E::splat(if random.once_in(4) { positive::<E>(&mut random).widen() } else { scale }),
+                E::splat(1.0),
+            )
+        })
+        .collect();
+    for function in [Sin, Cos] {
+        for way in ways() {
+            for (value, (x, _)) in apply(way, function, &arguments).into_iter().zip(&arguments) {
+                let (value, x) = (value.widen(), x.widen());
+                assert!(value.abs() <= 1.0, "{function:?} {x:e} is {value} by {}", name(way));
+                if x <= largest {
+                    let distance = (function.exact(x, 1.0) - Exact::splat(value)).abs().to_f64();
+                    let bound = 4.0 * E::UNIT_ROUNDOFF * (x + 1.0);
+                    assert!(distance <= bound, "{function:?} {x:e} errs by {distance:e} by {}", name(way));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn sine_and_cosine_of_large_numbers_are_those_of_a_neighbour() {
+    judge_large_turns::<f64>(2f64.powi(50));
+    judge_large_turns::<f32>(2f64.powi(21));
+}
+
+/// Values at 0, ±∞ and NaN, with the sign of a zero.
+fn judge_special<E: Scalar + Precision>() {
+    let (infinity, nan) = (f64::INFINITY, f64::NAN);
+    let half_pi = E::splat(std::f64::consts::FRAC_PI_2).widen();
+    let ln_2 = E::splat(LN_2).widen();
+    for (function, at_zero, at_minus_zero, at_infinity, at_minus_infinity) in [
+        (ExpM1, 0.0, -0.0, infinity, -1.0),
+        (Ln1p, 0.0, -0.0, infinity, nan),
+        (Sinh, 0.0, -0.0, infinity, -infinity),
+        (Cosh, 1.0, 1.0, infinity, infinity),
+        (Tanh, 0.0, -0.0, 1.0, -1.0),
+        (Asinh, 0.0, -0.0, infinity, -infinity),
+        (Sin, 0.0, -0.0, nan, nan),
+        (Cos, 1.0, 1.0, nan, nan),
+        (Atan, 0.0, -0.0, half_pi, -half_pi),
+        (Erf, 0.0, -0.0, 1.0, -1.0),
+        (Softplus, ln_2, ln_2, infinity, 0.0),
+        (Sigmoid, 0.5, 0.5, 1.0, 0.0),
+    ] {
+        let cases = [
+            (0.0, at_zero),
+            (-0.0, at_minus_zero),
+            (infinity, at_infinity),
+            (-infinity, at_minus_infinity),
+            (nan, nan),
+        ];
+        let mut arguments = vec![(E::splat(1.0), E::splat(1.0)); 64];
+        for (place, (x, _)) in arguments.iter_mut().zip(cases) {
+            place.0 = E::splat(x);
+        }
+        for way in ways() {
+            for (value, (x, expected)) in apply(way, function, &arguments).into_iter().zip(cases) {
+                let value = value.widen();
+                let same = value.is_nan() && expected.is_nan() || value.to_bits() == expected.to_bits();
+                assert!(same, "{function:?} {x} is {value} and not {expected} by {}", name(way));
+            }
+        }
+    }
+    for way in ways() {
+        let minus_one = vec![(E::splat(-1.0), E::splat(1.0)); 64];
+        assert_eq!(apply(way, Ln1p, &minus_one)[0].widen(), -infinity);
+    }
+}
+
+#[test]
+fn values_at_zero_and_infinity_are_exact() {
+    judge_special::<f64>();
+    judge_special::<f32>();
+}
+
+fn judge_parity<E: Scalar + Precision>() {
+    let mut random = Random::new(11);
+    for (function, sign) in [
+        (Sinh, -1.0),
+        (Tanh, -1.0),
+        (Asinh, -1.0),
+        (Sin, -1.0),
+        (Atan, -1.0),
+        (Erf, -1.0),
+        (Cosh, 1.0),
+        (Cos, 1.0),
+    ] {
+        for region in [Region::Ordinary, Region::Wide, Region::Critical] {
+            let arguments: Vec<(E, E)> =
+                std::iter::repeat_with(|| draw(function, region, &mut random)).take(512).collect();
+            let opposite: Vec<_> = arguments.iter().map(|&(x, y)| (-x, y)).collect();
+            for way in ways() {
+                let values =
+                    apply(way, function, &arguments).into_iter().zip(apply(way, function, &opposite));
+                for ((value, mirrored), (x, _)) in values.zip(&arguments) {
+                    let expected = sign * mirrored.widen();
+                    assert_eq!(
+                        value.widen().to_bits(),
+                        expected.to_bits(),
+                        "{function:?} {x:?} by {}",
+                        name(way)
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn odd_and_even_functions_are_so_to_the_last_bit() {
+    judge_parity::<f64>();
+    judge_parity::<f32>();
 }

@@ -12,6 +12,12 @@
 //! | x / y | (x′ − (x/y) y′) / y |
 //! | √x, ∛x | x′ / 2√x, x′ / 3(∛x)² |
 //! | ln x, eˣ | x′ / x, eˣ x′ |
+//! | ln(1 + x), eˣ − 1 | x′ / (1 + x), eˣ x′ |
+//! | sinh x, cosh x, tanh x | cosh x x′, sinh x x′, x′ / cosh² x |
+//! | asinh x, atan x | x′ / √(1 + x²), x′ / (1 + x²) |
+//! | sin x, cos x | cos x x′, −sin x x′ |
+//! | erf x | 2/√π e^(−x²) x′ |
+//! | softplus x, sigmoid x | sigmoid x x′, sigmoid x sigmoid(−x) x′ |
 //! | xʳ | r xʳ⁻¹ x′ + xʳ ln x r′ |
 //! | ln(x/y) | x′/x − y′/y |
 //! | \|x\|, max, min, select | that of what is taken |
@@ -21,6 +27,7 @@
 //!
 //! \[Clifford73\] Clifford, *Preliminary sketch of biquaternions*, 1873.
 
+use std::f64::consts::FRAC_2_SQRT_PI;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::lanes::Real;
@@ -47,6 +54,11 @@ impl Dual {
 
     const fn constant(value: f64) -> Self {
         Self { value, slope: 0.0 }
+    }
+
+    /// A function of this number by its value and its derivative there.
+    fn mapped(self, function: fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> Self {
+        Self { value: function(self.value), slope: derivative(self.value) * self.slope }
     }
 }
 
@@ -123,6 +135,57 @@ impl Real for Dual {
     fn exp(self) -> Self {
         let value = Real::exp(self.value);
         Self { value, slope: value * self.slope }
+    }
+
+    fn ln_1p(self) -> Self {
+        self.mapped(Real::ln_1p, |x| 1.0 / (1.0 + x))
+    }
+
+    fn exp_m1(self) -> Self {
+        self.mapped(Real::exp_m1, Real::exp)
+    }
+
+    fn sinh(self) -> Self {
+        self.mapped(Real::sinh, Real::cosh)
+    }
+
+    fn cosh(self) -> Self {
+        self.mapped(Real::cosh, Real::sinh)
+    }
+
+    fn tanh(self) -> Self {
+        self.mapped(Real::tanh, |x| {
+            let cosh = Real::cosh(x);
+            1.0 / (cosh * cosh)
+        })
+    }
+
+    fn asinh(self) -> Self {
+        self.mapped(Real::asinh, |x| 1.0 / Real::sqrt(1.0 + x * x))
+    }
+
+    fn sin(self) -> Self {
+        self.mapped(Real::sin, Real::cos)
+    }
+
+    fn cos(self) -> Self {
+        self.mapped(Real::cos, |x| -Real::sin(x))
+    }
+
+    fn atan(self) -> Self {
+        self.mapped(Real::atan, |x| 1.0 / (1.0 + x * x))
+    }
+
+    fn erf(self) -> Self {
+        self.mapped(Real::erf, |x| FRAC_2_SQRT_PI * Real::exp(-x * x))
+    }
+
+    fn softplus(self) -> Self {
+        self.mapped(Real::softplus, Real::sigmoid)
+    }
+
+    fn sigmoid(self) -> Self {
+        self.mapped(Real::sigmoid, |x| Real::sigmoid(x) * Real::sigmoid(-x))
     }
 
     fn logarithm(self) -> DualLogarithm {
@@ -226,6 +289,21 @@ mod tests {
         }
         check(-0.7, |x| x.abs() * x);
         check(-0.7, Real::cbrt);
+        for x in [-2.3, -0.7, 0.3, 1.0, 1.7, 4.0] {
+            check(x, Real::exp_m1);
+            check(x.abs(), Real::ln_1p);
+            check(-x.abs() / 3.0, Real::ln_1p);
+            check(x, Real::sinh);
+            check(x, Real::cosh);
+            check(x, Real::tanh);
+            check(x, Real::asinh);
+            check(x, Real::sin);
+            check(x, Real::cos);
+            check(x, Real::atan);
+            check(x, Real::erf);
+            check(x, Real::softplus);
+            check(x, Real::sigmoid);
+        }
     }
 
     #[test]

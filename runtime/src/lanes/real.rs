@@ -67,6 +67,45 @@ pub trait Real:
     /// e^self.
     #[must_use]
     fn exp(self) -> Self;
+    /// ln(1 + self), also where 1 takes all digits of self.
+    #[must_use]
+    fn ln_1p(self) -> Self;
+    /// e^self − 1, also where 1 takes all digits of the exponential.
+    #[must_use]
+    fn exp_m1(self) -> Self;
+    /// sinh self.
+    #[must_use]
+    fn sinh(self) -> Self;
+    /// cosh self.
+    #[must_use]
+    fn cosh(self) -> Self;
+    /// tanh self.
+    #[must_use]
+    fn tanh(self) -> Self;
+    /// The inverse of sinh, ln(self + √(1 + self²)).
+    #[must_use]
+    fn asinh(self) -> Self;
+    /// sin self, NaN for ±∞.
+    ///
+    /// The accuracy is promised for |self| ≤ 1.6·10⁶ (`f32`: 1600). Beyond, up to 2⁵⁰ (`f32`: 2²¹), it is the
+    /// sine of an argument within 4u |self| of self, and for larger ones some value between −1 and 1.
+    #[must_use]
+    fn sin(self) -> Self;
+    /// cos self, NaN for ±∞, as accurate as [`Real::sin`].
+    #[must_use]
+    fn cos(self) -> Self;
+    /// The inverse of tan, between −π/2 and π/2.
+    #[must_use]
+    fn atan(self) -> Self;
+    /// The error function 2/√π ∫ e^(−t²) dt from 0 to self.
+    #[must_use]
+    fn erf(self) -> Self;
+    /// ln(1 + e^self), smooth between 0 and self.
+    #[must_use]
+    fn softplus(self) -> Self;
+    /// 1/(1 + e^−self), the derivative of [`Real::softplus`].
+    #[must_use]
+    fn sigmoid(self) -> Self;
     /// self^exponent for self ≥ 0; NaN for self < 0.
     #[must_use]
     #[inline(always)]

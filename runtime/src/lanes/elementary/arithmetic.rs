@@ -1,13 +1,20 @@
 //! Polynomials, roundings, and sums and products with their rounding errors.
 
 use crate::lanes::primitive::Primitive;
+use crate::lanes::real::Real;
 
-pub(super) const fn is_single<P: Primitive>() -> bool {
-    P::UNIT_ROUNDOFF > 1e-10
+pub(super) const fn is_single<R: Real>() -> bool {
+    R::UNIT_ROUNDOFF > 1e-10
+}
+
+/// `value` minus its nearest neighbour in the format, if that is `f32`; else `low`, what `f64` takes from it.
+#[inline(always)]
+pub(super) fn below_the_last_bit<P: Primitive>(value: f64, low: f64) -> P {
+    P::splat(if is_single::<P>() { value - (value as f32) as f64 } else { low })
 }
 
 /// 2ⁿ for n < 64.
-const fn power_of_two(n: u32) -> f64 {
+pub(super) const fn power_of_two(n: u32) -> f64 {
     (1u64 << n) as f64
 }
 
@@ -24,12 +31,12 @@ pub(super) fn ln_2<P: Primitive>() -> (P, P) {
 
 /// Σ cₖ xᵏ by Horner's rule, with the coefficients that were fitted for the number format.
 #[inline(always)]
-pub(super) fn polynomial<P: Primitive>(x: P, single: &[f64], double: &[f64]) -> P {
-    let coefficients = if is_single::<P>() { single } else { double };
+pub(super) fn polynomial<R: Real>(x: R, single: &[f64], double: &[f64]) -> R {
+    let coefficients = if is_single::<R>() { single } else { double };
     let degree = coefficients.len() - 1;
-    let mut sum = P::splat(coefficients[degree]);
+    let mut sum = R::splat(coefficients[degree]);
     for k in (0..degree).rev() {
-        sum = sum.mul_add(x, P::splat(coefficients[k]));
+        sum = sum.mul_add(x, R::splat(coefficients[k]));
     }
     sum
 }
@@ -46,6 +53,38 @@ pub(super) fn nearest_integer_to_product<P: Primitive>(a: P, b: P) -> P {
 pub(super) fn quick_two_sum<P: Primitive>(a: P, b: P) -> (P, P) {
     let sum = a + b;
     (sum, (a - sum) + b)
+}
+
+/// a + b as a rounded value and its error, whichever is larger \[Knuth97\] 4.2.2.
+#[inline(always)]
+pub(super) fn two_sum<P: Primitive>(a: P, b: P) -> (P, P) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
+/// A quotient of unevaluated sums, high + low each, to little more than its last rounding.
+///
+/// q = high/high, and the remainder n − q d, of which the high parts cancel, gives the next digits.
+#[inline(always)]
+pub(super) fn quotient_of_sums<P: Primitive>(
+    (numerator, numerator_low): (P, P),
+    (denominator, denominator_low): (P, P),
+) -> P {
+    let (quotient, correction) = divide((numerator, numerator_low), (denominator, denominator_low));
+    quotient + correction
+}
+
+/// The quotient of [`quotient_of_sums`] before its last sum.
+#[inline(always)]
+pub(super) fn divide<P: Primitive>(
+    (numerator, numerator_low): (P, P),
+    (denominator, denominator_low): (P, P),
+) -> (P, P) {
+    let reciprocal = P::splat(1.0) / denominator;
+    let quotient = numerator * reciprocal;
+    let remainder = residual(quotient, -denominator, numerator) + numerator_low;
+    (quotient, quotient.mul_add(-denominator_low, remainder) * reciprocal)
 }
 
 /// a b as a rounded value and its error; see [`Real::two_product`](crate::lanes::Real::two_product).

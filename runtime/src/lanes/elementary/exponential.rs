@@ -1,18 +1,18 @@
-//! eˣ, and powers from a logarithm.
+//! eˣ, eˣ − 1, and powers from a logarithm.
 //!
 //! x = k ln 2 + r with an integer k and |r| ≤ ½ ln 2, and eˣ = 2ᵏ (1 + r + r² (½ + r/6 + …)).
 
-use super::arithmetic::{is_single, ln_2, nearest_integer_to_product, polynomial, residual};
+use super::arithmetic::{is_single, ln_2, nearest_integer_to_product, polynomial, quick_two_sum, residual};
 use super::logarithm::Logarithm;
 use crate::lanes::primitive::Primitive;
 
-/// (eʳ − 1 − r)/r² as a polynomial, for |r| ≤ ½ ln 2.
+/// (eʳ − 1 − r)/r² = even + r odd, both parts as polynomials in r², for |r| ≤ ½ ln 2.
 ///
-/// Even and odd powers are summed apart, which halves the time to the result.
+/// To sum even and odd powers apart halves the time to the result, and e⁻ʳ comes with eʳ.
 ///
-/// r² times its error is below 2⁻⁵⁷ eʳ (`f32`: 2⁻²⁸ eʳ).
+/// r² times the error is below 2⁻⁵⁷ eʳ (`f32`: 2⁻²⁸ eʳ).
 #[inline(always)]
-fn exponential_tail<P: Primitive>(r: P, square: P) -> P {
+pub(super) fn exponential_tails<P: Primitive>(square: P) -> (P, P) {
     const SINGLE_EVEN: [f64; 3] = [0.5, 0.041_667_238, 0.001_386_372_6];
     const SINGLE_ODD: [f64; 2] = [0.166_665_35, 0.008_367_430_4];
     const DOUBLE_EVEN: [f64; 5] = [
@@ -29,8 +29,13 @@ fn exponential_tail<P: Primitive>(r: P, square: P) -> P {
         2.755_764_154_459_307e-6,
         2.497_816_533_961_576_6e-8,
     ];
-    let even = polynomial(square, &SINGLE_EVEN, &DOUBLE_EVEN);
-    polynomial(square, &SINGLE_ODD, &DOUBLE_ODD).mul_add(r, even)
+    (polynomial(square, &SINGLE_EVEN, &DOUBLE_EVEN), polynomial(square, &SINGLE_ODD, &DOUBLE_ODD))
+}
+
+#[inline(always)]
+fn exponential_tail<P: Primitive>(r: P, square: P) -> P {
+    let (even, odd) = exponential_tails(square);
+    odd.mul_add(r, even)
 }
 
 /// 2ᵏ eʳ.
@@ -56,6 +61,38 @@ pub(in super::super) fn exp<P: Primitive>(x: P) -> P {
     let (ln_2, ln_2_low) = ln_2::<P>();
     let r = k.mul_add(-ln_2_low, k.mul_add(-ln_2, x)); // the inner difference is exact
     exponential(k, r)
+}
+
+/// x = k ln 2 + r + r_low, with r_low below the last bit of r.
+pub(super) struct Remainder<P> {
+    pub(super) k: P,
+    pub(super) r: P,
+    pub(super) r_low: P,
+}
+
+/// The remainder of x, with digits to spare where 1 cancels most of eˣ.
+#[inline(always)]
+pub(super) fn remainder<P: Primitive>(x: P) -> Remainder<P> {
+    let (x, k) = reduce(x);
+    let (ln_2, ln_2_low) = ln_2::<P>();
+    let high = k.mul_add(-ln_2, x); // exact
+    let r = k.mul_add(-ln_2_low, high);
+    Remainder { k, r, r_low: k.mul_add(-ln_2_low, high - r) }
+}
+
+/// e^x − 1 = 2ᵏ ((1 − 2⁻ᵏ) + r + r² (½ + r/6 + …)).
+///
+/// 1 − 2⁻ᵏ is 0 or at least ½, and cancels r by no more than a third of itself, exactly.
+#[inline(always)]
+pub(in super::super) fn exp_m1<P: Primitive>(x: P) -> P {
+    // Below −40 (`f32`: −20) the result rounds to −1, and 2⁻ᵏ stays in range.
+    let bottom = P::splat(if is_single::<P>() { -20.0 } else { -40.0 });
+    let Remainder { k, r, r_low } = remainder(bottom.max(x));
+    let one = P::splat(1.0);
+    let square = r * r;
+    let (sum, error) = quick_two_sum(one - one.scale(-k), r);
+    let rest = square.mul_add(exponential_tail(r, square), r_low);
+    (sum + (error + rest)).scale(k).copysign(x)
 }
 
 /// x^exponent from the logarithm of x.

@@ -1,8 +1,9 @@
-//! ln x: to half a unit in the last place and a little more, or with ten digits beyond the format for powers.
+//! ln x and ln(1 + x): to half a unit in the last place and a little more, or ln x with ten digits beyond the
+//! format for powers.
 //!
 //! x = 2ᵉ m with √½ ≤ m < √2, and ln m = 2 artanh (t/2) = t + t³/12 + t⁵/80 + … for t = (m − 1)/((m + 1)/2).
 
-use super::arithmetic::{is_single, ln_2, polynomial, quick_two_sum, residual, two_product};
+use super::arithmetic::{is_single, ln_2, polynomial, quick_two_sum, residual, two_product, two_sum};
 use crate::lanes::primitive::Primitive;
 
 /// ln x as the unevaluated sum of two numbers, |low| ≤ u |high|. If high is infinite, low may have any value.
@@ -93,13 +94,34 @@ fn without_nan<P: Primitive>(correction: P) -> P {
 /// ln x.
 #[inline(always)]
 pub(in super::super) fn ln<P: Primitive>(x: P) -> P {
-    let Reduced { e, t, t_low } = reduce(x);
+    of_reduced(reduce(x))
+}
+
+#[inline(always)]
+fn of_reduced<P: Primitive>(Reduced { e, t, t_low }: Reduced<P>) -> P {
     let (ln_2, ln_2_low) = ln_2::<P>();
     let high = e.mul_add(ln_2, t);
     let low = e.mul_add(ln_2_low, e.mul_add(ln_2, -high) + t) + t_low;
     let square = t * t;
     let tail = square.mul_add(artanh_tail(square), P::splat(TWELFTH));
     high + without_nan((t * square).mul_add(tail, low))
+}
+
+/// ln(2ⁿ (high + low)) for |low| ≤ 2u high, with a relative error that does not grow where the sum is close to
+/// 1.
+///
+/// ln(high + low) = ln high + low/high, and t of `high` = 1 is 0: then the result is low itself.
+#[inline(always)]
+pub(super) fn ln_of_sum<P: Primitive>(high: P, low: P, n: P) -> P {
+    let Reduced { e, t, t_low } = reduce(high);
+    of_reduced(Reduced { e: e + n, t, t_low: t_low + low / high })
+}
+
+/// ln(1 + x).
+#[inline(always)]
+pub(in super::super) fn ln_1p<P: Primitive>(x: P) -> P {
+    let (high, low) = two_sum(P::splat(1.0), x);
+    ln_of_sum(high, low, P::splat(0.0)).copysign(x)
 }
 
 /// ln a − ln b.
