@@ -6,6 +6,8 @@ pub mod by_parameters;
 pub mod diff;
 pub mod dimension;
 pub mod divided;
+pub mod elementary;
+pub mod excess;
 pub mod expand;
 pub mod expr;
 pub mod extension;

@@ -5,7 +5,8 @@
 //! hide: a normal form would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s;
 //! [`report`] puts them into words.
 
-use crate::algebra::expr::{Graph, Id};
+use crate::algebra::excess::has_squares;
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::domain::Volume;
 pub(crate) use explain::report;
@@ -21,6 +22,7 @@ mod blame;
 mod explain;
 mod finding;
 mod rest;
+mod roughness;
 mod samples;
 mod source;
 mod units;
@@ -30,16 +32,7 @@ mod volume;
 /// Checks that ψ does not change when two stretches are exchanged.
 pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
     [[0, 1], [1, 2]].into_iter().find_map(|exchanged| {
-        let [i, j] = exchanged;
-        let is_asymmetric = |id: Id| {
-            samples.iter().any(|point| {
-                let mut swapped = point.clone();
-                swapped.stretches.swap(i, j);
-                let [a, b] = [point, &swapped].map(|point| evaluate(graph, id, point));
-                // NaN differs.
-                !is_zero(Estimate { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
-            })
-        };
+        let is_asymmetric = |id: Id| differs(graph, id, exchanged, samples);
         is_asymmetric(source.energy).then(|| {
             let blamed = source.blamed_term(is_asymmetric);
             let term = blamed.and_then(|term| source.nodes.of(term)).filter(|&term| term != source.energy);
@@ -48,15 +41,40 @@ pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) ->
     })
 }
 
-/// Checks that the energy has a value wherever its domain reaches, and no stress at rest, given ψ1.
+/// Checks that conditions of the domain are alike for all stretches, or on the largest or the smallest one.
+pub(crate) fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
+    let is_asymmetric =
+        |bound: Id| [[0, 1], [1, 2]].into_iter().any(|exchanged| differs(graph, bound, exchanged, samples));
+    let names_second = |bound: Id| {
+        graph.reachable(&[bound]).into_iter().any(|id| matches!(graph.node(id), Node::Stretch(1)))
+    };
+    let conditions = source.bounds.iter().zip(source.declaration.bounds());
+    let mistaken = conditions.filter(|&(&bound, _)| names_second(bound) && is_asymmetric(bound));
+    mistaken.map(|(_, condition)| Finding::new(condition, Violation::OnOneStretch)).collect()
+}
+
+/// Whether an expression changes when two stretches are exchanged.
+fn differs(graph: &Graph, id: Id, [i, j]: [usize; 2], samples: &[Point]) -> bool {
+    samples.iter().any(|point| {
+        let mut swapped = point.clone();
+        swapped.stretches.swap(i, j);
+        let [a, b] = [point, &swapped].map(|point| evaluate(graph, id, point));
+        // NaN differs.
+        !is_zero(Estimate { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
+    })
+}
+
+/// Checks that the energy has a value wherever its domain reaches, and no stress at rest, given ψ1 and the
+/// second derivatives.
 pub(crate) fn values(
     graph: &mut Graph,
     source: &Source<'_>,
-    gradient: Id,
+    (gradient, hessian): (Id, &[Id]),
     samples: &[Point],
 ) -> Vec<Finding> {
     let mut findings = Findings::new(source);
     vanishing::powers_at_rest(graph, samples, &mut findings);
+    roughness::roughness(graph, hessian, &mut findings);
     if !source.declaration.options.prestressed {
         rest::rest(graph, gradient, samples, &mut findings);
     }
@@ -78,6 +96,14 @@ pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding>
         findings.push(Finding::new(word("fit"), Violation::FitOfFunctions));
     }
     findings
+}
+
+/// Checks that the energy can be continued.
+pub(crate) fn continued(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
+    let options = &source.declaration.options;
+    let word = options.words.iter().find(|word| *word == "extend");
+    (options.extend.is_some() && has_squares(graph, source.energy))
+        .then(|| Finding::new(word, Violation::ExtendedPower))
 }
 
 /// Elements so flat that whatever grows without bound where the volume vanishes exceeds every limit.

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::diff::Differentiator;
+use crate::algebra::excess::{self, has_squares, with_squares};
 use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
@@ -160,13 +161,14 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let is_well_formed = diagnostics.is_clean();
     let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
-    let energy = resolver.energy();
+    let written = resolver.energy();
     let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
     let constrained: Vec<_> =
         options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
     let nodes = resolver.into_nodes();
+    let energy = with_squares(&mut graph, written);
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
     // A misspelt domain may be the one that `extend` needs.
@@ -179,7 +181,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         samples.map_err(|finding| judge::report(&mut graph, &source, [finding], diagnostics)).ok()?;
     let asymmetry = judge::isotropy(&graph, &source, &samples);
     let units = judge::units(&graph, &source);
-    judge::report(&mut graph, &source, asymmetry.into_iter().chain(units), diagnostics);
+    let found = asymmetry.into_iter().chain(judge::domain(&graph, &source, &samples)).chain(units);
+    judge::report(&mut graph, &source, found, diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
@@ -191,9 +194,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
     let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
     if findings.is_empty() {
-        findings = judge::values(&mut graph, &source, plain.gradient[0], &samples);
+        findings = judge::values(&mut graph, &source, (plain.gradient[0], &plain.hessian), &samples);
     }
     findings.extend(judge::flat(&graph, &source, &samples));
+    findings.extend(judge::continued(&graph, &source));
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
@@ -213,7 +217,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
         findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
     }
+    // By invariants, I1b − 3 is not known well enough for real powers.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
+        .filter(|_| !has_squares(&graph, energy))
         .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
@@ -298,7 +304,11 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
     let mut lowered = FxHashMap::default();
-    let mut lower = |id| extension::lower(graph, id, &mut lowered);
+    let mut without_written = FxHashMap::default();
+    let mut lower = |id| {
+        let id = extension::lower(graph, id, &mut lowered);
+        excess::lower(graph, id, &mut without_written)
+    };
     Variant {
         energy: lower(energy),
         gradient: gradient.map(&mut lower),

@@ -213,8 +213,10 @@ impl<'a> Printer<'a> {
             Node::Float(bits) => format!("{:?}", f64::from_bits(*bits)),
             Node::Linear { constant, terms } => self.linear(*constant, terms, context),
             Node::Product(factors) => self.product(factors, context),
+            Node::Excess(_, written) => self.print(*written, context),
             Node::Ln(a) => self.function("ln", *a, context),
             Node::Exp(a) => self.function("exp", *a, context),
+            Node::Elementary(function, a) => self.function(function.name(), *a, context),
             Node::Function(k, order, a) if is_formula || *order == 0 => {
                 format!("{}({})", self.derivative(*k, *order), self.print(*a, Context::Sum))
             }
@@ -225,6 +227,7 @@ impl<'a> Printer<'a> {
             _ if !is_formula => "…".to_owned(),
             Node::Function(..) => "…".to_owned(),
             Node::Strain(i) => format!("(λ{} − 1)", subscript(i + 1)),
+            Node::ElementaryQuotient(function, a, b) => self.quotient(function.name(), *a, *b),
             Node::FunctionQuotient(k, order, a, b) => self.quotient(&self.derivative(*k, *order), *a, *b),
             Node::Epsilon => "ε".to_owned(),
             Node::Above(i) => format!("max(λ{}, ε)", subscript(i + 1)),

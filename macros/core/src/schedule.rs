@@ -190,6 +190,7 @@ impl Scheduler<'_> {
                     .reduce(|a, b| self.push(Op::Mul(a, b)))
                     .unwrap_or_else(|| self.literal(Rational::ONE));
             }
+            Node::Excess(squares, _) => Op::AboveZero(self.value(squares)),
             Node::Ln(a) => {
                 // ln J, which is defined where J itself is out of range.
                 if let Node::Product(factors) = self.graph.node(a)
@@ -202,6 +203,10 @@ impl Scheduler<'_> {
                 }
             }
             Node::Exp(a) => Op::Exp(self.value(a)),
+            Node::Elementary(function, a) => Op::Elementary(function, self.value(a)),
+            Node::ElementaryQuotient(function, a, b) => {
+                Op::ElementaryQuotient(function, self.value(a), self.value(b))
+            }
             Node::Function(k, order, a) => Op::Function(k, order, self.value(a)),
             Node::FunctionQuotient(k, order, a, b) => {
                 Op::FunctionQuotient(k, order, self.value(a), self.value(b))

@@ -80,12 +80,15 @@ fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f6
         // The gap that floating point stores is not quite the one asked for.
         let stored = at(half);
         let exact = 0.5 * (stored[i] - stored[j]);
-        let (expected, inexact) = mean(exact, |t| {
+        let slope = |t: f64| {
             let blocks = material.blocks(at(t));
             0.5 * (blocks.hessian[i] + blocks.hessian[j]) - blocks.hessian[3 + pair]
-        });
+        };
+        let (expected, inexact) = mean(exact, slope);
+        // A power of I1b − 3 below 2 has no third derivative at equal stretches, and feels their last bits.
+        let (shifted, _) = mean(exact + 2.0 * UNIT * center, slope);
         let blocks = material.blocks(stored);
-        let tolerance = tolerance(&blocks) + inexact;
+        let tolerance = tolerance(&blocks) + inexact + 4.0 * (shifted - expected).abs();
         let name = || format!("{}, which are {gap:e} of their mean apart", pair_name("flip", pair));
         judge.compare(name, stored, blocks.flip[pair], expected, tolerance)?;
     }

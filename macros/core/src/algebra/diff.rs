@@ -75,6 +75,15 @@ impl Differentiator {
                 let inner = self.derivative(graph, a, v);
                 graph.mul(e, inner)
             }
+            Node::Excess(squares, _) => self.derivative(graph, squares, v),
+            Node::Elementary(function, a) => {
+                let inner = self.derivative(graph, a, v);
+                if graph.is_zero(inner) {
+                    return inner;
+                }
+                let outer = function.derivative(graph, a);
+                graph.mul(outer, inner)
+            }
             Node::Function(f, order, a) => {
                 let inner = self.derivative(graph, a, v);
                 let outer = graph.leaf(Node::Function(f, order + 1, a));
@@ -110,6 +119,7 @@ impl Differentiator {
             | Node::WhereNegative(..)
             | Node::LnQuotient(..)
             | Node::ExpQuotient(..)
+            | Node::ElementaryQuotient(..)
             | Node::FunctionQuotient(..)
             | Node::PowerQuotient(..)
             | Node::PoleQuotient(..) => graph.integer(0),
@@ -134,6 +144,7 @@ fn may_vanish(graph: &Graph, base: Id) -> bool {
         Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),
         Node::Linear { terms, .. } => !terms.is_empty(),
         Node::Stretch(_) | Node::Parameter(_) | Node::Entry(_) | Node::Float(_) | Node::Exp(_) => false,
+        Node::Excess(..) => false,
         _ => true,
     }
 }

@@ -56,8 +56,10 @@ impl<'a> Dimensions<'a> {
                 self.without(graph, *argument)?;
                 Ok(self.units[*k].map(Rational::integer))
             }
-            Node::Sum(_, body) => self.of(graph, *body),
-            Node::Ln(argument) | Node::Exp(argument) => self.without(graph, *argument),
+            Node::Excess(_, body) | Node::Sum(_, body) => self.of(graph, *body),
+            Node::Ln(argument) | Node::Exp(argument) | Node::Elementary(_, argument) => {
+                self.without(graph, *argument)
+            }
             // Zero, of any dimension.
             Node::Linear { constant, terms } if terms.is_empty() && constant.is_zero() => Ok(None),
             Node::Linear { constant, terms } => {

@@ -9,6 +9,7 @@
 
 use rustc_hash::FxHashMap;
 
+use crate::algebra::elementary::Elementary;
 use crate::algebra::rational::Rational;
 pub use exponent::Exponent;
 
@@ -49,10 +50,15 @@ pub enum Node {
     },
     /// Π base^exponent, in the order of the bases; rational coefficients live in `Linear`.
     Product(Vec<(Id, Exponent)>),
+    /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it is
+    /// written. Its value is kept from zero, so that powers of it have one.
+    Excess(Id, Id),
     /// Natural logarithm.
     Ln(Id),
     /// Exponential function.
     Exp(Id),
+    /// An elementary function of its own kernel.
+    Elementary(Elementary, Id),
     /// Derivative of the given order, 0 … 2, of a function that is a parameter.
     Function(ParameterIndex, u8, Id),
     /// Σ over the entries of lists of the given length.
@@ -76,6 +82,8 @@ pub enum Node {
     LnQuotient(Id, Id),
     /// (eᵃ − eᵇ) / (a − b).
     ExpQuotient(Id, Id),
+    /// Divided difference of an elementary function.
+    ElementaryQuotient(Elementary, Id, Id),
     /// Divided difference of the derivative of the given order of a function that is a parameter.
     FunctionQuotient(ParameterIndex, u8, Id, Id),
     /// (a^r − b^r) / (a − b) for a real exponent.
@@ -129,6 +137,7 @@ impl Graph {
     pub fn leaf(&mut self, mut node: Node) -> Id {
         if let Node::LnQuotient(a, b)
         | Node::ExpQuotient(a, b)
+        | Node::ElementaryQuotient(_, a, b)
         | Node::FunctionQuotient(.., a, b)
         | Node::PowerQuotient(a, b, _) = &mut node
             && b < a
@@ -175,13 +184,37 @@ impl Graph {
     }
 
     /// The logarithm ln a.
+    ///
+    /// ln(1 + eˣ) is the softplus function of x, which is finite where eˣ overflows.
     pub fn ln(&mut self, a: Id) -> Id {
-        if self.as_constant(a) == Some(Rational::ONE) { self.integer(0) } else { self.leaf(Node::Ln(a)) }
+        if self.as_constant(a) == Some(Rational::ONE) {
+            return self.integer(0);
+        }
+        if let Node::Linear { constant: Rational::ONE, terms } = self.node(a)
+            && let [(term, Rational::ONE)] = terms[..]
+            && let Node::Exp(x) = *self.node(term)
+        {
+            return self.elementary(Elementary::Softplus, x);
+        }
+        self.leaf(Node::Ln(a))
     }
 
     /// The exponential eᵃ.
     pub fn exp(&mut self, a: Id) -> Id {
         if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Exp(a)) }
+    }
+
+    /// An expression that is zero at rest and positive elsewhere, as a sum of squares, and as it is written.
+    pub fn excess(&mut self, squares: Id, written: Id) -> Id {
+        if self.is_zero(squares) { squares } else { self.leaf(Node::Excess(squares, written)) }
+    }
+
+    /// An elementary function φ(a).
+    pub fn elementary(&mut self, function: Elementary, a: Id) -> Id {
+        match function.at_zero().filter(|_| self.is_zero(a)) {
+            Some(value) => self.integer(value),
+            None => self.leaf(Node::Elementary(function, a)),
+        }
     }
 
     /// A sum over lists of the given length.

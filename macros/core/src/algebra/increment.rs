@@ -9,7 +9,8 @@
 //! | f g   | Δf g + f₁ Δg                              |
 //! | φ(f)  | φ[f, f₁] Δf, φ\[a, b\] as in [`quotient`] |
 //!
-//! and zero for expressions without stretches. No rule subtracts, so each term of Δψi is as accurate,
+//! and zero for expressions without stretches. A product with a factor that vanishes at rest is its own
+//! difference, in which that factor, and what else vanishes there, is written as one. No rule subtracts, so each term of Δψi is as accurate,
 //! relative to itself, as the strains are. At a rest state free of stress ψi is Δψi: the constants that
 //! cancel there have dropped out.
 //!
@@ -27,6 +28,8 @@ use crate::algebra::rational::Rational;
 #[derive(Debug, Default)]
 pub struct Increments {
     memo: FxHashMap<Id, Id>,
+    /// Expressions whose parts that vanish at rest are differences.
+    accurate: FxHashMap<Id, Id>,
 }
 
 impl Increments {
@@ -52,9 +55,16 @@ impl Increments {
                 let inner = self.increment(graph, body);
                 graph.sum(length, inner)
             }
+            Node::Excess(squares, _) => {
+                let squares = self.increment(graph, squares);
+                graph.excess(squares, squares)
+            }
             Node::Product(factors) => self.product_rule(graph, &factors),
             Node::Ln(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::LnQuotient(a, b))),
             Node::Exp(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b))),
+            Node::Elementary(function, a) => {
+                self.chain_rule(graph, a, |graph, a, b| function.quotient(graph, a, b))
+            }
             Node::Function(f, order, a) => {
                 self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
             }
@@ -65,6 +75,14 @@ impl Increments {
     }
 
     fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
+        // A product with a factor that vanishes at rest is its own difference.
+        let vanishes = factors.iter().any(|&(base, exponent)| {
+            exponent.as_integer().is_some_and(|n| n > 0) && is_zero_at_rest(graph, base)
+        });
+        if vanishes && factors.len() > 1 {
+            let factors: Vec<_> = factors.iter().map(|&(base, e)| (self.accurate(graph, base), e)).collect();
+            return graph.product(&factors);
+        }
         match *factors {
             [] => graph.integer(0),
             [(base, exponent)] => {
@@ -80,6 +98,19 @@ impl Increments {
         }
     }
 
+    /// An expression with its parts that vanish at rest written as differences.
+    fn accurate(&mut self, graph: &mut Graph, e: Id) -> Id {
+        if is_zero_at_rest(graph, e) {
+            return self.increment(graph, e);
+        }
+        if let Some(&done) = self.accurate.get(&e) {
+            return done;
+        }
+        let result = graph.map_children(e, &mut |graph, child| self.accurate(graph, child));
+        self.accurate.insert(e, result);
+        result
+    }
+
     fn chain_rule(&mut self, graph: &mut Graph, a: Id, outer: impl FnOnce(&mut Graph, Id, Id) -> Id) -> Id {
         let inner = self.increment(graph, a);
         if graph.is_zero(inner) {
@@ -89,6 +120,12 @@ impl Increments {
         let outer = outer(graph, a, b);
         graph.mul(outer, inner)
     }
+}
+
+/// Whether an expression that depends on the stretches is zero at rest by its form.
+fn is_zero_at_rest(graph: &mut Graph, e: Id) -> bool {
+    let at_rest = substitute_rest(graph, e);
+    at_rest != e && graph.is_zero(at_rest)
 }
 
 /// The value e₁ at rest.

@@ -91,6 +91,7 @@ impl Interpreter<'_> {
                 }
                 product
             }
+            Node::Excess(squares, _) => exact(self.value(*squares).value.max(0.0)),
             Node::Ln(a) => {
                 let Estimate { value, magnitude } = self.value(*a);
                 Estimate { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
@@ -98,6 +99,15 @@ impl Interpreter<'_> {
             Node::Exp(a) => {
                 let Estimate { value, magnitude } = self.value(*a);
                 Estimate { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
+            }
+            Node::Elementary(function, a) => {
+                let Estimate { value, magnitude } = self.value(*a);
+                let (found, slope) = (function.value(value), function.slope(value));
+                Estimate { value: found, magnitude: found.abs() + (slope * magnitude).abs() }
+            }
+            Node::ElementaryQuotient(function, a, b) => {
+                let (a, b) = (self.value(*a).value, self.value(*b).value);
+                exact(function.quotient_value(a, b))
             }
             Node::Function(k, order, a) => {
                 let Estimate { value, magnitude } = self.value(*a);

@@ -124,12 +124,16 @@ impl<'a> Quotients<'a> {
                 let inner = self.quotient(graph, body, reflection);
                 graph.sum(length, inner)
             }
+            Node::Excess(squares, _) => self.quotient(graph, squares, reflection),
             Node::Product(factors) => self.product_rule(graph, &factors, reflection),
             Node::Ln(a) => {
                 self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::LnQuotient(a, b)))
             }
             Node::Exp(a) => {
                 self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b)))
+            }
+            Node::Elementary(function, a) => {
+                self.chain_rule(graph, a, reflection, |graph, a, b| function.quotient(graph, a, b))
             }
             Node::Function(f, order, a) => self.chain_rule(graph, a, reflection, |graph, a, b| {
                 graph.leaf(Node::FunctionQuotient(f, order, a, b))

@@ -33,7 +33,7 @@ fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     let mut result = graph.map_children(e, &mut |graph, child| rewrite(graph, child, memo));
     while let Some(simpler) = cancel_against_denominator(graph, result)
         .or_else(|| collect_into_factor(graph, result))
-        .or_else(|| join_sums(graph, result))
+        .or_else(|| join_two_sums(graph, result))
         .or_else(|| cancel_parameter(graph, result))
     {
         result = simpler;
@@ -93,8 +93,16 @@ fn collect_into_factor(graph: &mut Graph, e: Id) -> Option<Id> {
     None
 }
 
+/// The sum with its terms that are sums over lists of one length joined.
+pub fn join_sums(graph: &mut Graph, mut e: Id) -> Id {
+    while let Some(joined) = join_two_sums(graph, e) {
+        e = joined;
+    }
+    e
+}
+
 /// Σₚ a + c Σₚ b = Σₚ (a + c b)
-fn join_sums(graph: &mut Graph, e: Id) -> Option<Id> {
+fn join_two_sums(graph: &mut Graph, e: Id) -> Option<Id> {
     let Node::Linear { constant, terms } = graph.node(e).clone() else { return None };
     let as_sum = |&(term, c): &(Id, Rational)| match *graph.node(term) {
         Node::Sum(length, body) => Some((length, term, body, c)),

@@ -144,6 +144,10 @@ impl<'a> Writer<'a> {
             Op::Cbrt(a) => method(o(a), "cbrt"),
             Op::Ln(a) => method(o(a), "ln"),
             Op::Exp(a) => method(o(a), "exp"),
+            Op::Elementary(function, a) => method(o(a), function.name()),
+            Op::ElementaryQuotient(function, a, b) => {
+                self.call(&format!("{}_quotient", function.name()), &[n(a), n(b)])
+            }
             Op::LnProduct(factors) => {
                 let factors = factors.map(n);
                 self.call("ln_product", &[quote!([#(#factors),*])])
@@ -157,6 +161,7 @@ impl<'a> Writer<'a> {
                 let (a, b) = (o(a), n(b));
                 quote!(#a.max(#b))
             }
+            Op::AboveZero(a) => self.call("above_zero", &[n(a)]),
             Op::Below(a, b) => {
                 let (a, b) = (o(a), o(b));
                 quote!((#a - #b).min(R::splat(0.0)))

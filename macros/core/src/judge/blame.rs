@@ -66,6 +66,7 @@ fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr
         Expr::Binary(binary) => vec![&*binary.left, &*binary.right],
         Expr::MethodCall(call) => std::iter::once(&*call.receiver).chain(&call.args).collect(),
         Expr::Call(call) => call.args.iter().collect(),
+        Expr::Closure(summand) => vec![&*summand.body],
         _ => terms(expression, definitions),
     }
 }

@@ -5,7 +5,7 @@ use quote::ToTokens;
 use super::finding::{Finding, Remedy, Stressed, Vanishing, Violation};
 use super::source::Source;
 use crate::algebra::dimension::Clash;
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::printer::{rust, rust_factor};
 use crate::read::diagnostics::Diagnostics;
@@ -15,6 +15,9 @@ use crate::read::spelling::list;
 
 /// The longest term, in bytes, that a message quotes: a longer one is better read where it stands.
 const QUOTABLE: usize = 40;
+
+/// The longest stress, in bytes, to be appended: a longer one is better avoided than balanced.
+const APPENDABLE: usize = 200;
 
 /// Adds findings to the diagnostics of a declaration.
 pub(crate) fn report(
@@ -41,6 +44,13 @@ impl Explainer<'_, '_> {
                 "this excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts: widen the domain"
                     .into()
             }
+            Violation::OnOneStretch => {
+                let [l1, l2, l3] = &self.source.declaration.stretches;
+                format!(
+                    "a domain is symmetric, and stretches come in order, `{l1}` ≥ `{l2}` ≥ `{l3}`: write this condition for the \
+                     largest, `{l1}`, if it is an upper limit, or for the smallest, `{l3}`, if it is a lower one"
+                )
+            }
             Violation::NoSamples => {
                 "no parameters were found for which this energy is finite near rest: check its domain \
                 and `admissible(…)`"
@@ -61,11 +71,29 @@ impl Explainer<'_, '_> {
             }
             Violation::UnitsClash(clash) => self.units_clash(**clash),
             Violation::PowerAtRest { power } => format!(
-                "the base of `{}` vanishes at rest and is negative nearby, if only by rounding, where only whole powers have \
-                 a value: write a whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
+                "the base of `{}` vanishes at rest and is negative nearby, where only whole powers have a value: {}, or a \
+                 whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
                  `(1.0 + b * (I1b - 3.0)).powf(n)`",
-                self.print(*power)
+                self.print(*power),
+                match &self.source.invariants()[..] {
+                    [] => "write a power of `I1b - 3.0`, which is never negative".to_owned(),
+                    names => format!("write {}, since `I1b - 3.0` is never negative", in_place(names)),
+                },
             ),
+            Violation::Rough { power } => {
+                let exponent = power.map(|(_, exponent)| exponent).filter(|exponent| exponent.real.is_some());
+                let remedy = match exponent {
+                    Some(exponent) => self.above_one(exponent),
+                    None => "take a power above 1".to_owned(),
+                };
+                format!(
+                    "the stiffness of this is infinite at rest, as that of a power of `I1b - 3.0` is for an exponent below 1: {remedy}"
+                )
+            }
+            Violation::ExtendedPower => {
+                "the energy has a real power of what vanishes at rest, which is not continued beyond J > 0: remove `extend`"
+                    .into()
+            }
             Violation::StressNotFinite => {
                 "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by \
                 nothing that vanishes there, and take no logarithm of it"
@@ -187,9 +215,28 @@ impl Explainer<'_, '_> {
             ""
         };
         let stress = self.print(stressed.stress);
+        if stress.len() > APPENDABLE {
+            let instead = match stressed.is_isochoric_free {
+                true => in_place(&source.invariants()),
+                false => self.isochoric_stretches(),
+            };
+            return format!(
+                "this leaves stress at rest: write {instead}{domain}, which leaves none; or say `prestressed` in the attribute{mistyped}"
+            );
+        }
+        let remedies = match names_stretches(source) && !is_limited {
+            true => format!("{remedies}; or write {}{domain}, which leaves none", self.isochoric_stretches()),
+            false => remedies,
+        };
         format!(
             "this leaves the stress `{stress}` at rest: {remedies}; or say `prestressed` in the attribute{mistyped}"
         )
+    }
+
+    /// The isochoric stretches in the place of the stretches.
+    fn isochoric_stretches(&self) -> String {
+        let [l1, l2, l3] = &self.source.declaration.stretches;
+        format!("`{l1} / J.cbrt()` for `{l1}`, and so on for `{l2}` and `{l3}`")
     }
 
     /// A term, ready to paste, that makes the rest state stress-free, and the domain that it needs.
@@ -261,6 +308,15 @@ impl Explainer<'_, '_> {
         format!("`domain({})`", conditions.join(", "))
     }
 
+    /// The remedy that an exponent is at least 1, or above.
+    fn above_one(&mut self, exponent: Exponent) -> String {
+        let exponent = self.graph.exponent_value(exponent);
+        let declared = self.source.declaration.options.admissible.iter();
+        let declared = declared.map(|condition| condition.to_token_stream().to_string().replace(" [", "["));
+        let conditions: Vec<_> = declared.chain([format!("{} > 1.0", self.print(exponent))]).collect();
+        format!("declare `admissible({})`", conditions.join(", "))
+    }
+
     /// The declared conditions on parameters, with the further one that an exponent is positive; such
     /// conditions have no sums.
     fn admissible(&mut self, exponent: Id) -> Option<String> {
@@ -275,7 +331,15 @@ impl Explainer<'_, '_> {
     }
 }
 
-/// The isochoric invariants in place of the plain ones: `I1b` for `I1`, or both.
+/// Whether an energy is written in stretches, and not in their isochoric parts.
+fn names_stretches(source: &Source<'_>) -> bool {
+    let body = identifiers(source.declaration.body.to_token_stream());
+    let is_used = |name: &syn::Ident| body.contains(name);
+    source.declaration.stretches.iter().all(is_used)
+        && !["J", "I1b", "I2b"].into_iter().any(|word| body.iter().any(|name| name == word))
+        && source.invariants().is_empty()
+}
+
 /// How to state units, and how not to.
 const UNITS: &str = "correct the energy, or the units that end the documentation of its parameters, as in \
     `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a unit, \
@@ -291,6 +355,7 @@ fn in_unit(dimension: Rational) -> String {
     }
 }
 
+/// The isochoric invariants in place of the plain ones: `I1b` for `I1`, or both.
 fn in_place(names: &[&str]) -> String {
     let isochoric: Vec<_> = names.iter().map(|name| format!("{name}b")).collect();
     format!("{} for {}", list(&isochoric), list(names))

@@ -6,7 +6,7 @@ use syn::Expr;
 
 use super::source::Source;
 use crate::algebra::dimension::Clash;
-use crate::algebra::expr::Id;
+use crate::algebra::expr::{Exponent, Id};
 use crate::algebra::rational::Rational;
 
 /// A broken rule, at the tokens that break it.
@@ -19,6 +19,8 @@ pub(crate) struct Finding {
 pub(crate) enum Violation {
     /// A condition of the domain excludes the rest state.
     RestExcluded,
+    /// A condition of the domain is on the second stretch, and not on all three alike.
+    OnOneStretch,
     /// No parameters were found for which the energy is finite.
     NoSamples,
     /// Two stretches cannot be exchanged. The term is `None` if it is the whole energy.
@@ -29,6 +31,10 @@ pub(crate) enum Violation {
     NotInPascals(Rational),
     /// The base of a power that is not whole vanishes at rest.
     PowerAtRest { power: Id },
+    /// The stiffness grows without bound towards rest, as that of a power of an excess does.
+    Rough { power: Option<(Id, Exponent)> },
+    /// `extend` of an energy with a real power of an excess.
+    ExtendedPower,
     /// The stress at rest is not finite.
     StressNotFinite,
     /// There is stress at rest.
@@ -94,7 +100,14 @@ impl Finding {
 impl Violation {
     /// Whether stress or stiffness at rest may be others once this is corrected.
     pub(crate) fn affects_rest(&self) -> bool {
-        matches!(self, Self::PowerAtRest { .. } | Self::StressNotFinite | Self::Stressed(_) | Self::Overflow)
+        matches!(
+            self,
+            Self::PowerAtRest { .. }
+                | Self::Rough { .. }
+                | Self::StressNotFinite
+                | Self::Stressed(_)
+                | Self::Overflow
+        )
     }
 }
 

@@ -41,7 +41,8 @@ pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mu
     let vanishes =
         |graph: &Graph, of: Id| samples.iter().all(|point| is_zero(evaluate(graph, of, &at_rest(point))));
     let found = Argument::all(graph, source.energy).into_iter().find_map(|argument| {
-        let exponent = argument.real_exponent().filter(|_| vanishes(graph, argument.of))?;
+        let is_excess = matches!(graph.node(argument.of), Node::Excess(..));
+        let exponent = argument.real_exponent().filter(|_| !is_excess && vanishes(graph, argument.of))?;
         Some((argument.of, exponent))
     });
     let Some((of, exponent)) = found else { return };
@@ -107,6 +108,7 @@ fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
 fn is_positive(graph: &Graph, id: Id) -> bool {
     match graph.node(id) {
         Node::Stretch(_) | Node::Exp(_) => true,
+        Node::Elementary(function, _) => function.is_positive(),
         Node::Linear { constant, terms } => {
             !constant.is_negative()
                 && terms.iter().all(|&(term, c)| !c.is_negative() && is_positive(graph, term))

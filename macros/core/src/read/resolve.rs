@@ -15,6 +15,7 @@ use sums::Index;
 mod calls;
 mod names;
 mod paper_notation;
+mod stretches;
 mod sums;
 mod tensors;
 
@@ -41,9 +42,12 @@ pub struct Resolver<'a> {
 /// The node of a mistake: NaN, which no literal is.
 const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 
+/// The message about a power in the notation of another language.
+const POWER: &str = "a power is written `x.powi(2)` or `x.powf(alpha)`";
+
 /// The message about a closure or a function inside the body.
-const NO_HELPERS: &str = "an energy has no helpers: write it out, or name parts by \
-     `let`, also in a sum: `sum(|p| { let s = …; … })`";
+const NO_HELPERS: &str = "an energy has no helpers: write a sum over the three stretches as `sum(|l| …)`, and name \
+     parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
 
 /// The energy and the bounds of its domain with I1, I2, J in the places of the three stretches, unless a
 /// stretch is named. The declaration must be free of mistakes.
@@ -258,6 +262,7 @@ impl<'a> Resolver<'a> {
                     let value = self.expression(&unary.expr);
                     self.graph.neg(value)
                 }
+                UnOp::Deref(_) => self.mistake(unary.op, POWER),
                 _ => self.mistake(unary.op, "only `-` stands before a number"),
             },
             Expr::Binary(binary) => self.binary(binary),
@@ -322,7 +327,7 @@ impl<'a> Resolver<'a> {
             BinOp::Mul(_) => self.graph.mul(left, right),
             BinOp::Div(_) if self.graph.is_zero(right) => self.mistake(&binary.right, "division by zero"),
             BinOp::Div(_) => self.graph.div(left, right),
-            BinOp::BitXor(_) => self.mistake(binary.op, "a power is written `x.powi(2)` or `x.powf(alpha)`"),
+            BinOp::BitXor(_) => self.mistake(binary.op, POWER),
             BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Eq(_) | BinOp::Ne(_) => self
                 .mistake(
                     binary.op,

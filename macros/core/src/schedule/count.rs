@@ -36,6 +36,8 @@ pub enum OperationKind {
     Logarithm,
     /// Exponential to the base e.
     Exponential,
+    /// Another elementary function, such as the hyperbolic tangent.
+    Elementary,
     /// Power with a real exponent.
     Power,
     /// Divided difference, or the common part of those of two values.
@@ -45,11 +47,12 @@ pub enum OperationKind {
 }
 
 /// Operations that cost more than an addition, with their signs in a summary.
-const COSTLY: [(OperationKind, &str); 7] = [
+const COSTLY: [(OperationKind, &str); 8] = [
     (OperationKind::Division, "÷"),
     (OperationKind::Root, "√"),
     (OperationKind::Logarithm, "ln"),
     (OperationKind::Exponential, "exp"),
+    (OperationKind::Elementary, "φ"),
     (OperationKind::Power, "pow"),
     (OperationKind::Quotient, "Δ"),
     (OperationKind::Function, "f"),
@@ -58,7 +61,7 @@ const COSTLY: [(OperationKind, &str); 7] = [
 /// An explanation of the counts for their readers.
 pub const LEGEND: &str = "A fused multiplication and addition counts as two operations, a loop over lists of length N as N \
      times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a \
-     multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters";
+     multiplication: ÷ divisions, √ roots, ln, exp, φ other elementary functions, pow real powers, Δ divided differences, f functions that are parameters";
 
 /// The operations of a program: those done once, and those done for each entry of lists of one length.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -142,6 +145,7 @@ fn kinds(op: &Op) -> &'static [OperationKind] {
         | Op::Add(..)
         | Op::Sub(..)
         | Op::Max(..)
+        | Op::AboveZero(_)
         | Op::Below(..)
         | Op::WhereNegative(..)
         | Op::PoleFloor => &[OperationKind::Addition],
@@ -153,11 +157,13 @@ fn kinds(op: &Op) -> &'static [OperationKind] {
         Op::Sqrt(_) | Op::Cbrt(_) => &[OperationKind::Root],
         Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[OperationKind::Logarithm],
         Op::Exp(_) => &[OperationKind::Exponential],
+        Op::Elementary(..) => &[OperationKind::Elementary],
         Op::Power(..) => &[OperationKind::Power],
         Op::Pair { .. }
         | Op::LnQuotient(_)
         | Op::PowerQuotient { .. }
         | Op::ExpQuotient { .. }
+        | Op::ElementaryQuotient(..)
         | Op::FunctionQuotient(..)
         | Op::ShareAbove(..)
         | Op::ShareBelow(..) => &[OperationKind::Quotient],

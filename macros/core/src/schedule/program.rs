@@ -1,5 +1,6 @@
 //! Programs: operations in order, and loops over lists.
 
+use crate::algebra::elementary::Elementary;
 use crate::algebra::expr::{Length, ParameterIndex, Stretch};
 
 /// The result of an operation.
@@ -53,12 +54,18 @@ pub enum Op {
     Power(Value, Value),
     /// The logarithm of a product of three values.
     LnProduct([Value; 3]),
+    /// An elementary function.
+    Elementary(Elementary, Value),
+    /// Divided difference of an elementary function.
+    ElementaryQuotient(Elementary, Value, Value),
     /// Derivative of the given order of a function that is a parameter.
     Function(ParameterIndex, u8, Value),
     /// Divided difference of such a derivative.
     FunctionQuotient(ParameterIndex, u8, Value, Value),
     /// The larger of two values.
     Max(Value, Value),
+    /// The value, or the smallest positive number if that is larger.
+    AboveZero(Value),
     /// min(first − second, 0).
     Below(Value, Value),
     /// The second value where the first is negative, else the third.
@@ -122,6 +129,8 @@ impl Op {
             | Self::Logarithm(a)
             | Self::Exp(a)
             | Self::LnQuotient(a)
+            | Self::AboveZero(a)
+            | Self::Elementary(_, a)
             | Self::Function(.., a) => show(a),
             Self::Add(a, b)
             | Self::Sub(a, b)
@@ -130,6 +139,7 @@ impl Op {
             | Self::Power(a, b)
             | Self::Max(a, b)
             | Self::Below(a, b)
+            | Self::ElementaryQuotient(_, a, b)
             | Self::FunctionQuotient(.., a, b) => {
                 show(a);
                 show(b);

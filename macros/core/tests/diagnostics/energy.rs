@@ -169,8 +169,7 @@ fn what_vanishes_at_rest_has_whole_powers() {
     for (factor, written, power) in [
         ("mu", "(I1 - 3.0).sqrt()", "(I1 - 3.0).sqrt()"),
         ("mu", "(J - 1.0).cbrt()", "(J - 1.0).cbrt()"),
-        ("mu", "(I1b - 3.0).powf(2.5)", "(I1b - 3.0).powf(5.0 / 2.0)"),
-        ("mu", "(mu * (I1b - 3.0)).powf(2.0 * mu)", "(mu * (I1b - 3.0)).powf(2.0 * mu)"),
+        ("mu", "(mu * (I1 - 3.0)).powf(2.0 * mu)", "(mu * (I1 - 3.0)).powf(2.0 * mu)"),
         ("sum(|p| m[p])", "(2.0 * J.ln()).powf(mu)", "(2.0 * J.ln()).powf(mu)"),
     ] {
         let term = format!("{factor} * {written}");
@@ -179,6 +178,34 @@ fn what_vanishes_at_rest_has_whole_powers() {
     let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
     check_added(of_entries, of_entries, "the base of `(2.0 * J.ln()).powf(m[p])` vanishes at rest");
     check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
+    check_added(
+        "mu * (I1 - 3.0).powf(1.5)",
+        "(I1 - 3.0).powf(1.5)",
+        "write `I1b` for `I1`, since `I1b - 3.0` is never negative",
+    );
+}
+
+/// I1b − 3 is never negative, and its real powers above 1 are smooth.
+#[test]
+fn powers_of_what_is_never_negative() {
+    check_body(&format!("{GOOD} + mu * (I1b - 3.0).powf(1.5)"), &[]);
+    check_body(&format!("{GOOD} + mu * (2.0 * (I1b - 3.0) + I2b - 3.0).powf(1.01)"), &[]);
+    let rough = "the stiffness of this is infinite at rest";
+    for term in ["mu * (I1b - 3.0).sqrt()", "mu * (I2b - 3.0).powf(0.9)", "mu * (I1b - 3.0).powf(mu)"] {
+        check_body(&format!("{GOOD} + {term}"), &[(&format!("{GOOD} + {term}"), rough)]);
+    }
+    // The terms of first order cancel, and the root alone would not do.
+    let smooth = "let t = ((I1b - 3.0) / mu).sqrt(); -mu * ((1.0 - t).ln() + t)";
+    check(
+        "domain(J > 0.0, I1b - 3.0 < mu)",
+        &format!("fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {{ {smooth} + mu * (J - 1.0).powi(2) }}"),
+        &[],
+    );
+    let energy = "mu * (I1b - 3.0) + k * (I1b - 3.0).powf(n)";
+    let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, k: f64, n: f64) -> f64 {{ {energy} }}");
+    check("domain(J > 0.0)", &item, &[(energy, "declare `admissible(n > 1.0)`")]);
+    check("domain(J > 0.0), admissible(n > 1.0), fit", &item, &[]);
+    check("domain(J > 0.0), admissible(n > 1.0), extend", &item, &[("extend", "which is not continued")]);
 }
 
 #[test]
@@ -345,8 +372,8 @@ fn independent_mistakes_come_at_once() {
     );
     check(
         "domain(J > 0.0)",
-        &energy("kappa * (I1b - 3).powf(2.5) + mu * I1"),
-        &[("(I1b - 3).powf(2.5)", "vanishes at rest and is negative nearby"), ("mu * I1", stressed)],
+        &energy("kappa * J.ln().powf(2.5) + mu * I1"),
+        &[("J.ln().powf(2.5)", "vanishes at rest and is negative nearby"), ("mu * I1", stressed)],
     );
     check(
         "",

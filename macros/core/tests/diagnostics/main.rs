@@ -165,7 +165,9 @@ fn names() {
         "E",
         "C has eigenvalues `l1.powi(2)` and so on, the Green strain E `(l1.powi(2) - 1.0) / 2.0`",
     );
-    check_added("std::f64::consts::PI", "std::f64::consts::PI", "write constants as numbers");
+    check_added("f64::EPSILON", "f64::EPSILON", "write constants as numbers");
+    check_added("I4", "I4", "it belongs to fibres, and an energy is isotropic");
+    check_added("pi", "pi", "write `PI`");
     check_added("f64::INFINITY", "f64::INFINITY", "the numbers of an energy are finite");
     check_body(&format!("let unused = 1.0; {GOOD}"), &[("unused", "`unused` is not used")]);
     check_body(&format!("let mu = 1.0; {GOOD}"), &[("mu", "`mu` is taken already")]);
@@ -184,11 +186,16 @@ fn names() {
 
 #[test]
 fn calls_and_operators() {
-    check_added("J.log()", "log", "write `.ln()`");
+    check_added("J.log()", "log", "takes one argument, the base; the natural logarithm is `.ln()`");
     check_added("J.pow(2)", "pow", "write `.powi(2)`");
-    check_added("J.gamma()", "gamma", "there are `.powi(2)`, `.powf(alpha)`");
-    check_added("J.sinh()", "sinh", "write `(x.exp() - (-x).exp()) / 2.0`");
-    check_added("J.atan()", "atan", "give it as a parameter, `f: piola::Spline`");
+    check_added("J.zeta()", "zeta", "there are `.powi(2)`, `.powf(alpha)`");
+    check_added("J.acos()", "acos", "implements `piola::Univariate`");
+    check_added("J.tan()", "tan", "write `x.sin() / x.cos()`");
+    check_added("J.thanh()", "thanh", "did you mean `.tanh()`?");
+    check_added("tanh(J)", "tanh", "write `x.tanh()`");
+    check_added("J.tanh(2.0)", "tanh", "`tanh` takes no argument");
+    check_added("J.log(1.0)", "1.0", "no base 1");
+    check_added("(0.0).log10()", "(0.0).log10()", "a number that is not positive");
     check_added("tr(J)", "tr", "write the sum of the eigenvalues");
     check_added("J.abs()", "abs", "`abs` has a kink");
     check_added("J.ln(2.0)", "ln", "`ln` takes no argument");
@@ -206,6 +213,7 @@ fn calls_and_operators() {
     check_added("sum(m)", "sum(m)", "a sum is written `sum(|p| mu[p] * …)`");
     check_added("sum(|i| mu)", "i", "runs over no list: write `m[i]` in it");
     check_added("J ^ 2", "^", "x.powi(2)");
+    check_added("J ** 2", "*", "a power is written `x.powi(2)`");
     check_added("J % 2.0", "%", "only `+ - * /`");
     check_added("!J", "!", "only `-`");
     check_added("(J > 1.0)", ">", "an energy has no comparisons");
@@ -220,7 +228,7 @@ fn calls_and_operators() {
 
 #[test]
 fn helpers() {
-    let expected = "write it out, or name parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
+    let expected = "write a sum over the three stretches as `sum(|l| …)`, and name parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
     let closure = "|x: f64| x.powf(mu) + (y[k] - 1.0)";
     check_body(&format!("let f = {closure}; {GOOD} + f(l1) + f(l2) + f(l3)"), &[(closure, expected)]);
     let function = "fn f(x: f64, a: f64) -> f64 { x.powf(a) }";
@@ -250,26 +258,41 @@ fn parts_are_named_inside_sums() {
 
 #[test]
 fn sums_inside_sums() {
-    let both = "sums cannot stand inside sums: write two sums and multiply them";
+    let both = "sums over lists cannot stand inside each other: write two sums and multiply them";
     check_added("sum(|p| m[p] * sum(|q| m[q]))", "sum(|q| m[q])", both);
     check_added("sum(|p| sum(|q| l[q].powf(m[p]) * (m[q])))", "sum(|q| l[q].powf(m[p]) * (m[q]))", both);
-    let out = |power: &str| format!("write the three stretches out, `l1.{power} + l2.{power} + l3.{power}`");
-    for inner in [
-        "sum(|k| l[k].powf(m[p]))",
-        "sum(|k| lambda[k].powf(m[p]) - 1)",
-        "sum(|k| mu * l1[k].powf(m[p]))",
-        "sum(|k| (k - 1).powf((m[p])))",
-    ] {
+    let out = |power: &str| format!("names one of them: write `sum(|l| l.{power})`");
+    for inner in
+        ["sum(|k| l[k].powf(m[p]))", "sum(|k| lambda[k].powf(m[p]) - 1)", "sum(|k| mu * l1[k].powf(m[p]))"]
+    {
         check_added(&format!("sum(|p| m[p] * (({inner} - 3).exp() - 1))"), inner, &out("powf(m[p])"));
     }
     check_added("sum(|p| m[p] * sum(|k| l[k].powi(4)))", "sum(|k| l[k].powi(4))", &out("powi(2)"));
     let inner = "sum(|k| m[p] * x[k].powf(a[p]))";
     let item = format!("fn E([x, y, z]: [f64; 3], m: [f64; 2], a: [f64; 2]) -> f64 {{ sum(|p| {inner}) }}");
-    check(
-        "",
-        &item,
-        &[(inner, "write the three stretches out, `x.powf(a[p]) + y.powf(a[p]) + z.powf(a[p])`")],
+    check("", &item, &[(inner, "names one of them: write `sum(|l| l.powf(a[p]))`")]);
+}
+
+/// The closure of a sum over stretches has names of its own, each read at least once.
+#[test]
+fn sums_over_stretches() {
+    let whole = "mu * (sum(|l| l.powi(2) - 1.0) - 2.0 * J.ln()) + sum(|p| m[p]) * (J - 1.0).powi(2)";
+    check_body(whole, &[]);
+    check_body(&format!("{GOOD} + mu * sum(|a, b| (a * b - 1.0).powi(2))"), &[]);
+    check_body(
+        &format!("{GOOD} + sum(|l| {{ let s = l / J.cbrt(); sum(|p| (s.powf(m[p]) - 1.0) * m[p]) }})"),
+        &[],
     );
+    check_added("sum(|l1| l1.powi(2))", "l1", "the name `l1` is taken already");
+    check_added("sum(|a, a| (a - 1.0).powi(2))", "a", "the name `a` is taken already");
+    check_added("sum(|a, b| (a - 1.0).powi(2))", "b", "`b` is not used: remove it");
+    check_added("sum(|l| (l - nu).powi(2))", "nu", "did you mean `mu`?");
+    check_added(
+        "sum(|a, b, c| a * b * c)",
+        "sum(|a, b, c| a * b * c)",
+        "`sum(|a, b| (a * b).powi(2))` over their pairs",
+    );
+    check_added("sum(|l| { let s = l; l.powi(2) })", "s", "`s` is not used");
 }
 
 /// Papers write tr C⁻¹, which is I2/J², not I1; each is one mistake.

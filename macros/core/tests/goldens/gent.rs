@@ -57,7 +57,7 @@
 /// | blocks | 107 (5 ÷) |
 /// | blocks, continued | 163 (9 ÷, 6 Δ) |
 ///
-/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
+/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, φ other elementary functions, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
 #[derive(Copy)]
 pub struct Gent<P = f64> {
@@ -303,29 +303,17 @@ const _: () = {
             let t19 = t16.mul_add(R::splat(1.0) / l1, t12.mul_add(t16, t15));
             let t23 = kappa
                 * l3.mul_add(strains[0] * l2, strains[1].mul_add(l3, strains[2]));
-            let t24 = t19 + t23;
-            let t26 = l1.mul_add(l2 * l3, -R::splat(1.0));
-            let t28 = t26 * (strains[2] * kappa);
-            let t29 = t24 + t28;
-            let t30 = strains[1] * kappa;
-            let t32 = t26.mul_add(l3 * t30, t29);
-            let t33 = t15 + t23;
-            let t34 = t28 + t33;
-            let t35 = mu * strains[1];
-            let t38 = t35.mul_add(R::splat(1.0) / l2, t12.mul_add(t35, t34));
-            let t39 = strains[0] * kappa;
-            let t41 = t26.mul_add(l3 * t39, t38);
-            let t42 = mu * strains[2];
-            let t48 = t26
-                .mul_add(
-                    l2 * t39,
-                    t26
-                        .mul_add(
-                            t30,
-                            t42.mul_add(R::splat(1.0) / l3, t12.mul_add(t42, t33)),
-                        ),
-                );
-            let inside = [t32, t41, t48];
+            let t25 = l3.mul_add(l2 * t23, t19);
+            let t26 = mu * strains[1];
+            let t29 = t26.mul_add(R::splat(1.0) / l2, t12.mul_add(t26, t15));
+            let t30 = l1 * t23;
+            let t31 = l3.mul_add(t30, t29);
+            let t32 = mu * strains[2];
+            let inside = [
+                t25,
+                t31,
+                l2.mul_add(t30, t32.mul_add(R::splat(1.0) / l3, t12.mul_add(t32, t15))),
+            ];
             if let __p::Inversion::Extend { epsilon: epsilon } = self.inversion {
                 let below = strains[2].less(R::splat(epsilon - 1.0));
                 if __p::Mask::any(below) {

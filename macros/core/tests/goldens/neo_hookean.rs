@@ -55,7 +55,7 @@
 /// | blocks | 45 (3 ÷, 1 ln) |
 /// | blocks, continued | 134 (7 ÷, 3 ln, 6 Δ) |
 ///
-/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
+/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, φ other elementary functions, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
 #[derive(Copy)]
 pub struct NeoHookean<P = f64> {
@@ -252,28 +252,25 @@ const _: () = {
             ];
             let mu: R = __p::ParameterValue::on(&self.mu);
             let t0 = mu * strains[0];
+            let t1 = R::splat(1.0) / l1;
             let lambda: R = __p::ParameterValue::on(&self.lambda);
-            let t3 = l3.mul_add(strains[0] * l2, strains[1].mul_add(l3, strains[2]));
-            let t5 = l1 * (l3 * l2);
-            let t9 = __p::Pair::new(
-                [t5, R::splat(1.0)],
-                [R::splat(1.0) / t5, R::splat(1.0)],
-                [t5.logarithm(), R::splat(1.0).logarithm()],
+            let t2 = t0.mul_add(t1, t0);
+            let t5 = l3.mul_add(strains[0] * l2, strains[1].mul_add(l3, strains[2]));
+            let t7 = l1 * (l3 * l2);
+            let t11 = __p::Pair::new(
+                [t7, R::splat(1.0)],
+                [R::splat(1.0) / t7, R::splat(1.0)],
+                [t7.logarithm(), R::splat(1.0).logarithm()],
             );
-            let t12 = t9.ln_quotient() * (lambda * t3);
-            let t13 = t0 + t12;
-            let t15 = lambda * __p::ln_product([l1, l2, l3]);
-            let t18 = (-strains[0]).mul_add(t15, t0).mul_add(R::splat(1.0) / l1, t13);
-            let t19 = mu * strains[1];
-            let t23 = (-strains[1])
-                .mul_add(t15, t19)
-                .mul_add(R::splat(1.0) / l2, t12 + t19);
-            let t24 = mu * strains[2];
-            let inside = [
-                t18,
-                t23,
-                (-strains[2]).mul_add(t15, t24).mul_add(R::splat(1.0) / l3, t12 + t24),
-            ];
+            let t12 = t11.ln_quotient();
+            let t13 = lambda * t5;
+            let t15 = t12.mul_add(t1 * t13, t2);
+            let t16 = mu * strains[1];
+            let t17 = R::splat(1.0) / l2;
+            let t20 = t12.mul_add(t13 * t17, t16.mul_add(t17, t16));
+            let t21 = mu * strains[2];
+            let t22 = R::splat(1.0) / l3;
+            let inside = [t15, t20, t12.mul_add(t13 * t22, t21.mul_add(t22, t21))];
             if let __p::Inversion::Extend { epsilon: epsilon } = self.inversion {
                 let below = strains[2].less(R::splat(epsilon - 1.0));
                 if __p::Mask::any(below) {

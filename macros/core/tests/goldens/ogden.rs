@@ -51,7 +51,7 @@
 /// | blocks | 85 + 27 N (6 ÷, 3 ln, 3 N pow, 3 + 3 N Δ) |
 /// | blocks, continued | 131 + 60 N (7 + N ÷, 4 ln, 4 N pow, 9 + 3 N Δ) |
 ///
-/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, pow real powers, Δ divided differences, f functions that are parameters.
+/// A fused multiplication and addition counts as two operations, a loop over lists of length N as N times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a multiplication: ÷ divisions, √ roots, ln, exp, φ other elementary functions, pow real powers, Δ divided differences, f functions that are parameters.
 #[derive(Clone, Debug, PartialEq)]
 #[derive(Copy)]
 pub struct Ogden<const N: usize, P = f64> {
@@ -377,7 +377,7 @@ const _: () = {
                 let alpha: R = __p::ParameterValue::on(&self.alpha[p]);
                 let t14 = alpha - R::splat(1.0);
                 let t18 = t3.power_quotient([R::power(t1, t14), R::splat(1.0)], t14)
-                    * (strains[0] * mu);
+                    * (mu * strains[0]);
                 let t22 = t6.power_quotient([R::power(t5, t14), R::splat(1.0)], t14)
                     * (mu * strains[1]);
                 let t26 = t9.power_quotient([R::power(t8, t14), R::splat(1.0)], t14)
@@ -391,22 +391,13 @@ const _: () = {
             let t28 = t0.mul_add(strains[0] * t11, t10);
             let t32 = kappa
                 * l3.mul_add(strains[0] * l2, strains[1].mul_add(l3, strains[2]));
-            let t33 = t28 + t32;
-            let t35 = l1.mul_add(l2 * l3, -R::splat(1.0));
-            let t37 = t35 * (strains[2] * kappa);
-            let t38 = t33 + t37;
-            let t39 = strains[1] * kappa;
-            let t41 = t35.mul_add(l3 * t39, t38);
-            let t45 = t4.mul_add(strains[1] * t11, t12 + (t32 + t37));
-            let t46 = strains[0] * kappa;
+            let t34 = l3.mul_add(l2 * t32, t28);
+            let t36 = t4.mul_add(strains[1] * t11, t12);
+            let t37 = l1 * t32;
             let inside = [
-                t41,
-                t35.mul_add(l3 * t46, t45),
-                t35
-                    .mul_add(
-                        l2 * t46,
-                        t35.mul_add(t39, t7.mul_add(strains[2] * t11, t13 + t32)),
-                    ),
+                t34,
+                l3.mul_add(t37, t36),
+                l2.mul_add(t37, t7.mul_add(strains[2] * t11, t13)),
             ];
             if let __p::Inversion::Extend { epsilon: epsilon } = self.inversion {
                 let below = strains[2].less(R::splat(epsilon - 1.0));

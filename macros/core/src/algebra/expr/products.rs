@@ -64,6 +64,11 @@ impl Graph {
                 if constant == Rational::ONE {
                     return;
                 }
+                // Only positive real powers are taken of zero: those of an excess at rest.
+                if constant.is_zero() {
+                    *coefficient = Rational::ZERO;
+                    return;
+                }
             }
             // c·t and Π have whole powers factor by factor; real ones only where every factor is known
             // positive.
@@ -81,6 +86,18 @@ impl Graph {
                     let power = self.exact(factor.checked_powi(n));
                     *coefficient = self.exact(coefficient.checked_mul(power));
                     self.gather(term, exponent, coefficient, into);
+                    return;
+                }
+            }
+            // (b − a)² = (a − b)²
+            Node::Linear { constant, terms }
+                if constant.is_zero() && exponent.as_integer().is_some_and(|n| n > 0 && n % 2 == 0) =>
+            {
+                if let [(b, first), (a, Rational::ONE)] = terms[..]
+                    && first == Rational::ONE.negated()
+                {
+                    let difference = self.sub(b, a);
+                    self.gather_one(difference, exponent, into);
                     return;
                 }
             }

@@ -10,10 +10,15 @@ impl Graph {
         match self.node(id) {
             Node::Linear { terms, .. } => terms.iter().map(|&(term, _)| term).collect(),
             Node::Product(factors) => factors.iter().flat_map(|(base, e)| with_exponent(*base, e)).collect(),
-            Node::Ln(a) | Node::Exp(a) | Node::Function(.., a) | Node::Sum(_, a) => vec![*a],
+            Node::Ln(a) | Node::Exp(a) | Node::Elementary(_, a) | Node::Function(.., a) | Node::Sum(_, a) => {
+                vec![*a]
+            }
+            Node::Excess(a, b) if a == b => vec![*a],
+            Node::Excess(a, b) => vec![*a, *b],
             Node::WhereNegative(a, b, c) => vec![*a, *b, *c],
             Node::LnQuotient(a, b)
             | Node::ExpQuotient(a, b)
+            | Node::ElementaryQuotient(_, a, b)
             | Node::FunctionQuotient(.., a, b)
             | Node::PoleQuotient(a, b) => vec![*a, *b],
             Node::PowerQuotient(a, b, exponent) => [*a, *b].into_iter().chain(exponent.real).collect(),
@@ -60,6 +65,14 @@ impl Graph {
                 let a = map(self, a);
                 return self.exp(a);
             }
+            Node::Excess(a, b) => {
+                let (a, b) = (map(self, a), map(self, b));
+                return self.excess(a, b);
+            }
+            Node::Elementary(function, a) => {
+                let a = map(self, a);
+                return self.elementary(function, a);
+            }
             Node::Sum(length, body) => {
                 let body = map(self, body);
                 return self.sum(length, body);
@@ -70,6 +83,9 @@ impl Graph {
             }
             Node::WhereNegative(condition, a, b) => {
                 Node::WhereNegative(map(self, condition), map(self, a), map(self, b))
+            }
+            Node::ElementaryQuotient(function, a, b) => {
+                Node::ElementaryQuotient(function, map(self, a), map(self, b))
             }
             Node::LnQuotient(a, b) => Node::LnQuotient(map(self, a), map(self, b)),
             Node::ExpQuotient(a, b) => Node::ExpQuotient(map(self, a), map(self, b)),

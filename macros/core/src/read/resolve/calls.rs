@@ -5,6 +5,7 @@ use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
 use super::tensors::{self, Tensor};
 use super::{Resolver, Scope, paper_notation};
+use crate::algebra::elementary::Elementary;
 use crate::algebra::expr::{Exponent, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::literals::is_number;
@@ -12,7 +13,7 @@ use crate::read::parse::identifiers;
 use crate::read::spelling::{list, nearest};
 
 /// Methods of numbers, each with an example of a call.
-const METHODS: [(&str, &str); 7] = [
+const METHODS: [(&str, &str); 10] = [
     ("powi", ".powi(2)"),
     ("powf", ".powf(alpha)"),
     ("ln", ".ln()"),
@@ -20,7 +21,13 @@ const METHODS: [(&str, &str); 7] = [
     ("sqrt", ".sqrt()"),
     ("cbrt", ".cbrt()"),
     ("recip", ".recip()"),
+    ("log10", ".log10()"),
+    ("log2", ".log2()"),
+    ("log", ".log(2.0)"),
 ];
+
+/// Methods that a message offers where no name is near, each with an example; [`Elementary`] has more.
+const OFFERED: [&str; 6] = [".powi(2)", ".powf(alpha)", ".ln()", ".exp()", ".sqrt()", ".tanh()"];
 
 /// Functions of `f64` whose derivatives jump.
 const KINKED: [&str; 12] = [
@@ -48,7 +55,7 @@ impl Resolver<'_> {
         }
         let receiver = self.expression(&call.receiver);
         let expected = match name.as_str() {
-            "powi" | "powf" => 1,
+            "powi" | "powf" | "log" => 1,
             name if form(name).is_some() => 0,
             _ => {
                 self.excuse_names(&call.args);
@@ -57,13 +64,39 @@ impl Resolver<'_> {
         };
         if call.args.len() != expected {
             self.excuse_names(&call.args);
-            let what = if expected == 0 { "no argument" } else { "one argument, the exponent" };
+            let what = match name.as_str() {
+                "log" => "one argument, the base; the natural logarithm is `.ln()`",
+                _ if expected == 0 => "no argument",
+                _ => "one argument, the exponent",
+            };
             return self.mistake(&call.method, &format!("`{name}` takes {what}"));
         }
         let graph = &mut *self.graph;
+        if let Some(function) = Elementary::named(&name) {
+            // Conditions are emitted as they are written.
+            if self.scope == Scope::Parameters
+                && matches!(function, Elementary::Erf | Elementary::Sigmoid | Elementary::Softplus)
+            {
+                let message = format!("a condition is Rust of its own, where numbers have no `{name}`");
+                return self.mistake(&call.method, &message);
+            }
+            return graph.elementary(function, receiver);
+        }
         match name.as_str() {
-            "ln" if graph.as_constant(receiver).is_some_and(|x| x.is_zero() || x.is_negative()) => {
+            "ln" | "log10" | "log2" | "log"
+                if graph.as_constant(receiver).is_some_and(|x| x.is_zero() || x.is_negative()) =>
+            {
                 self.mistake(call, "this logarithm is of a number that is not positive")
+            }
+            "log10" => self.logarithm(receiver, std::f64::consts::LOG10_E),
+            "log2" => self.logarithm(receiver, std::f64::consts::LOG2_E),
+            "log" => {
+                let base = self.expression(&call.args[0]);
+                let (value, base) = (self.graph.ln(receiver), self.graph.ln(base));
+                if self.graph.is_zero(base) {
+                    return self.mistake(&call.args[0], "a logarithm has no base 1: division by zero");
+                }
+                self.graph.div(value, base)
             }
             "ln" => graph.ln(receiver),
             "exp" => graph.exp(receiver),
@@ -74,6 +107,12 @@ impl Resolver<'_> {
             "powi" => self.whole_power(receiver, &call.args[0]),
             _ => self.real_power(receiver, &call.args[0]),
         }
+    }
+
+    /// ln x times a factor.
+    fn logarithm(&mut self, of: Id, factor: f64) -> Id {
+        let (ln, factor) = (self.graph.ln(of), self.graph.leaf(Node::Float(factor.to_bits())));
+        self.graph.mul(factor, ln)
     }
 
     /// A function of a tensor, which has no value by itself: one message, on the function or on the name of
@@ -101,12 +140,17 @@ impl Resolver<'_> {
             );
             return self.mistake(method, &message);
         }
-        let near = || nearest(&name, METHODS.map(|(known, _)| known)).and_then(form);
+        let elementary = Elementary::ALL.map(Elementary::name);
+        let known = || METHODS.into_iter().map(|(known, _)| known).chain(elementary);
+        let near = || nearest(&name, known()).and_then(form);
         let hint = match tensors::function(&name, of).or_else(|| paper_notation::function(&name)) {
             Some(hint) => hint.to_owned(),
             None => match near() {
                 Some(form) => format!("did you mean `{form}`?"),
-                None => format!("there are {}", list(&METHODS.map(|(_, form)| form))),
+                None => format!(
+                    "there are {}, …; another one is a parameter `f: F`, with `F` that implements `piola::Univariate`",
+                    list(&OFFERED)
+                ),
             },
         };
         self.mistake(method, &format!("unknown function `{name}`: {hint}"))
@@ -216,6 +260,7 @@ impl Resolver<'_> {
 }
 
 /// An example of a call of a method.
-fn form(name: &str) -> Option<&'static str> {
-    METHODS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form)
+fn form(name: &str) -> Option<String> {
+    let method = METHODS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form.to_owned());
+    method.or_else(|| Elementary::named(name).map(|function| format!(".{}()", function.name())))
 }

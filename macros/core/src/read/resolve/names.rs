@@ -1,5 +1,7 @@
 //! Names of an expression and their meanings.
 
+use std::f64::consts;
+
 use syn::{Ident, Path};
 
 use super::{Resolver, Scope, paper_notation};
@@ -7,6 +9,18 @@ use crate::algebra::expr::{Exponent, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::parse::{Kind, WORDS};
 use crate::read::spelling::{list, nearest};
+
+/// The constants of `std::f64::consts` that formulas use.
+const CONSTANTS: [(&str, f64); 8] = [
+    ("PI", consts::PI),
+    ("TAU", consts::TAU),
+    ("E", consts::E),
+    ("LN_2", consts::LN_2),
+    ("LN_10", consts::LN_10),
+    ("SQRT_2", consts::SQRT_2),
+    ("FRAC_PI_2", consts::FRAC_PI_2),
+    ("FRAC_2_SQRT_PI", consts::FRAC_2_SQRT_PI),
+];
 
 impl Resolver<'_> {
     pub(super) fn name(&mut self, name: &Ident) -> Id {
@@ -51,6 +65,12 @@ impl Resolver<'_> {
         }
         if let Some(word) = self.word(&text) {
             return word;
+        }
+        if text == "PI" && self.scope == Scope::Parameters {
+            return self.mistake(name, "a condition is Rust of its own: write `std::f64::consts::PI`");
+        }
+        if text == "PI" {
+            return self.graph.leaf(Node::Float(consts::PI.to_bits()));
         }
         if self.index.as_ref().is_some_and(|index| index.name == *name) {
             // One message for the name, however often it occurs.
@@ -157,6 +177,10 @@ impl Resolver<'_> {
         let last = path.segments.last().map(|last| last.ident.to_string()).unwrap_or_default();
         if ["NAN", "INFINITY", "NEG_INFINITY"].contains(&last.as_str()) {
             return self.mistake(path, "the numbers of an energy are finite: write one");
+        }
+        let is_constant = path.segments.iter().rev().nth(1).is_some_and(|module| module.ident == "consts");
+        if let Some((_, value)) = CONSTANTS.iter().find(|(name, _)| is_constant && *name == last) {
+            return self.graph.leaf(Node::Float(value.to_bits()));
         }
         self.mistake(
             path,

@@ -18,7 +18,10 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
              `(l1.powi(2) - 1.0) / 2.0`"
         }
         "e" => "write `x.exp()` for eˣ",
-        "PI" | "pi" => "write the number, `3.141592653589793`",
+        "pi" => "write `PI`",
+        "I4" | "I5" | "I6" | "I7" | "I8" | "I4b" | "J4" | "IV" => {
+            "it belongs to fibres, and an energy is isotropic here: it depends on the three stretches alone"
+        }
         _ => return None,
     })
 }
@@ -27,14 +30,24 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
 pub(super) fn function(name: &str) -> Option<&'static str> {
     Some(match name {
         "pow" => "write `.powi(2)` or `.powf(alpha)`",
-        "log" | "log10" | "log2" => "write `.ln()`",
-        "exp2" | "exp_m1" => "write `.exp()`",
-        "ln_1p" => "write `(1.0 + x).ln()`",
-        "cosh" => "write `(x.exp() + (-x).exp()) / 2.0`",
-        "sinh" => "write `(x.exp() - (-x).exp()) / 2.0`",
-        "tanh" => "write `1.0 - 2.0 / ((2.0 * x).exp() + 1.0)`",
-        "sin" | "cos" | "tan" | "asin" | "acos" | "atan" | "erf" | "asinh" | "acosh" | "atanh" => {
-            "give it as a parameter, `f: piola::Spline`, and write `f(x)`"
+        "exp2" => "write `2.0.ln()` times x, then `.exp()`",
+        "expm1" => "write `.exp_m1()`",
+        "log1p" | "ln1p" => "write `.ln_1p()`",
+        "arctan" | "arctg" => "write `.atan()`",
+        "arsinh" | "arcsinh" => "write `.asinh()`",
+        "tan" => "write `x.sin() / x.cos()`, and a domain in which the cosine stays positive",
+        "coth" => "write `x.cosh() / x.sinh()`, and a domain in which x stays positive",
+        "erfc" => "write `1.0 - x.erf()`",
+        "atanh" | "artanh" | "arctanh" => {
+            "write `((1.0 + x) / (1.0 - x)).ln() / 2.0`, and a domain in which it has a value"
+        }
+        "acosh" | "arcosh" => {
+            "write `(x + (x.powi(2) - 1.0).sqrt()).ln()`, and a domain in which it has a value"
+        }
+        "logistic" => "write `.sigmoid()`",
+        "langevin" => "write `x.cosh() / x.sinh() - 1.0 / x`",
+        "asin" | "acos" | "erfi" | "gamma" => {
+            "give it as a parameter `f: F`, with a type of your own that implements `piola::Univariate`, and write `f(x)`"
         }
         _ => return None,
     })

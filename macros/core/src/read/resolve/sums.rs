@@ -1,11 +1,16 @@
 //! Sums over lists, and entries of lists.
 
 use quote::ToTokens;
-use syn::{Expr, ExprCall, ExprClosure, ExprIndex, Ident, Pat};
+use syn::{Expr, ExprCall, ExprIndex, Ident};
 
+use super::stretches::Summand;
 use super::{Resolver, Scope};
 use crate::algebra::expr::{Id, Length, Node};
 use crate::read::parse::indexed_lists;
+
+/// The message about a sum of another form.
+const FORMS: &str = "a sum is written `sum(|p| mu[p] * …)` over lists, `sum(|l| l.powi(2))` over the three stretches, \
+     `sum(|a, b| (a * b).powi(2))` over their pairs";
 
 /// The index of a sum.
 pub(super) struct Index {
@@ -31,26 +36,22 @@ impl Resolver<'_> {
             return self
                 .mistake(call, "a condition has no sums: written as `mu[p] > 0.0`, it holds for each entry");
         }
-        let closure = match call.args.first() {
-            Some(Expr::Closure(closure)) if call.args.len() == 1 && closure.inputs.len() == 1 => {
-                Some(closure)
-            }
-            _ => None,
+        let Some(summand) = Summand::of(call) else {
+            return self.mistake(call, FORMS);
         };
-        let index = closure.and_then(|closure| match &closure.inputs[0] {
-            Pat::Ident(name) => Some((closure, &name.ident)),
-            _ => None,
-        });
-        let Some((closure, name)) = index else {
-            return self.mistake(call, "a sum is written `sum(|p| mu[p] * …)`");
+        let name = match summand.names[..] {
+            [a, b] => return self.sum_over_pairs([a, b], summand.body),
+            [name] if summand.is_over_stretches() => return self.sum_over_stretches(name, summand.body),
+            [name] => name,
+            _ => return self.mistake(call, FORMS),
         };
         if let Some(outer) = &self.index {
-            let message = self.inside(&outer.name, closure, name);
+            let message = self.inside(&outer.name, summand.body, name);
             self.excuse();
             return self.mistake(call, &message);
         }
         self.index = Some(Index::new(name.clone()));
-        let body = self.expression(&closure.body);
+        let body = self.expression(summand.body);
         match self.index.take() {
             Some(Index { length: Some(length), .. }) => self.graph.sum(length, body),
             Some(Index { is_excused: true, .. }) => body,
@@ -58,24 +59,21 @@ impl Resolver<'_> {
         }
     }
 
-    /// The message about a sum inside another one.
-    fn inside(&self, outer: &Ident, closure: &ExprClosure, index: &Ident) -> String {
-        let mut lists = indexed_lists(closure.body.to_token_stream());
+    /// The message about a sum over lists inside another one.
+    fn inside(&self, outer: &Ident, body: &Expr, index: &Ident) -> String {
+        let mut lists = indexed_lists(body.to_token_stream());
         lists.retain(|(list, _)| {
             let mut parameters = self.declaration.parameters.iter();
             parameters.any(|parameter| parameter.name == *list && parameter.length().is_some())
         });
         if lists.iter().any(|(_, by)| by == index) {
-            return "sums cannot stand inside sums: write two sums and multiply them".to_owned();
+            return "sums over lists cannot stand inside each other: write two sums and multiply them"
+                .to_owned();
         }
         // Exponents follow factors.
         let list = lists.iter().rfind(|(_, by)| by == outer);
         let power = list.map_or("powi(2)".to_owned(), |(list, by)| format!("powf({list}[{by}])"));
-        let [l1, l2, l3] = &self.declaration.stretches;
-        format!(
-            "sums run over lists of parameters alone: write the three stretches out, \
-             `{l1}.{power} + {l2}.{power} + {l3}.{power}`"
-        )
+        format!("a sum over the three stretches names one of them: write `sum(|l| l.{power})`")
     }
 
     fn no_list(&self, index: &Ident) -> String {

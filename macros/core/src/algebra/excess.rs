@@ -1,0 +1,253 @@
+//! I1b − 3 and I2b − 3 as sums of squares, where real powers are taken of them.
+//!
+//! Isochoric invariants are at least 3, but I1b − 3 as it is written is known to u alone, and is negative at
+//! rest as often as not: near rest it has no digit, and a real power of it no value. With a = λ1^(2/3), b and
+//! c,
+//!
+//! ```text
+//! J^(2/3) = a b c        I1 = a³ + b³ + c³
+//!
+//! I1b − 3 = (a³ + b³ + c³ − 3 a b c)/(a b c)
+//!         = ½ (1/(b c) + 1/(c a) + 1/(a b)) ((a − b)² + (b − c)² + (c − a)²)
+//! ```
+//!
+//! whose terms are never negative, and as accurate, relative to themselves, as the differences of the
+//! stretches are. I2b − 3 is the same in the reciprocal stretches, a = λ1^(−2/3).
+//!
+//! An expression in them, such as (1 − β) I1b + β I2b − 3 or (I1b − 3)/(Λ² − 3), is found by writing 3 + X for
+//! I1b and 3 + Y for I2b and multiplying out: if what is left vanishes with X and Y, it is the sum of squares.
+//! [`Node::Excess`] holds it beside the expression as written, which is for readers.
+//!
+//! # At rest
+//!
+//! X is of second order in the strains. So Xⁿ is twice continuously differentiable for n > 1, not only for
+//! n ≥ 2: its stiffness n (n − 1) Xⁿ⁻² X′ X′ + n Xⁿ⁻¹ X″ falls with the strain to the power 2n − 2. At rest
+//! itself Xⁿ⁻² may be infinite beside X′ = 0, and so the base of a power is kept from zero by the smallest
+//! positive number: then the product is 0, as it should be. That needs derivatives of the squares, which vanish
+//! where they do: those of I1b − 3 as it is written would leave u, times a power that may be infinite.
+
+use rustc_hash::FxHashMap;
+
+use crate::algebra::expand::expand_products;
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::increment::substitute_rest;
+use crate::algebra::rational::Rational;
+use crate::algebra::volume::rewrite;
+
+/// The energy with the bases of its real powers as sums of squares, wherever they are found to be such.
+pub fn with_squares(graph: &mut Graph, energy: Id) -> Id {
+    let known = Invariants::new(graph);
+    rewrite(graph, energy, &mut FxHashMap::default(), &|graph, id| known.powers(graph, id))
+}
+
+/// Whether an expression has such bases.
+#[must_use]
+pub fn has_squares(graph: &Graph, id: Id) -> bool {
+    graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Excess(..)))
+}
+
+/// The expression without what its sums of squares were written as, before it is scheduled.
+pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
+    rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
+        Node::Excess(value, _) => Some(graph.excess(value, value)),
+        _ => None,
+    })
+}
+
+/// The nodes by which isochoric invariants are recognised.
+struct Invariants {
+    volume: Id,
+    /// I1 and I2, each with the exponent of J in its isochoric part, and that part less 3.
+    each: [(Id, Rational, Id); 2],
+}
+
+impl Invariants {
+    fn new(graph: &mut Graph) -> Self {
+        let stretches = [0, 1, 2].map(|i| graph.stretch(i));
+        let volume = graph.product_of(&stretches);
+        let squares = stretches.map(|stretch| graph.powi(stretch, 2));
+        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
+        let each = [(squares, -2), (pairs, -4)].map(|(terms, numerator)| {
+            let invariant = graph.sum_of(&terms);
+            let exponent = Rational::new(numerator, 3).unwrap_or(Rational::ONE);
+            let isochoric =
+                graph.product(&[(volume, Exponent::rational(exponent)), (invariant, Exponent::ONE)]);
+            let plain = graph.linear(Rational::integer(-3), &[(isochoric, Rational::ONE)]);
+            let value = squares_of_differences(graph, if numerator == -2 { 2 } else { -2 });
+            (invariant, exponent, graph.excess(value, plain))
+        });
+        Self { volume, each }
+    }
+
+    /// A product with the bases of its real powers replaced.
+    fn powers(&self, graph: &mut Graph, id: Id) -> Option<Id> {
+        let Node::Product(factors) = graph.node(id).clone() else { return None };
+        let is_real = |&(_, exponent): &(Id, Exponent)| exponent.as_integer().is_none();
+        if !factors.iter().any(is_real) {
+            return None;
+        }
+        let replaced: Vec<_> = factors
+            .iter()
+            .map(|&(base, exponent)| match is_real(&(base, exponent)).then(|| self.squares(graph, base)) {
+                Some(Some(squares)) => (squares, exponent),
+                _ => (with_squares_inside(self, graph, base), exponent),
+            })
+            .collect();
+        Some(graph.product(&replaced))
+    }
+
+    /// An expression as a sum of squares, if it is one.
+    fn squares(&self, graph: &mut Graph, base: Id) -> Option<Id> {
+        let shifted = self.shifted(graph, base);
+        let expanded = expand_products(graph, shifted);
+        if expanded == base || !has_squares(graph, expanded) {
+            return None;
+        }
+        let at_rest = substitute_rest(graph, expanded);
+        if !graph.is_zero(at_rest) {
+            return None;
+        }
+        let collected = self.collected(graph, expanded).unwrap_or(expanded);
+        let value = rewrite(graph, collected, &mut FxHashMap::default(), &|graph, id| match *graph.node(id) {
+            Node::Excess(value, _) => Some(value),
+            _ => None,
+        });
+        Some(graph.excess(value, base))
+    }
+
+    /// X − β X + β Y as (1 − β) X + β Y, in which nothing cancels; `None` for what is not linear in X and Y.
+    fn collected(&self, graph: &mut Graph, expanded: Id) -> Option<Id> {
+        let Node::Linear { terms, .. } = graph.node(expanded).clone() else { return None };
+        let mut factors = self.each.map(|(.., excess)| (excess, Vec::new()));
+        for (term, coefficient) in terms {
+            let has = |&mut (excess, _): &mut (Id, Vec<_>)| graph.reachable(&[term]).contains(&excess);
+            let (excess, of) = factors.iter_mut().find_map(|each| has(&mut *each).then_some(each))?;
+            let factor = graph.div(term, *excess);
+            if has_squares(graph, factor) {
+                return None;
+            }
+            of.push((factor, coefficient));
+        }
+        let products = factors.map(|(excess, of)| {
+            let factor = graph.linear(Rational::ZERO, &of);
+            graph.mul(factor, excess)
+        });
+        Some(graph.sum_of(&products))
+    }
+
+    /// The expression with 3 + X in the place of I1b and 3 + Y in that of I2b.
+    fn shifted(&self, graph: &mut Graph, e: Id) -> Id {
+        rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| {
+            let Node::Product(factors) = graph.node(id).clone() else { return None };
+            for &(invariant, per_power, excess) in &self.each {
+                let of = |base: Id| factors.iter().find(|factor| factor.0 == base).map(|factor| factor.1);
+                let (Some(n), Some(volume)) = (of(invariant).and_then(Exponent::as_integer), of(self.volume))
+                else {
+                    continue;
+                };
+                if n < 1
+                    || Some(volume) != per_power.checked_mul(Rational::integer(n)).map(Exponent::rational)
+                {
+                    continue;
+                }
+                let others = factors.iter().filter(|factor| factor.0 != invariant && factor.0 != self.volume);
+                let mut others: Vec<_> = others.map(|&(base, e)| (self.shifted(graph, base), e)).collect();
+                let isochoric = graph.linear(Rational::integer(3), &[(excess, Rational::ONE)]);
+                others.push((isochoric, Exponent::integer(n)));
+                return Some(graph.product(&others));
+            }
+            None
+        })
+    }
+}
+
+fn with_squares_inside(known: &Invariants, graph: &mut Graph, e: Id) -> Id {
+    rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| known.powers(graph, id))
+}
+
+/// ½ (1/(b c) + 1/(c a) + 1/(a b)) ((a − b)² + (b − c)² + (c − a)²) with a = λ1^(n/3) and so on.
+fn squares_of_differences(graph: &mut Graph, n: i128) -> Id {
+    let power = |n: i128| Rational::new(n, 3).map_or(Exponent::ONE, Exponent::rational);
+    let [a, b, c] = [0, 1, 2].map(|i| {
+        let stretch = graph.stretch(i);
+        graph.power(stretch, power(n))
+    });
+    let pairs = [(a, b), (b, c), (c, a)];
+    let squares = pairs.map(|(x, y)| {
+        let difference = graph.sub(x, y);
+        graph.powi(difference, 2)
+    });
+    let reciprocals =
+        pairs.map(|(x, y)| graph.product(&[(x, Exponent::integer(-1)), (y, Exponent::integer(-1))]));
+    let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
+    let (weights, squares) = (graph.sum_of(&reciprocals), graph.sum_of(&squares));
+    let product = graph.mul(weights, squares);
+    graph.scale(product, half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::interpret::{Point, evaluate};
+
+    fn isochoric(graph: &mut Graph) -> [Id; 2] {
+        Invariants::new(graph).each.map(|(_, _, excess)| match *graph.node(excess) {
+            Node::Excess(_, plain) => graph.linear(Rational::integer(3), &[(plain, Rational::ONE)]),
+            _ => excess,
+        })
+    }
+
+    fn real(graph: &mut Graph, e: Id) -> Id {
+        graph.power(e, Exponent::rational(Rational::new(3, 2).unwrap()))
+    }
+
+    #[test]
+    fn squares_have_the_value_of_what_they_replace() {
+        let mut g = Graph::default();
+        let beta = g.leaf(Node::Parameter(0));
+        let [i1, i2] = isochoric(&mut g);
+        let (first, rest) = (g.mul(beta, i2), g.linear(Rational::ONE, &[(beta, Rational::integer(-1))]));
+        let second = g.mul(rest, i1);
+        let mixed = g.linear(Rational::integer(-3), &[(first, Rational::ONE), (second, Rational::ONE)]);
+        let plain = g.linear(Rational::integer(-3), &[(i1, Rational::ONE)]);
+        let over = g.div(plain, beta);
+        let square = g.powi(i1, 2);
+        let squared = g.linear(Rational::integer(-9), &[(square, Rational::ONE)]);
+        let point = Point { stretches: [1.4, 0.9, 0.6], parameters: vec![vec![0.3]], ..Point::default() };
+        for base in [plain, mixed, over, squared] {
+            let power = real(&mut g, base);
+            let rewritten = with_squares(&mut g, power);
+            assert!(has_squares(&g, rewritten));
+            let [found, expected] = [rewritten, power].map(|id| evaluate(&g, id, &point).value);
+            // Some roundings of a value of about 3, of which 1/10 is left.
+            assert!((found - expected).abs() < 1e-14 * expected.abs(), "{found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn digits_are_kept_near_rest() {
+        let mut g = Graph::default();
+        let [i1, _] = isochoric(&mut g);
+        let plain = g.linear(Rational::integer(-3), &[(i1, Rational::ONE)]);
+        let power = real(&mut g, plain);
+        let rewritten = with_squares(&mut g, power);
+        // For shear by s, I1b − 3 = s² to second order.
+        let s = 2f64.powi(-20);
+        let point = Point { stretches: [1.0 + s, 1.0, 1.0 / (1.0 + s)], ..Point::default() };
+        let found = evaluate(&g, rewritten, &point).value;
+        let expected = (4.0 * s * s * (1.0 - s)).powf(1.5);
+        // Terms of the third and fourth order, and the reciprocal's rounding, u/s.
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found} for {expected}");
+    }
+
+    #[test]
+    fn what_does_not_vanish_at_rest_is_left_alone() {
+        let mut g = Graph::default();
+        let [i1, _] = isochoric(&mut g);
+        for constant in [-2, -4, 0] {
+            let shifted = g.linear(Rational::integer(constant), &[(i1, Rational::ONE)]);
+            let power = real(&mut g, shifted);
+            assert_eq!(with_squares(&mut g, power), power, "{constant}");
+        }
+    }
+}
