@@ -5,6 +5,17 @@
 //! formulas does so where both are accurate, on both sides of the switch, and neither is a limit. The formula
 //! that is not selected may give NaN.
 
+mod cardinal;
+mod error_function;
+mod exponential;
+mod logarithm;
+mod trigonometric;
+
+pub use error_function::erf_quotient;
+pub use exponential::{cosh_quotient, exp_m1_quotient, sigmoid_quotient, sinh_quotient, tanh_quotient};
+pub use logarithm::{asinh_quotient, ln_1p_quotient, softplus_quotient};
+pub use trigonometric::{atan_quotient, cos_quotient, sin_quotient};
+
 use crate::lanes::{Mask, Real};
 
 /// Two arguments a, b > 0, with the part that the divided differences of ln and of all powers share.
@@ -285,6 +296,78 @@ mod tests {
             (value - exact).abs() / exact / f64::UNIT_ROUNDOFF / (1.0 + b * t)
         });
         assert!(worst <= 8.0, "{worst} u");
+    }
+
+    type Quotient = fn(f64, f64) -> f64;
+
+    /// Divided differences, with their values at 0.
+    const AT_ZERO: [(Quotient, f64); 12] = [
+        (exp_m1_quotient, 1.0),
+        (ln_1p_quotient, 1.0),
+        (sinh_quotient, 1.0),
+        (cosh_quotient, 0.0),
+        (tanh_quotient, 1.0),
+        (asinh_quotient, 1.0),
+        (sin_quotient, 1.0),
+        (cos_quotient, 0.0),
+        (atan_quotient, 1.0),
+        (erf_quotient, std::f64::consts::FRAC_2_SQRT_PI),
+        (softplus_quotient, 0.5),
+        (sigmoid_quotient, 0.25),
+    ];
+
+    #[test]
+    fn quotients_of_functions_have_their_limits_at_zero() {
+        for (k, (quotient, limit)) in AT_ZERO.into_iter().enumerate() {
+            for tiny in [0.0, 5e-324, 1e-310, 1e-290] {
+                for (a, b) in [(tiny, tiny), (tiny, 0.0), (tiny, -tiny), (-tiny, -tiny)] {
+                    let found = quotient(a, b);
+                    let error = (found - limit).abs();
+                    assert!(error <= 4.0 * f64::UNIT_ROUNDOFF * limit + tiny, "{k}: {found} at {a:e}, {b:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn quotients_of_functions_are_symmetric_and_pass_nan_on() {
+        let arguments = [-30.0, -2.5, -0.9, -0.3, -1e-9, 0.0, 1e-9, 0.3, 0.300_001, 1.0, 2.5, 7.0, 80.0];
+        for (k, (quotient, _)) in AT_ZERO.into_iter().enumerate() {
+            for a in arguments {
+                for b in arguments {
+                    let (found, swapped) = (quotient(a, b), quotient(b, a));
+                    let same = found == swapped || found.is_nan() && swapped.is_nan();
+                    assert!(same, "{k}: {found} and {swapped} at {a}, {b}");
+                }
+                assert!(quotient(a, f64::NAN).is_nan() && quotient(f64::NAN, a).is_nan(), "{k} at {a}");
+            }
+            assert!(quotient(f64::NAN, f64::NAN).is_nan(), "{k}");
+        }
+        // Outside of the domain, also where the quotient of two such numbers would have a value.
+        assert!(ln_1p_quotient(-2.0f64, -3.0).is_nan() && ln_1p_quotient(0.5f64, -3.0).is_nan());
+        assert_eq!(ln_1p_quotient(0.5, -1.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn quotients_of_functions_out_of_range_are_finite() {
+        let check = |found: f64, expected: f64| {
+            // Exponentials of 700 and more err by as many units.
+            assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found:e} for {expected:e}");
+        };
+        // e^715/(2·715), in factors.
+        let extreme = 357.5f64.exp() / 1430.0 * 357.5f64.exp();
+        check(sinh_quotient(715.0, -715.0), extreme);
+        check(cosh_quotient(715.0, 0.0), extreme);
+        check(exp_m1_quotient(715.0, 0.0), 2.0 * extreme);
+        let largest = f64::MAX;
+        check(asinh_quotient(largest, -largest), (largest.ln() + std::f64::consts::LN_2) / largest);
+        check(asinh_quotient(largest, 0.0), (largest.ln() + std::f64::consts::LN_2) / largest);
+        check(ln_1p_quotient(1e300, f64::EPSILON - 1.0), (1e300f64.ln() - f64::EPSILON.ln()) / 1e300);
+        check(softplus_quotient(largest, -largest), 0.5);
+        check(atan_quotient(4e150, 1e150), 0.25e-300);
+        check(atan_quotient(1e200, 1e-100), std::f64::consts::FRAC_PI_2 / 1e200);
+        check(softplus_quotient(-30.0, -700.0), (-30f64).exp().ln_1p() / 670.0);
+        check(softplus_quotient(1e6 + 40.0, 1e6), 1.0);
     }
 
     #[test]
