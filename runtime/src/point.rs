@@ -27,6 +27,7 @@ pub mod gradient;
 pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
+pub mod plane;
 pub mod project;
 pub mod small_strain;
 pub mod stress;

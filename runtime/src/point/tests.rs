@@ -10,6 +10,7 @@ mod differences;
 mod filters;
 mod lanes;
 mod measures;
+mod plane;
 mod small_strain;
 mod statuses;
 
