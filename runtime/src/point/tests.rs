@@ -11,6 +11,7 @@ mod filters;
 mod lanes;
 mod measures;
 mod plane;
+mod rates;
 mod small_strain;
 mod statuses;
 
