@@ -186,7 +186,7 @@ mod tests {
     /// Moderate deformations, as nine numbers each.
     fn sample() -> Vec<[f64; 9]> {
         let mut random = Random::new(121);
-        let one = |k: usize| if k % 4 == 0 { 1.0 } else { 0.0 };
+        let one = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
         (0..COUNT).map(|_| std::array::from_fn(|k| one(k) + 0.2 * random.uniform(-1.0, 1.0))).collect()
     }
 

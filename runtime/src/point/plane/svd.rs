@@ -56,8 +56,8 @@ pub fn svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
     let determinant = (ps - qr) + (ps_error - qr_error);
     let smallest = R::select(R::splat(R::MIN_POSITIVE).less(largest), determinant / largest, R::splat(0.0));
     let smallest = smallest.abs().min(largest).copysign(smallest);
-    // A NaN in a factor must not become a plausible number by the order of a comparison.
-    let smallest = smallest + (largest - largest);
+    // What is not finite must not become a plausible number by the order of a comparison.
+    let smallest = R::select(largest.is_finite(), smallest, largest);
     PlaneSvd { U: rotation(u), stretches: [largest * back, smallest * back], V: rotation(v) }
 }
 
