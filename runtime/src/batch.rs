@@ -39,6 +39,9 @@
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
 //! point has its own.
 //!
+//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PlaneBatch`] has plane
+//! strain and plane stress.
+//!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
 //! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or
 //! out of their range takes the way of all others.
@@ -58,8 +61,10 @@ pub(crate) mod element;
 mod form;
 mod jobs;
 mod material;
+mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;
+mod plane;
 #[cfg(feature = "bodies")]
 pub(crate) mod rest;
 mod sink;
@@ -69,6 +74,7 @@ mod tile;
 mod workspace;
 
 pub use material::{Arguments, Properties, TileMaterial};
+pub use plane::PlaneBatch;
 pub use sink::Layout;
 pub use stage::Stages;
 pub use svd_tile::SvdTile;

@@ -6,12 +6,13 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use piola::batch::{Batch, FACTORS, Layout, REST};
+use piola::batch::{Batch, FACTORS, Layout, PlaneBatch, REST};
 use piola::mesh::{
     Anchor, Bounds, Embedding, Group, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, tetrahedral_box,
 };
 use piola::point::Filter;
+use piola::point::measures::Measure;
 use piola::random::Random;
 use piola::step::{
     Damping, Equilibrium, Filtering, InitialGuess, LineSearchSettings, LinearSolver, NewtonSettings,
@@ -326,6 +327,30 @@ fn batches() {
         let [mut full, mut packed] = [144, 78].map(|size| hostile.numbers(size * points));
         let _ = batch.stiffnesses(&deformations, &rest, &mut gradients, &mut full);
         let _ = batch.packed_stiffnesses(&deformations, &rest, &mut gradients, &mut packed);
+        let [mut six, mut tangents] = [6, 36].map(|size| hostile.numbers(size * points));
+        let measure = hostile.one_of(&Measure::ALL);
+        let _ = batch.measured_stresses(measure, &deformations, &mut six);
+        let _ = batch.measured_tangents(measure, &deformations, &mut six, &mut tangents);
+    });
+}
+
+#[test]
+fn batches_in_the_plane() {
+    check(|hostile| {
+        let (rubber, points) = (hostile.rubber(), hostile.one_of(&[0, 1, 63, 64, 65]));
+        let statuses: Vec<StatusCell> = (0..hostile.length(points)).map(|_| StatusCell::default()).collect();
+        let mut batch = PlaneBatch::new(&rubber)
+            .with_filter(hostile.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute]))
+            .with_threads(hostile.0.once_in(2));
+        if hostile.0.once_in(2) {
+            batch = batch.with_statuses(&statuses);
+        }
+        let [deformations, axial] = [4, 1].map(|size| hostile.numbers(size * points));
+        let [mut across, mut one, mut other] = [(); 3].map(|()| hostile.numbers(points));
+        let [mut four, mut many] = [4, 16].map(|size| hostile.numbers(size * points));
+        let _ = batch.plane_strains(&deformations, &mut four, &mut many);
+        let _ = batch.plane_stresses(&deformations, &mut across, &mut four, &mut many);
+        let _ = batch.uniaxial_stresses(&axial, &mut across, &mut one, &mut other);
     });
 }
 

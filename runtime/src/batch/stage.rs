@@ -14,6 +14,7 @@ use super::form::{
     put_gradient,
 };
 use super::material::{from_rows, to_rows};
+use super::measured::{MeasuredStress, MeasuredTangent};
 use super::sink::{Line, Lines, Sink, Source};
 use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};
@@ -331,6 +332,10 @@ pub trait Stages: Scalar {
     fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
     #[doc(hidden)]
     fn product(backend: Backend, kernel: Product<'_, Self>);
+    #[doc(hidden)]
+    fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64>;
+    #[doc(hidden)]
+    fn measured_tangent(backend: Backend, kernel: MeasuredTangent<'_, Self>) -> Status<u64>;
     /// Lends this thread's workspace; allocates one where it is lent already, or none was before.
     #[doc(hidden)]
     fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
@@ -389,6 +394,14 @@ macro_rules! stages {
 
             fn product(backend: Backend, kernel: Product<'_, Self>) {
                 backend.run(kernel);
+            }
+
+            fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64> {
+                backend.run(kernel)
+            }
+
+            fn measured_tangent(backend: Backend, kernel: MeasuredTangent<'_, Self>) -> Status<u64> {
+                backend.run(kernel)
             }
 
             fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T {

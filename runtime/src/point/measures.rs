@@ -81,7 +81,13 @@
 //! ```
 //!
 //! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material
-//! under the name DDSDDE. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I, which is not symmetric.)
+//! under the name DDSDDE; [`abaqus`] has it in its order. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I,
+//! which is not symmetric.) The *Green–Naghdi rate*, of shells and of Abaqus/Explicit, turns with the rotation
+//! R = U Vᵀ of the polar decomposition instead, Ω = dR Rᵀ, so that Rᵀ τ R changes by it alone:
+//!
+//! ```text
+//! dτ − Ω τ + τ Ω = J c★ : ε.
+//! ```
 //!
 //! # In the principal frames
 //!
@@ -119,9 +125,27 @@
 //! S, dS/dE   ψi/λi        (ψii − ψi/λi)/λi²        ψij/(λi λj)    bij/(λi λj)                      V
 //! σ, c       ψi/(λj λk)   (λi ψii − ψi)/(λj λk)    ψij/λk         bij/λk                           U
 //! σ, c°      ψi/(λj λk)   (λi ψii + ψi)/(λj λk)    ψij/λk         aij (λi/λj + λj/λi)/(2 λk)       U
+//! σ, c★      ψi/(λj λk)   (λi ψii + ψi)/(λj λk)    ψij/λk         aij/λk                           U
+//! τ, J c     λi ψi        λi (λi ψii − ψi)         λi λj ψij      bij λi λj                        U
 //! ```
 //!
-//! Components that the symmetries don't give are zero. The last shear is bij/λk + (σi + σj)/2.
+//! Components that the symmetries don't give are zero. The shear of c° is bij/λk + (σi + σj)/2.
+//!
+//! **Green and Naghdi.** With Ωᵁ and Θ of the essay on the [tangent](super::tangent), dR = U (Ωᵁ + Θ) Vᵀ, and
+//! (λi + λj)(Ωᵁij + Θij) = dF̂ij − dF̂ji. From dF̂ij = (εij + ωij) λj then follows
+//!
+//! ```text
+//! Ωij = ωij + εij (λj − λi)/(λi + λj)
+//! ```
+//!
+//! and the two rates differ in the shears alone, by (Ω − ω) τ − τ (Ω − ω) = (τj − τi)(λj − λi)/(λi + λj) εij.
+//! Since τi − τj = a (λi² − λj²),
+//!
+//! ```text
+//! 2 J c★ijij = a (λi² + λj²) − a (λi − λj)² = 2 a λi λj.
+//! ```
+//!
+//! No sum and no difference of stretches is left, although R itself jumps where two are opposite.
 //!
 //! # What floating point does here
 //!
@@ -152,20 +176,25 @@
 #![expect(non_snake_case, reason = "Q, and F, S, E, U, V as in the essay above")]
 
 use super::Matrix3;
-use super::matrix::dot;
+use super::matrix::{dot, three};
 use super::svd::Svd;
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
+pub mod abaqus;
+mod measure;
+mod principal;
 pub mod voigt;
 
+pub use measure::Measure;
+pub use principal::{PrincipalStress, principal_cauchy, von_mises};
 use voigt::{Matrix6, ORDER, Principal};
 
 /// The second Piola–Kirchhoff stress S = F⁻¹P = V diag(ψi/λi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
 #[inline(always)]
 #[must_use]
 pub fn second_piola<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    symmetric(&svd.V, std::array::from_fn(|i| gradient[i] / svd.stretches[i]))
+    symmetric(&svd.V, three!(i => gradient[i] / svd.stretches[i]))
 }
 
 /// The Kirchhoff stress τ = P Fᵀ = U diag(λi ψi) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
@@ -174,7 +203,7 @@ pub fn second_piola<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    symmetric(&svd.U, std::array::from_fn(|i| gradient[i] * svd.stretches[i]))
+    symmetric(&svd.U, three!(i => gradient[i] * svd.stretches[i]))
 }
 
 /// The Cauchy stress σ = P Fᵀ/J = U diag(ψi/(λj λk)) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
@@ -182,7 +211,7 @@ pub fn kirchhoff<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
 #[must_use]
 pub fn cauchy<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
     let areas = areas(svd.stretches);
-    symmetric(&svd.U, std::array::from_fn(|i| gradient[i] / areas[i]))
+    symmetric(&svd.U, three!(i => gradient[i] / areas[i]))
 }
 
 /// The material tangent dS/dE, Pa, for unfiltered blocks.
@@ -191,15 +220,7 @@ pub fn cauchy<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
 #[inline(always)]
 #[must_use]
 pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let l = svd.stretches;
-    let products = PAIRS.map(|(i, j)| l[i] * l[j]);
-    let principal = Principal {
-        diagonal: std::array::from_fn(|i| (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
-        mixed: std::array::from_fn(|pair| hessian[3 + pair] / products[pair]),
-        shear: std::array::from_fn(|pair| blocks.pair_block(pair).1 / products[pair]),
-    };
-    principal.to_world(&svd.V)
+    material_principal(svd.stretches, blocks).to_world(&svd.V)
 }
 
 /// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed
@@ -210,14 +231,7 @@ pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R>
 #[inline(always)]
 #[must_use]
 pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let (l, areas) = (svd.stretches, areas(svd.stretches));
-    let principal = Principal {
-        diagonal: std::array::from_fn(|i| l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
-        mixed: std::array::from_fn(|pair| hessian[3 + pair] / l[third(pair)]),
-        shear: std::array::from_fn(|pair| blocks.pair_block(pair).1 / l[third(pair)]),
-    };
-    principal.to_world(&svd.U)
+    spatial_principal(svd.stretches, blocks).to_world(&svd.U)
 }
 
 /// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of
@@ -228,18 +242,92 @@ pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
 #[inline(always)]
 #[must_use]
 pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    jaumann_principal(svd.stretches, blocks).to_world(&svd.U)
+}
+
+/// The spatial tangent c★ of the Green–Naghdi rate of τ by deformed volume, Pa, for unfiltered blocks.
+///
+/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
+/// rotation R of the polar decomposition.
+#[inline(always)]
+#[must_use]
+pub fn green_naghdi_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    green_naghdi_principal(svd.stretches, blocks).to_world(&svd.U)
+}
+
+/// The spatial tangent J c of the Kirchhoff stress, Pa, for unfiltered blocks: dS/dE pushed forward.
+///
+/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ as seen by an observer that deforms with the
+/// body. Divides by nothing: finite also where F is singular.
+#[inline(always)]
+#[must_use]
+pub fn kirchhoff_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+    kirchhoff_principal(svd.stretches, blocks).to_world(&svd.U)
+}
+
+#[inline(always)]
+fn material_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
     let Blocks { gradient, hessian, .. } = blocks;
-    let (l, areas) = (svd.stretches, areas(svd.stretches));
-    let principal = Principal {
-        diagonal: std::array::from_fn(|i| l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
-        mixed: std::array::from_fn(|pair| hessian[3 + pair] / l[third(pair)]),
-        shear: std::array::from_fn(|pair| {
+    let products = products(l);
+    Principal {
+        diagonal: three!(i => (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
+        mixed: three!(pair => hessian[3 + pair] / products[pair]),
+        shear: three!(pair => blocks.pair_block(pair).1 / products[pair]),
+    }
+}
+
+#[inline(always)]
+fn spatial_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let areas = areas(l);
+    Principal {
+        diagonal: three!(i => l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
+        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+        shear: three!(pair => blocks.pair_block(pair).1 / l[third(pair)]),
+    }
+}
+
+#[inline(always)]
+fn jaumann_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let areas = areas(l);
+    Principal {
+        diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
+        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+        shear: three!(pair => {
             let (i, j) = PAIRS[pair];
             let ratios = R::splat(0.5) * (l[i] / l[j] + l[j] / l[i]);
             blocks.pair_block(pair).0 * ratios / l[third(pair)]
         }),
-    };
-    principal.to_world(&svd.U)
+    }
+}
+
+#[inline(always)]
+fn green_naghdi_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let areas = areas(l);
+    Principal {
+        diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
+        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+        shear: three!(pair => blocks.pair_block(pair).0 / l[third(pair)]),
+    }
+}
+
+#[inline(always)]
+fn kirchhoff_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
+    let Blocks { gradient, hessian, .. } = blocks;
+    let products = products(l);
+    Principal {
+        diagonal: three!(i => l[i] * l[i].mul_add(hessian[i], -gradient[i])),
+        mixed: three!(pair => products[pair] * hessian[3 + pair]),
+        shear: three!(pair => products[pair] * blocks.pair_block(pair).1),
+    }
+}
+
+/// λi λj of the pairs.
+#[inline(always)]
+fn products<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
+    [l1 * l2, l1 * l3, l2 * l3]
 }
 
 /// λj λk, the deformed size of a unit area normal to direction i.
@@ -257,5 +345,16 @@ fn third(pair: usize) -> usize {
 /// Q diag(d) Qᵀ, exactly symmetric.
 #[inline(always)]
 fn symmetric<R: Real>(Q: &Matrix3<R>, d: [R; 3]) -> Matrix3<R> {
-    voigt::to_stress(&ORDER.map(|(i, j)| dot(std::array::from_fn(|k| Q[i][k] * Q[j][k]), d)))
+    voigt::to_stress(&six_numbers(Q, d))
+}
+
+/// Q diag(d) Qᵀ as six numbers.
+#[inline(always)]
+fn six_numbers<R: Real>(Q: &Matrix3<R>, d: [R; 3]) -> [R; 6] {
+    let mut numbers = [R::splat(0.0); 6];
+    for index in 0..6 {
+        let (i, j) = ORDER[index];
+        numbers[index] = dot(three!(k => Q[i][k] * Q[j][k]), d);
+    }
+    numbers
 }

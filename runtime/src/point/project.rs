@@ -68,7 +68,7 @@ pub enum Filter {
 impl Filter {
     /// The slope of the filter as a function of negative eigenvalues; for positive ones it is 1.
     #[inline(always)]
-    fn slope<R: Real>(self) -> R {
+    pub(super) fn slope<R: Real>(self) -> R {
         R::splat(match self {
             Self::None => 1.0,
             Self::Clamp => 0.0,
@@ -79,7 +79,7 @@ impl Filter {
 
 /// An eigenvalue after a filter of this slope, which multiplies the negative ones.
 #[inline(always)]
-fn filtered<R: Real>(eigenvalue: R, slope: R) -> R {
+pub(super) fn filtered<R: Real>(eigenvalue: R, slope: R) -> R {
     // Not `max`, which would turn NaN into a plausible zero; and no zero is negative.
     let zero = R::splat(0.0);
     R::select(eigenvalue.less(zero), eigenvalue.mul_add(slope, zero), eigenvalue)

@@ -10,7 +10,10 @@ mod differences;
 mod filters;
 mod lanes;
 mod measures;
+mod plane;
+mod rates;
 mod small_strain;
+mod split;
 mod statuses;
 
 fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {

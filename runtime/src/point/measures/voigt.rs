@@ -3,7 +3,7 @@
 //! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction
 //! that they lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22,
 //! 33, 12, 13, 23: its number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and
-//! columns of a tangent too.
+//! columns of a tangent too; see [`abaqus`](super::abaqus).
 //!
 //! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components:
 //! 11, 22, 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work,
@@ -31,14 +31,20 @@ pub const INDEX: [[usize; 3]; 3] = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
 #[inline(always)]
 #[must_use]
 pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
-    ORDER.map(|(i, j)| R::splat(0.5) * (stress[i][j] + stress[j][i]))
+    let mut numbers = [R::splat(0.0); 6];
+    for index in 0..6 {
+        let (i, j) = ORDER[index];
+        numbers[index] = R::splat(0.5) * (stress[i][j] + stress[j][i]);
+    }
+    numbers
 }
 
 /// The stress of six numbers.
 #[inline(always)]
 #[must_use]
 pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
-    INDEX.map(|row| row.map(|index| numbers[index]))
+    let [s11, s22, s33, s23, s13, s12] = *numbers;
+    [[s11, s12, s13], [s12, s22, s23], [s13, s23, s33]]
 }
 
 /// The six numbers of a strain, shears doubled; where the matrix is not quite symmetric, of its symmetric
@@ -77,11 +83,15 @@ impl<R: Real> Principal<R> {
     /// Σ_ij C_iijj mi mjᵀ + Σ_i<j C_ijij nij nijᵀ. About 400 multiplications and additions.
     #[inline(always)]
     pub(super) fn to_world(self, Q: &Matrix3<R>) -> Matrix6<R> {
-        let dyads: [[R; 6]; 6] = ORDER.map(|(x, y)| {
-            let m: [R; 3] = std::array::from_fn(|k| Q[x][k] * Q[y][k]);
-            let n = PAIRS.map(|(i, j)| Q[x][i].mul_add(Q[y][j], Q[x][j] * Q[y][i]));
-            [m[0], m[1], m[2], n[0], n[1], n[2]]
-        });
+        let mut dyads = [[R::splat(0.0); 6]; 6];
+        for index in 0..6 {
+            let (x, y) = ORDER[index];
+            for k in 0..3 {
+                let (i, j) = PAIRS[k];
+                dyads[index][k] = Q[x][k] * Q[y][k];
+                dyads[index][3 + k] = Q[x][i].mul_add(Q[y][j], Q[x][j] * Q[y][i]);
+            }
+        }
         let ([c11, c22, c33], [c12, c13, c23]) = (self.diagonal, self.mixed);
         let mut C = [[R::splat(0.0); 6]; 6];
         for row in 0..6 {
@@ -96,7 +106,10 @@ impl<R: Real> Principal<R> {
             ];
             for column in row..6 {
                 let dyad = dyads[column];
-                let sum = (1..6).fold(weighted[0] * dyad[0], |sum, k| weighted[k].mul_add(dyad[k], sum));
+                let mut sum = weighted[0] * dyad[0];
+                for k in 1..6 {
+                    sum = weighted[k].mul_add(dyad[k], sum);
+                }
                 C[row][column] = sum;
                 C[column][row] = sum;
             }

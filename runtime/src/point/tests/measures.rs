@@ -7,7 +7,8 @@ use crate::hand_written::ExtendedNeoHookean;
 use crate::material::Material;
 use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};
 use crate::point::measures::{
-    cauchy, jaumann_tangent, kirchhoff, material_tangent, second_piola, spatial_tangent, voigt,
+    cauchy, green_naghdi_tangent, jaumann_tangent, kirchhoff, kirchhoff_tangent, material_tangent,
+    principal_cauchy, second_piola, spatial_tangent, voigt, von_mises,
 };
 
 const MU: f64 = 1.0;
@@ -72,7 +73,13 @@ impl<R: Real> Measures<R> {
 pub(super) fn every_number<R: Real>(point: &Point<R>) -> Vec<R> {
     let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(point);
     let stresses = [S, tau, sigma].into_iter().flatten().flatten();
-    stresses.chain([dS_dE, c, c_jaumann].into_iter().flatten().flatten()).collect()
+    let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
+    let others = [green_naghdi_tangent(&svd, blocks), kirchhoff_tangent(&svd, blocks)];
+    let principal = principal_cauchy(&svd, blocks.gradient);
+    let tangents = [dS_dE, c, c_jaumann].into_iter().chain(others).flatten().flatten();
+    let directions = principal.directions.into_iter().flatten();
+    let scalars = principal.values.into_iter().chain([von_mises(&svd, blocks)]);
+    stresses.chain(tangents).chain(directions).chain(scalars).collect()
 }
 
 /// A point in double precision, and its measures in precision R from the same decomposition and blocks.

@@ -1,0 +1,275 @@
+//! Other measures of stress at many points: S, τ and σ with their tangents.
+//!
+//! The stages of a tile as for P and dP/dF, decomposition, energy, outputs; the last of them makes a
+//! [`Measure`] in lanes. Symmetric tensors are six numbers and tangents 36, in the order of
+//! [`voigt`](crate::point::measures::voigt).
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use super::form::put;
+use super::jobs::Tile;
+use super::sink::{Line, Sink, Source};
+use super::stage::Stages;
+use super::svd_tile::SvdTile;
+use super::tile::{Row, Rows, first_bits, for_each_group};
+use super::workspace::Workspace;
+use super::{Batch, Call, LengthError, NonTemporal};
+use crate::batch::material::from_rows;
+use crate::lanes::{Kernel, Lanes, Scalar};
+use crate::point::matrix::three;
+use crate::point::measures::Measure;
+use crate::point::{Filter, stretches_in_range};
+use crate::status::{Status, Survey};
+
+impl<E: Stages> Batch<'_, E> {
+    /// Stresses in another measure, Pa: six components of each F, in the order of
+    /// [`voigt`](crate::point::measures::voigt).
+    ///
+    /// A point is `nonfinite` where its stress is, as σ is where F is singular.
+    ///
+    /// ```
+    /// use piola::batch::Batch;
+    /// use piola::point::measures::Measure;
+    ///
+    /// /// Rubber.
+    /// #[piola::material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln()
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let rubber = Rubber::new(1e6)?;
+    /// // Simple shear: σ = μ (FFᵀ − I).
+    /// let F = [1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(100);
+    /// let (mut sigma, mut ddsdde) = (vec![0.0; 6 * 100], vec![0.0; 36 * 100]);
+    /// let survey = Batch::new(&rubber).measured_tangents(Measure::Jaumann, &F, &mut sigma, &mut ddsdde)?;
+    /// assert!(survey.is_clean());
+    /// assert!((sigma[6 * 99 + 5] - 0.5e6).abs() < 1e-3);
+    /// assert!((ddsdde[36 * 99 + 35] - 1.125e6).abs() < 1e-3);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn measured_stresses(
+        &self,
+        measure: Measure,
+        F: &[E],
+        stresses: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.run([("F", F, 9)], [("stresses", stresses, 6)], |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F], outputs: [stresses] } = tile;
+            let Workspace { F: lines, points, gradients, line, .. } = workspace;
+            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
+            let arguments = batch.arguments(&points.stretches, start, count);
+            let refused = batch.material.tile_gradients(arguments, gradients);
+            let to = batch.sink(stresses);
+            let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
+            refused | E::measured_stress(batch.backend, kernel)
+        })
+    }
+
+    /// Stresses in another measure, six components of each F, and their tangents, 36, row by row, Pa.
+    ///
+    /// Tangents are not filtered, whatever the filter of the batch, because a filter would leave no derivative
+    /// behind; see [`measures`](crate::point::measures). Otherwise as [`Batch::measured_stresses`].
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn measured_tangents(
+        &self,
+        measure: Measure,
+        F: &[E],
+        stresses: &mut [E],
+        tangents: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        let outputs = [("stresses", stresses, 6), ("tangents", tangents, 36)];
+        self.run([("F", F, 9)], outputs, |batch, tile| {
+            let batch = Call { filter: Filter::None, ..batch };
+            let fence = NonTemporal::new();
+            let Tile { workspace, start, count, inputs: [F], outputs: [stresses, tangents] } = tile;
+            let Workspace { F: lines, points, blocks, line, .. } = workspace;
+            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
+            let judged = batch.blocks(points, start, count, blocks);
+            let (points, to) = (&*points, batch.sink(stresses));
+            let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };
+            let stressed = E::measured_stress(batch.backend, kernel);
+            let to = batch.large_sink(tangents, &fence);
+            let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
+            E::measured_tangent(batch.backend, kernel) | stressed | judged
+        })
+    }
+}
+
+/// Kernel from frames and ψi to a stress, Pa.
+pub(super) struct MeasuredStress<'a, E> {
+    measure: Measure,
+    points: &'a SvdTile<E>,
+    /// ψi in the first three rows.
+    gradients: &'a [Row<E>],
+    count: usize,
+    line: &'a mut Line<E>,
+    to: Sink<'a, E>,
+}
+
+impl<E: Scalar> Kernel<E> for MeasuredStress<'_, E> {
+    type Output = Status<u64>;
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
+        let Self { measure, points, gradients, count, line, mut to } = self;
+        let mut status = Status::default();
+        for_each_group!(R, count, |at| {
+            let svd = points.get::<R>(at);
+            let stress = measure.stress(&svd, three!(k => R::load(&gradients[k][at..])));
+            let mut sum = R::splat(0.0);
+            let place = to.place::<R, 6>(line, at);
+            for k in 0..6 {
+                sum = stress[k].mul_add(R::splat(0.0), sum);
+                put(place, k, stress[k]);
+            }
+            to.finish::<R, 6>(line, at, count);
+            let is_finite = stretches_in_range(svd.stretches) & sum.is_finite();
+            status.nonfinite |= R::bits(!is_finite) << at;
+        });
+        status & first_bits(count)
+    }
+}
+
+/// Kernel from frames and blocks to a tangent, Pa.
+pub(super) struct MeasuredTangent<'a, E> {
+    measure: Measure,
+    points: &'a SvdTile<E>,
+    blocks: &'a Rows<E, 15>,
+    count: usize,
+    line: &'a mut Line<E>,
+    to: Sink<'a, E>,
+}
+
+impl<E: Scalar> Kernel<E> for MeasuredTangent<'_, E> {
+    type Output = Status<u64>;
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
+        let Self { measure, points, blocks, count, line, mut to } = self;
+        let mut status = Status::default();
+        for_each_group!(R, count, |at| {
+            let tangent = measure.tangent(&points.get::<R>(at), &from_rows(blocks.get_all(at)));
+            let mut sum = R::splat(0.0);
+            let place = to.place::<R, 36>(line, at);
+            for row in 0..6 {
+                for column in 0..6 {
+                    sum = tangent[row][column].mul_add(R::splat(0.0), sum);
+                    put(place, 6 * row + column, tangent[row][column]);
+                }
+            }
+            to.finish::<R, 36>(line, at, count);
+            status.nonfinite |= R::bits(!sum.is_finite()) << at;
+        });
+        status & first_bits(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::Layout;
+    use crate::hand_written::{ExtendedNeoHookean, SaintVenantKirchhoff};
+    use crate::lanes::Backend;
+    use crate::material::Material;
+    use crate::point::evaluate;
+    use crate::random::Random;
+
+    const COUNT: usize = 64 * 10 + 16;
+
+    /// Moderate deformations, as nine numbers each.
+    fn sample() -> Vec<[f64; 9]> {
+        let mut random = Random::new(121);
+        let one = |k: usize| if k.is_multiple_of(4) { 1.0 } else { 0.0 };
+        (0..COUNT).map(|_| std::array::from_fn(|k| one(k) + 0.2 * random.uniform(-1.0, 1.0))).collect()
+    }
+
+    fn check_against_points(material: &impl Material) {
+        let sample = sample();
+        for backend in Backend::available() {
+            for measure in Measure::ALL {
+                let batch = Batch::new(material).with_filter(Filter::Clamp).with_backend(backend);
+                let (mut alone, mut stresses) = (vec![0.0; 6 * COUNT], vec![0.0; 6 * COUNT]);
+                let mut tangents = vec![0.0; 36 * COUNT];
+                let F = sample.as_flattened();
+                assert!(batch.measured_stresses(measure, F, &mut alone).expect("lengths").is_clean());
+                let survey = batch.measured_tangents(measure, F, &mut stresses, &mut tangents);
+                assert!(survey.expect("lengths").is_clean());
+                for (p, F) in sample.iter().enumerate() {
+                    let F = std::array::from_fn(|i| std::array::from_fn(|j| F[3 * i + j]));
+                    let point = evaluate(material, &F, Filter::None);
+                    let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
+                    let stress = measure.stress(&svd, blocks.gradient);
+                    let tangent = measure.tangent(&svd, blocks);
+                    // Twice the 20 u of a decomposition, times moduli of some 10 and what division by
+                    // stretches of at least ½ makes of them.
+                    let close = |found: f64, expected: f64| (found - expected).abs() <= 1e4 * f64::EPSILON;
+                    for k in 0..6 {
+                        assert!(close(stresses[6 * p + k], stress[k]), "{backend}, {measure:?} at {F:?}");
+                        assert!(close(alone[6 * p + k], stress[k]), "{backend}, {measure:?} at {F:?}");
+                        for l in 0..6 {
+                            let found = tangents[36 * p + 6 * k + l];
+                            assert!(close(found, tangent[k][l]), "{backend}, {measure:?} at {F:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_measure_is_that_of_the_points() {
+        check_against_points(&SaintVenantKirchhoff);
+        check_against_points(&ExtendedNeoHookean { epsilon: 0.3 });
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_layout_or_threads() {
+        let sample = sample();
+        let F = sample.as_flattened();
+        let mut lines = vec![0.0; 9 * COUNT];
+        for p in 0..COUNT {
+            for k in 0..9 {
+                lines[Layout::Lines.index::<f64>(p, 9, k)] = F[9 * p + k];
+            }
+        }
+        let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
+        for measure in Measure::ALL {
+            let batch = Batch::new(&SaintVenantKirchhoff);
+            let run = |batch: &Batch<'_, f64>, F: &[f64]| {
+                let (mut stresses, mut tangents) = (vec![0.0; 6 * COUNT], vec![0.0; 36 * COUNT]);
+                batch.measured_tangents(measure, F, &mut stresses, &mut tangents).expect("lengths");
+                (stresses, tangents)
+            };
+            let (stresses, tangents) = run(&batch, F);
+            let shared = two_threads.install(|| run(&batch.with_threads(true), F));
+            assert!(shared == (stresses.clone(), tangents.clone()), "{measure:?}");
+            let in_lines = run(&batch.with_layout(Layout::Lines), &lines);
+            for p in 0..COUNT {
+                for k in 0..36 {
+                    let found = in_lines.1[Layout::Lines.index::<f64>(p, 36, k)];
+                    assert_eq!(found.to_bits(), tangents[36 * p + k].to_bits(), "{measure:?}");
+                }
+                let found = in_lines.0[Layout::Lines.index::<f64>(p, 6, 1)];
+                assert_eq!(found.to_bits(), stresses[6 * p + 1].to_bits(), "{measure:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_singular_deformation_has_a_Kirchhoff_stress_only() {
+        let F = [0.0; 9];
+        for measure in Measure::ALL {
+            let (mut stress, mut tangent) = ([0.0; 6], [0.0; 36]);
+            let batch = Batch::new(&SaintVenantKirchhoff);
+            let survey = batch.measured_tangents(measure, &F, &mut stress, &mut tangent).expect("lengths");
+            assert_eq!(survey.is_clean(), measure == Measure::Kirchhoff, "{measure:?}: {tangent:?}");
+        }
+    }
+}
