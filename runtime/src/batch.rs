@@ -39,7 +39,7 @@
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
 //! point has its own.
 //!
-//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PlaneBatch`] has plane
+//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has plane
 //! strain and plane stress.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
@@ -64,7 +64,7 @@ mod material;
 mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;
-mod plane;
+mod point_by_point;
 #[cfg(feature = "bodies")]
 pub(crate) mod rest;
 mod sink;
@@ -74,7 +74,7 @@ mod tile;
 mod workspace;
 
 pub use material::{Arguments, Properties, TileMaterial};
-pub use plane::PlaneBatch;
+pub use point_by_point::PointBatch;
 pub use sink::Layout;
 pub use stage::Stages;
 pub use svd_tile::SvdTile;

@@ -44,7 +44,9 @@ pub use gradient::{SvdGradient, svd_gradient};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
 pub use project::{Filter, project};
-pub use small_strain::{evaluate_from_displacement, evaluate_stress_from_displacement};
+pub use small_strain::{
+    evaluate_energy_from_displacement, evaluate_from_displacement, evaluate_stress_from_displacement,
+};
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
 pub use tangent::{Assemble, Tangent, assemble_blocks};

@@ -6,7 +6,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use piola::batch::{Batch, FACTORS, Layout, PlaneBatch, REST};
+use piola::batch::{Batch, FACTORS, Layout, PointBatch, REST};
 use piola::mesh::{
     Anchor, Bounds, Embedding, Group, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, tetrahedral_box,
@@ -339,7 +339,7 @@ fn batches_in_the_plane() {
     check(|hostile| {
         let (rubber, points) = (hostile.rubber(), hostile.one_of(&[0, 1, 63, 64, 65]));
         let statuses: Vec<StatusCell> = (0..hostile.length(points)).map(|_| StatusCell::default()).collect();
-        let mut batch = PlaneBatch::new(&rubber)
+        let mut batch = PointBatch::new(&rubber)
             .with_filter(hostile.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute]))
             .with_threads(hostile.0.once_in(2));
         if hostile.0.once_in(2) {

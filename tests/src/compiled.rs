@@ -28,6 +28,15 @@ pub fn evaluate_stress<R: Real>(material: &impl Material, F: &Matrix3<R>) -> (Ma
     point::evaluate_stress(material, F)
 }
 
+/// [`point::evaluate_energy_from_displacement`].
+#[inline(never)]
+pub fn evaluate_energy_from_displacement<R: Real>(
+    material: &impl Material,
+    H: &Matrix3<R>,
+) -> (R, Status<R::Mask>) {
+    point::evaluate_energy_from_displacement(material, H)
+}
+
 /// [`point::evaluate_stress_from_displacement`].
 #[inline(never)]
 pub fn evaluate_stress_from_displacement<R: Real>(

@@ -1,4 +1,4 @@
-//! Stress from the displacement gradient, for every energy and strains down to 10⁻⁶⁰, beside what is left of
+//! Energy and stress from the displacement gradient, for every energy and strains down to 10⁻⁶⁰, beside what is left of
 //! it in F: `cargo test -p piola-tests --test small_strain -- --nocapture`.
 //!
 //! The oracle is the ordinary way through F = I + H, in 320 bits.
@@ -14,7 +14,7 @@ use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::compiled;
 use piola_tests::multiprecision::Multiprecision;
 
-/// The constant of the judgement ‖P − P*‖ ≤ C u (‖P*‖ + ‖dP/dF‖ ‖H‖).
+/// The constant of the judgements ‖P − P*‖ ≤ C u (‖P*‖ + ‖dP/dF‖ ‖H‖) and |ψ − ψ*| ≤ C u (|ψ*| + ‖P*‖ ‖H‖).
 const C: f64 = 30.0;
 
 /// Displacement gradients of each magnitude, rotations as large as strains.
@@ -22,11 +22,12 @@ const SAMPLES: usize = 8;
 
 type Exact = Multiprecision<5>;
 
-/// Worst errors in units of u (‖P‖ + ‖dP/dF‖ ‖H‖): from H, and through F.
+/// Worst errors in units of u (‖P‖ + ‖dP/dF‖ ‖H‖): from H, and through F; that of ψ from H, in its own.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst {
     from_displacement: f64,
     through_deformation: f64,
+    energy: f64,
 }
 
 struct Judge<R> {
@@ -65,6 +66,17 @@ impl<R: Real<Mask = bool>> Visitor for Judge<R> {
                 let differences = differences.map(|(&x, &y)| (Exact::splat((self.widen)(x)) - y).to_f64());
                 norm(differences) / (R::UNIT_ROUNDOFF * scale)
             };
+            // The oracle of ψ keeps 96 digits, of which the square of the strain takes its own.
+            if self.magnitude > 1e-30 {
+                let (energy, status) = compiled::evaluate_energy_from_displacement(&material, &rounded);
+                assert!(!status.refused && !status.nonfinite);
+                let one = Exact::splat(1.0);
+                let expected_energy = material.energy(svd.stretches) - material.energy([one; 3]);
+                let scale = expected_energy.to_f64().abs()
+                    + norm(expected.iter().flatten().map(|x| x.to_f64())) * size;
+                let difference = (Exact::splat((self.widen)(energy)) - expected_energy).to_f64().abs();
+                worst.energy = worst.energy.max(difference / (R::UNIT_ROUNDOFF * scale));
+            }
             worst.from_displacement = worst.from_displacement.max(error(&stress));
             worst.through_deformation = worst.through_deformation.max(error(&through));
         }
@@ -92,8 +104,8 @@ fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
 
 #[track_caller]
 fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R) -> f64) {
-    println!("\n{precision}: worst error from H, and through F, in u (‖P‖ + ‖dP/dF‖ ‖H‖)\n");
-    let columns: Vec<_> = magnitudes.iter().map(|magnitude| format!("{magnitude:>16e}")).collect();
+    println!("\n{precision}: worst error from H, and through F, in u (‖P‖ + ‖dP/dF‖ ‖H‖); that of ψ\n");
+    let columns: Vec<_> = magnitudes.iter().map(|magnitude| format!("{magnitude:>22e}")).collect();
     println!("{:22}{}", "largest entry of H", columns.concat());
     let mut failures = Vec::new();
     for entry in CATALOGUE {
@@ -101,8 +113,11 @@ fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R)
         for &magnitude in magnitudes {
             let judge = Judge { magnitude, random: Random::new(7), widen };
             let worst = entry.visit(entry.typical(), Inversion::Refuse, judge).expect("typical parameters");
-            line += &format!("{:7.1} {:8.0e}", worst.from_displacement, worst.through_deformation);
-            let within = worst.from_displacement <= C;
+            line += &format!(
+                "{:7.1} {:8.0e} {:5.1}",
+                worst.from_displacement, worst.through_deformation, worst.energy
+            );
+            let within = worst.from_displacement <= C && worst.energy <= C;
             if !within {
                 failures.push(format!("{} at {magnitude:e}: {worst:?}", entry.name));
             }
@@ -113,11 +128,11 @@ fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R)
 }
 
 #[test]
-fn stresses_keep_their_digits_in_f64() {
+fn energies_and_stresses_keep_their_digits_in_f64() {
     judge("f64", &[0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-60], |x: f64| x);
 }
 
 #[test]
-fn stresses_keep_their_digits_in_f32() {
+fn energies_and_stresses_keep_their_digits_in_f32() {
     judge("f32", &[0.1, 1e-2, 1e-4, 1e-6, 1e-12], |x: f32| f64::from(x));
 }

@@ -1,12 +1,9 @@
 //! Many points in the plane: slices of 2×2 deformation gradients in, slices of stresses and tangents out.
 //!
-//! A [`PlaneBatch`] evaluates one point after the other, as [`plane_strain`], [`plane_stress`] and
-//! [`uniaxial_stress`] do, with the bits that they give, shared among threads if asked for. Solving for a free
-//! stretch takes another number of steps at each point, which lanes side by side would all have to wait for.
-//! Nothing is allocated.
+//! As [`plane_strain`], [`plane_stress`] and [`uniaxial_stress`] do for one point.
 //!
 //! ```
-//! use piola::batch::PlaneBatch;
+//! use piola::batch::PointBatch;
 //! use piola::point::Filter;
 //!
 //! /// Rubber.
@@ -17,7 +14,7 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let rubber = Rubber::new(1.0, 1e4)?;
-//! let membrane = PlaneBatch::new(&rubber).with_filter(Filter::Clamp);
+//! let membrane = PointBatch::new(&rubber).with_filter(Filter::Clamp);
 //! // Four numbers for each of a hundred points, row by row.
 //! let F = [2.0, 0.0, 0.0, 1.0].repeat(100);
 //! let (mut thickness, mut P, mut dP_dF) = (vec![0.0; 100], vec![0.0; 400], vec![0.0; 1600]);
@@ -30,60 +27,14 @@
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
-use super::jobs::{Tile, Work, for_each_tile};
-use super::{LengthError, Stages};
+use super::PointBatch;
+use crate::batch::{LengthError, Stages};
 use crate::lanes::Real;
 use crate::material::Response;
-use crate::point::Filter;
 use crate::point::plane::{Matrix2, PlanePoint, plane_strain, plane_stress, uniaxial_stress};
-use crate::status::{Status, StatusCell, Survey};
+use crate::status::{Status, Survey};
 
-/// A material with the settings to evaluate it at many points in the plane.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct PlaneBatch<'a, M: ?Sized> {
-    /// The material of all points.
-    pub material: &'a M,
-    /// Treatment of negative eigenvalues of dP/dF in the plane.
-    pub filter: Filter,
-    /// Whether the points are shared among the threads of rayon's pool.
-    pub threads: bool,
-    statuses: &'a [StatusCell],
-}
-
-impl<M: ?Sized> Copy for PlaneBatch<'_, M> {}
-
-impl<M: ?Sized> Clone for PlaneBatch<'_, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<'a, M: ?Sized> PlaneBatch<'a, M> {
-    /// A batch without filter, on one thread.
-    #[must_use]
-    pub fn new(material: &'a M) -> Self {
-        Self { material, filter: Filter::None, threads: false, statuses: &[] }
-    }
-
-    /// Sets the filter of dP/dF.
-    #[must_use]
-    pub fn with_filter(self, filter: Filter) -> Self {
-        Self { filter, ..self }
-    }
-
-    /// Sets whether the points are shared among the threads of rayon's pool.
-    #[must_use]
-    pub fn with_threads(self, threads: bool) -> Self {
-        Self { threads, ..self }
-    }
-
-    /// Writes the status of every point, one entry each, at every call.
-    #[must_use]
-    pub fn with_statuses(self, statuses: &'a [StatusCell]) -> Self {
-        Self { statuses, ..self }
-    }
-
+impl<M: ?Sized> PointBatch<'_, M> {
     /// Plane strain: stresses P in the plane, four components of each F, and dP/dF, 16, Pa.
     ///
     /// # Errors
@@ -153,56 +104,6 @@ impl<'a, M: ?Sized> PlaneBatch<'a, M> {
             point.status
         })
     }
-
-    /// Computes every point of slices, each given with its name and the components it holds for a point.
-    fn run<E: Stages, const I: usize, const O: usize>(
-        &self,
-        inputs: [(&'static str, &[E], usize); I],
-        outputs: [(&'static str, &mut [E], usize); O],
-        point: impl Fn([&[E]; I], [&mut [E]; O]) -> Status + Sync,
-    ) -> Result<Survey, LengthError> {
-        let (_, first, components) = inputs[0];
-        let points = first.len() / components;
-        let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
-        let lengths =
-            lengths.chain(outputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components)));
-        let statuses = (!self.statuses.is_empty()).then_some(("statuses", self.statuses.len(), 1));
-        let misfit = lengths.chain(statuses).find(|(_, length, components)| *length != points * components);
-        if let Some((slice, found, components)) = misfit {
-            return Err(LengthError { slice, found, components, points, group: 1 });
-        }
-        let sizes = (inputs.map(|(_, _, size)| size), std::array::from_fn(|k| outputs[k].2));
-        let work = Work {
-            inputs: inputs.map(|(_, slice, components)| (slice, components)),
-            outputs: outputs.map(|(_, slice, components)| (slice, components)),
-            statuses: self.statuses,
-        };
-        Ok(for_each_tile(work, 0..points, self.threads, &|tile| one_by_one(tile, sizes, &point)))
-    }
-}
-
-/// The points of a tile, one after the other.
-fn one_by_one<E: Stages, const I: usize, const O: usize>(
-    tile: Tile<'_, E, I, O>,
-    (inputs, outputs): ([usize; I], [usize; O]),
-    point: &impl Fn([&[E]; I], [&mut [E]; O]) -> Status,
-) -> Status<u64> {
-    let Tile { count, inputs: from, outputs: mut to, .. } = tile;
-    let mut statuses = Status::<u64>::default();
-    for p in 0..count {
-        let mut sizes = outputs.iter();
-        let to = to.each_mut().map(|slice| {
-            let size = sizes.next().copied().unwrap_or_default();
-            &mut slice[p * size..][..size]
-        });
-        let Status { refused, bounded, nonfinite, filtered } =
-            point(std::array::from_fn(|k| &from[k][p * inputs[k]..][..inputs[k]]), to);
-        statuses.refused |= u64::from(refused) << p;
-        statuses.bounded |= u64::from(bounded) << p;
-        statuses.nonfinite |= u64::from(nonfinite) << p;
-        statuses.filtered |= u64::from(filtered) << p;
-    }
-    statuses
 }
 
 /// Four numbers, row by row.
@@ -219,7 +120,9 @@ fn put<E: Real<Mask = bool>>(point: &PlanePoint<E>, P: &mut [E], dP_dF: &mut [E]
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::StatusCell;
     use crate::hand_written::{ExtendedNeoHookean, NeoHookean, SaintVenantKirchhoff};
+    use crate::point::Filter;
     use crate::random::Random;
 
     #[test]
@@ -233,7 +136,7 @@ mod tests {
         let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
         for threads in [false, true] {
             let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
-            let batch = PlaneBatch::new(&material).with_filter(Filter::Clamp).with_threads(threads);
+            let batch = PointBatch::new(&material).with_filter(Filter::Clamp).with_threads(threads);
             let batch = batch.with_statuses(&statuses);
             let (mut t, mut P, mut dP) = (vec![0.0; COUNT], vec![0.0; 4 * COUNT], vec![0.0; 16 * COUNT]);
             let survey = two_threads.install(|| batch.plane_stresses(&F, &mut t, &mut P, &mut dP));
@@ -253,13 +156,13 @@ mod tests {
     #[test]
     fn a_survey_counts_what_has_no_equilibrium_and_names_the_first() {
         let F = [[1.0, 0.0, 0.0, 1.0], [3.0, 0.0, 0.0, 3.0]].concat();
-        let batch = PlaneBatch::new(&SaintVenantKirchhoff);
+        let batch = PointBatch::new(&SaintVenantKirchhoff);
         let (mut t, mut P, mut dP) = ([0.0f64; 2], [0.0; 8], [0.0; 32]);
         let survey = batch.plane_stresses(&F, &mut t, &mut P, &mut dP).expect("lengths");
         assert_eq!((survey.refused, survey.first), (1, Some(1)));
         assert_eq!((t[0], t[1].is_nan()), (1.0, true));
         assert!(batch.plane_strains(&F, &mut P, &mut dP).expect("lengths").is_clean());
-        let bars = PlaneBatch::new(&NeoHookean);
+        let bars = PointBatch::new(&NeoHookean);
         let (mut lateral, mut P, mut dP) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         let survey = bars.uniaxial_stresses(&[1.0, f64::NAN], &mut lateral, &mut P, &mut dP);
         assert_eq!(survey.expect("lengths").nonfinite, 1);
