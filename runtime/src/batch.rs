@@ -39,8 +39,8 @@
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
 //! point has its own.
 //!
-//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PlaneBatch`] has plane
-//! strain and plane stress.
+//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PlaneBatch`] has
+//! plane strain and plane stress.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
 //! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or
@@ -61,6 +61,7 @@ pub(crate) mod element;
 mod form;
 mod jobs;
 mod material;
+mod measure;
 mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;
