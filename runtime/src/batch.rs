@@ -40,7 +40,7 @@
 //! point has its own.
 //!
 //! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has plane
-//! strain and plane stress.
+//! strain and plane stress, and what starts from displacement gradients.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
 //! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or
@@ -61,6 +61,7 @@ pub(crate) mod element;
 mod form;
 mod jobs;
 mod material;
+mod measure;
 mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;

@@ -6,8 +6,9 @@
 //! ([`mod@project`]). Bodies that hardly
 //! deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that have their
 //! own elements find other [`measures`] of stress here, with their tangents, the [`split`](mod@split) into
-//! shape and volume, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
-//! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! shape and volume, and points in the [`plane`]. Everything is generic over the real type, and what cannot
+//! be computed is reported in a [`Status`] instead of an error, because a point may be one of many in a
+//! batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of

@@ -6,20 +6,15 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::form::put;
 use super::jobs::Tile;
-use super::sink::{Line, Sink, Source};
+use super::measure::{MeasuredStress, MeasuredTangent};
+use super::sink::Source;
 use super::stage::Stages;
-use super::svd_tile::SvdTile;
-use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
 use super::{Batch, Call, LengthError, NonTemporal};
-use crate::batch::material::from_rows;
-use crate::lanes::{Kernel, Lanes, Scalar};
-use crate::point::matrix::three;
+use crate::point::Filter;
 use crate::point::measures::Measure;
-use crate::point::{Filter, stretches_in_range};
-use crate::status::{Status, Survey};
+use crate::status::Survey;
 
 impl<E: Stages> Batch<'_, E> {
     /// Stresses in another measure, Pa: six components of each F, in the order of
@@ -41,7 +36,7 @@ impl<E: Stages> Batch<'_, E> {
     /// let rubber = Rubber::new(1e6)?;
     /// // Simple shear: σ = μ (FFᵀ − I).
     /// let F = [1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(100);
-    /// let (mut sigma, mut ddsdde) = (vec![0.0; 6 * 100], vec![0.0; 36 * 100]);
+    /// let (mut sigma, mut ddsdde) = (vec![0.0f64; 6 * 100], vec![0.0f64; 36 * 100]);
     /// let survey = Batch::new(&rubber).measured_tangents(Measure::Jaumann, &F, &mut sigma, &mut ddsdde)?;
     /// assert!(survey.is_clean());
     /// assert!((sigma[6 * 99 + 5] - 0.5e6).abs() < 1e-3);
@@ -72,8 +67,9 @@ impl<E: Stages> Batch<'_, E> {
 
     /// Stresses in another measure, six components of each F, and their tangents, 36, row by row, Pa.
     ///
-    /// Tangents are not filtered, whatever the filter of the batch, because a filter would leave no derivative
-    /// behind; see [`measures`](crate::point::measures). Otherwise as [`Batch::measured_stresses`].
+    /// Tangents are not filtered, whatever the filter of the batch, because a filter would leave no
+    /// derivative behind; see [`measures`](crate::point::measures). Otherwise as
+    /// [`Batch::measured_stresses`].
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -99,75 +95,6 @@ impl<E: Stages> Batch<'_, E> {
             let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
             E::measured_tangent(batch.backend, kernel) | stressed | judged
         })
-    }
-}
-
-/// Kernel from frames and ψi to a stress, Pa.
-pub(super) struct MeasuredStress<'a, E> {
-    measure: Measure,
-    points: &'a SvdTile<E>,
-    /// ψi in the first three rows.
-    gradients: &'a [Row<E>],
-    count: usize,
-    line: &'a mut Line<E>,
-    to: Sink<'a, E>,
-}
-
-impl<E: Scalar> Kernel<E> for MeasuredStress<'_, E> {
-    type Output = Status<u64>;
-
-    #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Self { measure, points, gradients, count, line, mut to } = self;
-        let mut status = Status::default();
-        for_each_group!(R, count, |at| {
-            let svd = points.get::<R>(at);
-            let stress = measure.stress(&svd, three!(k => R::load(&gradients[k][at..])));
-            let mut sum = R::splat(0.0);
-            let place = to.place::<R, 6>(line, at);
-            for k in 0..6 {
-                sum = stress[k].mul_add(R::splat(0.0), sum);
-                put(place, k, stress[k]);
-            }
-            to.finish::<R, 6>(line, at, count);
-            let is_finite = stretches_in_range(svd.stretches) & sum.is_finite();
-            status.nonfinite |= R::bits(!is_finite) << at;
-        });
-        status & first_bits(count)
-    }
-}
-
-/// Kernel from frames and blocks to a tangent, Pa.
-pub(super) struct MeasuredTangent<'a, E> {
-    measure: Measure,
-    points: &'a SvdTile<E>,
-    blocks: &'a Rows<E, 15>,
-    count: usize,
-    line: &'a mut Line<E>,
-    to: Sink<'a, E>,
-}
-
-impl<E: Scalar> Kernel<E> for MeasuredTangent<'_, E> {
-    type Output = Status<u64>;
-
-    #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Self { measure, points, blocks, count, line, mut to } = self;
-        let mut status = Status::default();
-        for_each_group!(R, count, |at| {
-            let tangent = measure.tangent(&points.get::<R>(at), &from_rows(blocks.get_all(at)));
-            let mut sum = R::splat(0.0);
-            let place = to.place::<R, 36>(line, at);
-            for row in 0..6 {
-                for column in 0..6 {
-                    sum = tangent[row][column].mul_add(R::splat(0.0), sum);
-                    put(place, 6 * row + column, tangent[row][column]);
-                }
-            }
-            to.finish::<R, 36>(line, at, count);
-            status.nonfinite |= R::bits(!sum.is_finite()) << at;
-        });
-        status & first_bits(count)
     }
 }
 

@@ -14,7 +14,7 @@ use super::form::{
     put_gradient,
 };
 use super::material::{from_rows, to_rows};
-use super::measured::{MeasuredStress, MeasuredTangent};
+use super::measure::{MeasuredStress, MeasuredTangent};
 use super::sink::{Line, Lines, Sink, Source};
 use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};

@@ -81,9 +81,9 @@
 //! ```
 //!
 //! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material
-//! under the name DDSDDE; [`abaqus`] has it in its order. (The Jaumann rate of σ itself belongs to c° − σ ⊗ I,
-//! which is not symmetric.) The *Green–Naghdi rate*, of shells and of Abaqus/Explicit, turns with the rotation
-//! R = U Vᵀ of the polar decomposition instead, Ω = dR Rᵀ, so that Rᵀ τ R changes by it alone:
+//! under the name DDSDDE; [`abaqus`] has it in its order. (The Jaumann rate of σ itself belongs to c° − σ ⊗
+//! I, which is not symmetric.) The *Green–Naghdi rate*, of shells and of Abaqus/Explicit, turns with the
+//! rotation R = U Vᵀ of the polar decomposition instead, Ω = dR Rᵀ, so that Rᵀ τ R changes by it alone:
 //!
 //! ```text
 //! dτ − Ω τ + τ Ω = J c★ : ε.

@@ -49,9 +49,9 @@
 //! # What elements make of them
 //!
 //! **A pressure of its own.** From the energy ψ̃(F, θ) + p̂ (J − θ) of three fields come the stress
-//! A + p̂ cof F and its derivative ∂A/∂F + p̂ ∂cof F/∂F at fixed θ and p̂: [`Split::with_pressure`]. For Q1P0,
-//! θ is the mean of J over the element, p̂ that of p; the equations of θ and p̂ need p, ∂p/∂θ and C. For u–p
-//! elements of a decoupled energy take θ = J, and p̂ from its own field.
+//! A + p̂ cof F and its derivative ∂A/∂F + p̂ ∂cof F/∂F at fixed θ and p̂: [`Split::with_pressure`]. For
+//! Q1P0, θ is the mean of J over the element, p̂ that of p; the equations of θ and p̂ need p, ∂p/∂θ and C.
+//! For u–p elements of a decoupled energy take θ = J, and p̂ from its own field.
 //!
 //! **F-bar.** With θ = J0, the volume ratio at the centre of the element, the Cauchy stress is σ(F̃), and its
 //! nodal forces are those of a first Piola stress by the rest volume of the point
@@ -92,9 +92,9 @@
 //!
 //! # What floating point does here
 //!
-//! τ̃i − m is ⅓ Σj (τ̃i − τ̃j), and τ̃i − τ̃j = a (λ̃i − λ̃j)(λ̃i + λ̃j): beside a large pressure, A keeps the
-//! digits that the pressure would cancel. Gij, hi − h and flips and twists do cancel there: they err by a few u
-//! times the bulk modulus and the pressure.
+//! τ̃i − m is ⅓ Σj (τ̃i − τ̃j), and τ̃i − τ̃j = a (λ̃i − λ̃j)(λ̃i + λ̃j): beside a large pressure, A keeps
+//! the digits that the pressure would cancel. Gij, hi − h and flips and twists do cancel there: they err by a
+//! few u times the bulk modulus and the pressure.
 //!
 //! Volumes are positive here, or negative both: where θ/J is not positive, the point is `refused`. Where F is
 //! singular, results are what division gives, and `nonfinite`.

@@ -17,7 +17,7 @@
 //! let membrane = PointBatch::new(&rubber).with_filter(Filter::Clamp);
 //! // Four numbers for each of a hundred points, row by row.
 //! let F = [2.0, 0.0, 0.0, 1.0].repeat(100);
-//! let (mut thickness, mut P, mut dP_dF) = (vec![0.0; 100], vec![0.0; 400], vec![0.0; 1600]);
+//! let (mut thickness, mut P, mut dP_dF) = (vec![0.0f64; 100], vec![0.0f64; 400], vec![0.0; 1600]);
 //! let survey = membrane.plane_stresses(&F, &mut thickness, &mut P, &mut dP_dF)?;
 //! assert!(survey.is_clean());
 //! assert!((thickness[99] - 0.5).abs() < 1e-3 && (P[4 * 99] - 1.875).abs() < 1e-3);
@@ -53,8 +53,8 @@ impl<M: ?Sized> PointBatch<'_, M> {
         })
     }
 
-    /// Plane stress: the stretch out of the plane of each F, stresses P in the plane, four components, and the
-    /// condensed dP/dF, 16, Pa.
+    /// Plane stress: the stretch out of the plane of each F, stresses P in the plane, four components, and
+    /// the condensed dP/dF, 16, Pa.
     ///
     /// Where no stretch frees a point, it is `refused`, and its results are NaN.
     ///

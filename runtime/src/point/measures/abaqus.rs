@@ -26,7 +26,7 @@
 //! assert!((umat.stress[3] - 0.5e6).abs() < 1e-3);
 //! assert!((umat.ddsdde[3][3] - 1.125e6).abs() < 1e-3);
 //! // The same in plane strain.
-//! assert_eq!(abaqus::plane_strain(&umat.ddsdde)[3], [umat.ddsdde[3][0], umat.ddsdde[3][1], umat.ddsdde[3][2], umat.ddsdde[3][3]]);
+//! assert_eq!(abaqus::plane_strain_ddsdde(&umat.ddsdde)[3], umat.ddsdde[3][..4]);
 //! # Ok(())
 //! # }
 //! ```
@@ -43,7 +43,7 @@ use crate::point::{Filter, Matrix3, Svd, evaluate_with_energy};
 use crate::status::Status;
 
 /// Row and column, counted from zero, of each of the six numbers: 11, 22, 33, 12, 13, 23.
-pub const ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+pub const ABAQUS_ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// Results of a user material at a point, in the order of Abaqus.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ fn assembled<R: Real>(
     energy: R,
     status: Status<R::Mask>,
 ) -> Umat<R> {
-    let (stress, ddsdde) = (from_stress(stress), from_tangent(tangent));
+    let (stress, ddsdde) = (umat_stress(stress), umat_tangent(tangent));
     // Infinite or NaN in a sum of products with zero.
     let zero = R::splat(0.0);
     let sum = stress.iter().chain(ddsdde.iter().flatten()).fold(zero, |sum, x| x.mul_add(zero, sum));
@@ -97,28 +97,28 @@ fn assembled<R: Real>(
 
 /// The six numbers of a stress in this order.
 #[must_use]
-pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
+pub fn umat_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
     let [s11, s22, s33, s23, s13, s12] = voigt::from_stress(stress);
     [s11, s22, s33, s12, s13, s23]
 }
 
 /// The six numbers of a strain in this order, shears doubled.
 #[must_use]
-pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
+pub fn umat_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
     let [e11, e22, e33, e23, e13, e12] = voigt::from_strain(strain);
     [e11, e22, e33, e12, e13, e23]
 }
 
 /// A tangent of [`voigt`] in this order; and the other way round.
 #[must_use]
-pub fn from_tangent<R: Real>(tangent: &Matrix6<R>) -> Matrix6<R> {
+pub fn umat_tangent<R: Real>(tangent: &Matrix6<R>) -> Matrix6<R> {
     const PLACES: [usize; 6] = [0, 1, 2, 5, 4, 3];
     PLACES.map(|row| PLACES.map(|column| tangent[row][column]))
 }
 
 /// The 4×4 DDSDDE of plane strain and axial symmetry, 11, 22, 33, 12, from the six numbers of this order.
 #[must_use]
-pub fn plane_strain<R: Real>(ddsdde: &Matrix6<R>) -> [[R; 4]; 4] {
+pub fn plane_strain_ddsdde<R: Real>(ddsdde: &Matrix6<R>) -> [[R; 4]; 4] {
     std::array::from_fn(|row| std::array::from_fn(|column| ddsdde[row][column]))
 }
 
@@ -144,14 +144,14 @@ pub fn plane_strain<R: Real>(ddsdde: &Matrix6<R>) -> [[R; 4]; 4] {
 /// let rest: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 /// let thickness = plane_stress(&rubber, &rest, Filter::None).out_of_plane_stretch;
 /// let umat = abaqus::respond(&rubber, &in_space(&rest, thickness));
-/// let sheet = abaqus::plane_stress(&umat.ddsdde);
+/// let sheet = abaqus::plane_stress_ddsdde(&umat.ddsdde);
 /// assert!((sheet[0][0] - 2.5 / (1.0 - 1.0 / 16.0)).abs() < 1e-14);
 /// assert!((sheet[2][2] - 1.0).abs() < 1e-14);
 /// # Ok(())
 /// # }
 /// ```
 #[must_use]
-pub fn plane_stress<R: Real>(ddsdde: &Matrix6<R>) -> [[R; 3]; 3] {
+pub fn plane_stress_ddsdde<R: Real>(ddsdde: &Matrix6<R>) -> [[R; 3]; 3] {
     const PLACES: [usize; 3] = [0, 1, 3];
     PLACES.map(|row| {
         PLACES.map(|column| {

@@ -48,7 +48,7 @@ pub struct PrincipalStress<R> {
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let rubber = Rubber::new(1e6)?;
 /// // Pulled to twice its length along the second axis: σ = μ (λ² − 1)/J.
-/// let F = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
+/// let F = [[1.0f64, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
 /// let point = evaluate(&rubber, &F, Filter::None);
 /// let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
 /// let principal = principal_cauchy(&svd, blocks.gradient);

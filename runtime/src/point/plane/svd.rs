@@ -36,11 +36,11 @@ pub struct PlaneSvd<R> {
 /// frames that are equal.
 ///
 /// ```
-/// let svd = piola::point::plane::svd(&[[0.0, -2.0], [-0.5, 0.0]]);
+/// let svd = piola::point::plane::plane_svd(&[[0.0, -2.0], [-0.5, 0.0]]);
 /// assert_eq!(svd.stretches, [2.0, -0.5]);
 /// ```
 #[must_use]
-pub fn svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
+pub fn plane_svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
     let [[p, q], [r, s]] = *F;
     let (scale, back) = p.abs().max(q.abs()).max(r.abs().max(s.abs())).power_of_two_scale();
     let (p, q, r, s) = (p * scale, q * scale, r * scale, s * scale);
@@ -99,7 +99,7 @@ mod tests {
 
     #[track_caller]
     fn check(F: Matrix2<f64>) {
-        let found = svd(&F);
+        let found = plane_svd(&F);
         let [largest, smallest] = found.stretches;
         assert!(largest >= smallest.abs(), "{found:?}");
         for i in 0..2 {
@@ -140,7 +140,7 @@ mod tests {
     fn a_tiny_stretch_has_all_its_digits() {
         // det = 2⁻⁵⁰ exactly, and λ1 = 2 + O(2⁻⁵⁰).
         let F = [[1.0, 1.0], [1.0, 1.0 + 2f64.powi(-50)]];
-        let [_, smallest] = svd(&F).stretches;
+        let [_, smallest] = plane_svd(&F).stretches;
         assert!((smallest - 2f64.powi(-51)).abs() <= 8.0 * f64::EPSILON * 2f64.powi(-51), "{smallest:e}");
     }
 
@@ -150,7 +150,7 @@ mod tests {
             for place in 0..4 {
                 let mut F = [[1.0, 0.3], [0.2, 1.0]];
                 F[place / 2][place % 2] = bad;
-                assert!(svd(&F).stretches.iter().all(|x| !x.is_finite()), "{F:?}");
+                assert!(plane_svd(&F).stretches.iter().all(|x| !x.is_finite()), "{F:?}");
             }
         }
     }

@@ -5,7 +5,7 @@ use super::*;
 use crate::convert::to_nalgebra;
 use crate::hand_written::ExtendedNeoHookean;
 use crate::point::plane::{
-    Matrix2, PlanePoint, in_space, plane_strain, plane_stress, svd as plane_svd, uniaxial_stress,
+    Matrix2, PlanePoint, in_space, plane_strain, plane_stress, plane_svd, uniaxial_stress,
 };
 
 /// Stretches in the plane: apart, equal, at rest, nearly equal, large, small, and two that are inverted.
@@ -21,8 +21,8 @@ const IN_PLANE: [[f64; 2]; 9] = [
     [0.9, -0.9 + 1e-3],
 ];
 
-/// Error of stresses and tangents in units of u M: two decompositions, exact for an F that differs by 20 u λ1,
-/// and four factors from their frames.
+/// Error of stresses and tangents in units of u M: two decompositions, exact for an F that differs by 20 u
+/// λ1, and four factors from their frames.
 const ROUNDING: f64 = 100.0;
 
 fn with_plane_stretches(random: &mut Random, [a, b]: [f64; 2]) -> Matrix2<f64> {

@@ -181,14 +181,14 @@ fn Abaqus_gets_stress_and_tangent_in_its_order() {
         let point = at(F);
         let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
         let (sigma, c) = (cauchy(&svd, blocks.gradient), jaumann_tangent(&svd, blocks));
-        let (stress, ddsdde) = (abaqus::from_stress(&sigma), abaqus::from_tangent(&c));
-        for (I, (i, j)) in abaqus::ORDER.into_iter().enumerate() {
+        let (stress, ddsdde) = (abaqus::umat_stress(&sigma), abaqus::umat_tangent(&c));
+        for (I, (i, j)) in abaqus::ABAQUS_ORDER.into_iter().enumerate() {
             assert_eq!(stress[I], sigma[i][j]);
-            for (K, (k, l)) in abaqus::ORDER.into_iter().enumerate() {
+            for (K, (k, l)) in abaqus::ABAQUS_ORDER.into_iter().enumerate() {
                 assert_eq!(ddsdde[I][K], c[voigt::INDEX[i][j]][voigt::INDEX[k][l]]);
             }
         }
-        let plane = abaqus::plane_stress(&ddsdde);
+        let plane = abaqus::plane_stress_ddsdde(&ddsdde);
         for i in 0..3 {
             for j in 0..3 {
                 assert_eq!(plane[i][j], plane[j][i]);
@@ -203,7 +203,7 @@ fn a_user_material_has_a_stress_and_its_status() {
     let point = evaluate(&NeoHookean, &F, Filter::None);
     let (svd, blocks) = (point.decomposition(), point.tangent.blocks);
     let umat = abaqus::respond(&NeoHookean, &F);
-    assert_eq!(umat.stress, abaqus::from_stress(&cauchy(&svd, blocks.gradient)));
+    assert_eq!(umat.stress, abaqus::umat_stress(&cauchy(&svd, blocks.gradient)));
     assert_eq!(umat.energy, evaluate_energy(&NeoHookean, &F).0);
     assert!(umat.status.is_clean());
     // Along turned axes: σ = R σ′ Rᵀ.

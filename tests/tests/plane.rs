@@ -1,0 +1,122 @@
+//! The catalogue in plane stress and uniaxial stress: free of stress across, the slopes right, and no
+//! infinite or NaN result under a clean status, wherever the deformation lies.
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use piola::material::Declared;
+use piola::point::measures::abaqus;
+use piola::point::plane::{Matrix2, in_space, plane_strain, plane_stress, uniaxial_stress};
+use piola::point::split::split;
+use piola::point::{Filter, evaluate};
+use piola::random::Random;
+use piola::{DynMaterial, Inversion};
+use piola_materials::{CATALOGUE, Visitor};
+
+const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
+
+/// A material at points.
+struct Boxed;
+
+impl Visitor for Boxed {
+    type Output = Box<dyn DynMaterial<f64>>;
+
+    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+        Box::new(material)
+    }
+}
+
+/// Runs a check on every material of the catalogue in every treatment of inversion.
+fn everywhere(mut check: impl FnMut(&str, &dyn DynMaterial<f64>)) {
+    for entry in CATALOGUE {
+        let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
+        for &inversion in inversions {
+            let material = entry.visit(entry.typical(), inversion, Boxed).expect("typical parameters");
+            check(&format!("{} {inversion:?}", entry.name), &*material);
+        }
+    }
+}
+
+fn drawn(random: &mut Random, spread: f64) -> Matrix2<f64> {
+    let mut entry = |middle: f64| middle + spread * random.uniform(-1.0, 1.0);
+    [[entry(1.0), entry(0.0)], [entry(0.0), entry(1.0)]]
+}
+
+#[test]
+fn near_rest_every_material_has_plane_and_uniaxial_stress() {
+    let mut random = Random::new(141);
+    let mut worst = 0f64;
+    everywhere(|name, material| {
+        for _ in 0..200 {
+            let F = drawn(&mut random, 0.1);
+            let point = plane_stress(material, &F, Filter::None);
+            assert!(point.status.is_clean() && !point.no_equilibrium, "{name} at {F:?}");
+            let space = evaluate(material, &in_space(&F, point.out_of_plane_stretch), Filter::None);
+            let dP_dF = space.tangent.to_matrix();
+            let stiffness = dP_dF.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+            worst = worst.max(space.stress[2][2].abs() / (stiffness * f64::EPSILON));
+            // A little more F changes P by the tangent, up to second order, 1e-12 of it, and rounding over h.
+            let h = 1e-6;
+            let dF = drawn(&mut random, 1.0);
+            let at = |h: f64| {
+                let F = std::array::from_fn(|i| std::array::from_fn(|j| F[i][j] + h * dF[i][j]));
+                plane_stress(material, &F, Filter::None).stress
+            };
+            let (ahead, behind, dP) = (at(h), at(-h), point.tangent.apply(&dF));
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let error = (ahead[i][j] - behind[i][j]) / (2.0 * h) - dP[i][j];
+                assert!(error.abs() <= 1e-7 * stiffness, "{name}: {error:e} beside {stiffness:e} at {F:?}");
+            }
+            let stretch = random.uniform(0.9, 1.1);
+            let bar = uniaxial_stress(material, stretch);
+            assert!(bar.status.is_clean(), "{name} at {stretch}");
+        }
+    });
+    // The decomposition of F in space differs by 20 u from that in the plane, times what derivatives make of
+    // it.
+    assert!(worst <= 40.0, "P33 of {worst} times the rounding of F");
+}
+
+#[test]
+fn nothing_infinite_comes_with_a_clean_status() {
+    let mut random = Random::new(142);
+    let (mut clean, mut without) = (0, 0);
+    everywhere(|name, material| {
+        for round in 0..600 {
+            let F = match round % 3 {
+                0 => drawn(&mut random, 1.5),
+                1 => {
+                    let spread = 10f64.powf(random.uniform(-8.0, 8.0));
+                    drawn(&mut random, spread)
+                }
+                _ => std::array::from_fn(|_| std::array::from_fn(|_| f64::from_bits(random.bits()))),
+            };
+            for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
+                for point in [plane_strain(material, &F, filter), plane_stress(material, &F, filter)] {
+                    without += usize::from(point.no_equilibrium);
+                    if point.status.is_clean() {
+                        clean += 1;
+                        let tangent = point.tangent.to_matrix();
+                        let numbers = point.stress.as_flattened().iter().chain(tangent.as_flattened());
+                        let numbers = numbers.chain(point.out_of_plane_slope.as_flattened());
+                        let sum: f64 = numbers.map(|x| 0.0 * x).sum();
+                        assert!(sum == 0.0 && point.energy.is_finite(), "{name} at {F:?}: {point:?}");
+                    }
+                }
+            }
+            let space = in_space(&F, random.uniform(0.2, 2.0));
+            let parts = split(material, &space);
+            if parts.status.is_clean() {
+                let tangent = parts.with_pressure(parts.mean_stress).1.to_matrix();
+                let all = tangent.as_flattened().iter().chain(parts.principal_coupling.iter());
+                assert!(all.map(|x| 0.0 * x).sum::<f64>() == 0.0, "{name} at {space:?}: {parts:?}");
+            }
+            let umat = abaqus::respond(material, &space);
+            if umat.status.is_clean() {
+                let all = umat.ddsdde.as_flattened().iter().chain(&umat.stress);
+                assert!(all.map(|x| 0.0 * x).sum::<f64>() == 0.0, "{name} at {space:?}: {umat:?}");
+            }
+        }
+    });
+    // A judge that never meets one of the answers judges nothing.
+    assert!(clean > 1000 && without > 100, "{clean} clean, {without} without equilibrium");
+}
