@@ -222,7 +222,7 @@ impl Lists {
         diagnostics: &mut Diagnostics,
     ) {
         const MESSAGE: &str =
-            "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: piola::Spline`";
+            "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: F`, with `F: piola::Univariate`";
         let FnArg::Typed(argument) = input else {
             return diagnostics.error(input, MESSAGE);
         };
