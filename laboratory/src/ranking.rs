@@ -89,27 +89,26 @@ impl Place {
 /// use piola_materials::{IsochoricNeoHookean, Yeoh};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let contenders = vec![
+/// let contenders = [
 ///     Contender { name: "neo-Hookean".into(), candidate: Box::new(IsochoricNeoHookean::new(4e5, 2e7)?) },
 ///     Contender { name: "Yeoh".into(), candidate: Box::new(Yeoh::new(1.9e5, -2e3, 40.0, 2e7)?) },
 /// ];
 /// let settings = FitSettings::default().with_difference(Difference::Absolute).with_restarts(2);
-/// let ranking = rank(contenders, &Measurements::read(TRELOAR_1944)?, &settings);
+/// let ranking = rank(&contenders, &Measurements::read(TRELOAR_1944)?, &settings);
 /// let names: Vec<_> = ranking.places.iter().map(|place| (&*place.name, place.parameters())).collect();
 /// assert_eq!(names, [("Yeoh", 3), ("neo-Hookean", 1)]);
 /// # Ok(())
 /// # }
 /// ```
 #[must_use]
-pub fn rank(contenders: Vec<Contender>, data: &Measurements, settings: &FitSettings) -> Ranking {
+pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSettings) -> Ranking {
     let settings = settings.clone().with_volume(Volume::Kept);
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::with_capacity(contenders.len()));
     let work = || {
-        while let Some((index, contender)) = {
+        loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            contenders.get(index).map(|contender| (index, contender))
-        } {
+            let Some(contender) = contenders.get(index) else { break };
             let result = place(contender, data, &settings);
             if let Ok(mut results) = results.lock() {
                 results.push((index, result));
@@ -118,7 +117,8 @@ pub fn rank(contenders: Vec<Contender>, data: &Measurements, settings: &FitSetti
     };
     thread::scope(|scope| {
         for _ in 1..thread::available_parallelism().map_or(1, NonZeroUsize::get) {
-            scope.spawn(work);
+            // Without further threads this one does all.
+            let _ = thread::Builder::new().spawn_scoped(scope, work);
         }
         work();
     });

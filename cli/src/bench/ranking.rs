@@ -15,7 +15,7 @@ use piola_scenes::output::write_whole;
 use super::measurements;
 use crate::error::Error;
 
-/// What stands in the place of a material.
+/// The word in the place of a material.
 pub(super) const ALL: &str = "all";
 
 pub(super) const HELP: &str = "\
@@ -46,7 +46,7 @@ pub(super) fn run(file: &Path, svg: Option<&Path>) -> Result<String, Error> {
     };
     let rubbers = CATALOGUE.iter().filter(|entry| entry.is_rubber);
     let contenders = rubbers.map(|entry| contender(entry.name)).collect::<Result<Vec<_>, _>>()?;
-    let ranking = rank(contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
+    let ranking = rank(&contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
     let title = format!("rubbers, incompressible, fitted to {}", file.display());
     if let Some(svg) = svg {
         let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::bench)?;

@@ -60,7 +60,7 @@ pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartE
     Ok(svg)
 }
 
-/// What the marks and the columns are.
+/// Explains the marks and the columns.
 fn explain(area: &Area<'_>, ranking: &Ranking) -> Result<(), ChartError> {
     let y = LEGEND / 2;
     let mut x = MARKS.0;

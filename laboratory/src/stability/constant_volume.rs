@@ -43,10 +43,9 @@ pub fn lost(specimen: &dyn Specimen, mode: Mode, to: f64) -> [Option<f64>; 3] {
         Mode::SimpleShear => share * to,
         _ => to.powf(share),
     };
-    let penalised = Penalised(specimen);
     let judged = |share: f64| {
         let response = respond(specimen, mode, Volume::Kept, control(share)).ok()?;
-        Judgement::of(&penalised, response.stretches)
+        Judgement::with(specimen, response.stretches, penalise)
     };
     let mut lost = [None; 3];
     let share = |step: u32| f64::from(step) / f64::from(STEPS);
@@ -67,35 +66,17 @@ pub fn lost(specimen: &dyn Specimen, mode: Mode, to: f64) -> [Option<f64>; 3] {
     lost
 }
 
-/// A solid with the penalty on its volume, at J = 1.
-struct Penalised<'a>(&'a dyn Specimen);
-
-impl Specimen for Penalised<'_> {
-    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3] {
-        self.0.gradient_at_strains(strains)
-    }
-
-    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6] {
-        self.blocks(stretches).hessian
-    }
-
-    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
-        let mut blocks = self.0.blocks(stretches);
-        // Those of ψii, then those of the pairs.
-        let products: [f64; 6] = std::array::from_fn(|k| match k.checked_sub(3) {
-            None => stretches[k] * stretches[k],
-            Some(pair) => stretches[PAIRS[pair].0] * stretches[PAIRS[pair].1],
-        });
-        let stresses = (0..3).map(|i| (stretches[i] * blocks.gradient[i]).abs());
-        let moduli = (0..6).map(|k| (products[k] * blocks.hessian[k]).abs());
-        let penalty = PENALTY * stresses.chain(moduli).fold(0.0, f64::max);
-        for (modulus, product) in blocks.hessian.iter_mut().zip(products) {
-            *modulus += penalty / product;
-        }
-        blocks
-    }
-
-    fn admits(&self, stretches: [f64; 3]) -> bool {
-        self.0.admits(stretches)
+/// Adds the penalty on the volume, at J = 1.
+fn penalise(blocks: &mut Blocks<f64>, stretches: [f64; 3]) {
+    // Those of ψii, then those of the pairs.
+    let products: [f64; 6] = std::array::from_fn(|k| match k.checked_sub(3) {
+        None => stretches[k] * stretches[k],
+        Some(pair) => stretches[PAIRS[pair].0] * stretches[PAIRS[pair].1],
+    });
+    let stresses = (0..3).map(|i| (stretches[i] * blocks.gradient[i]).abs());
+    let moduli = (0..6).map(|k| (products[k] * blocks.hessian[k]).abs());
+    let penalty = PENALTY * stresses.chain(moduli).fold(0.0, f64::max);
+    for (modulus, product) in blocks.hessian.iter_mut().zip(products) {
+        *modulus += penalty / product;
     }
 }
