@@ -3,6 +3,7 @@
 mod check;
 mod curve;
 mod fit;
+mod ranking;
 
 use std::path::{Path, PathBuf};
 

@@ -41,7 +41,7 @@ pub(crate) enum Command {
     /// List the materials with formula, parameters and typical values of them, domain and small-strain
     /// moduli.
     Materials,
-    /// Print test curves of a material, with R² of measured ones.
+    /// Print test curves of a material, with R² of measured ones; or rank all rubbers by it.
     Curve(Box<Curve>),
     /// Fit the parameters of a material to measured curves.
     Fit(Box<Fit>),

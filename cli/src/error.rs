@@ -128,6 +128,21 @@ pub enum Error {
     /// The bench refuses the material, the stretches or the chart.
     #[error(transparent)]
     Bench(Box<dyn std::error::Error + Send + Sync>),
+    /// All rubbers are to be ranked, beside nothing.
+    #[error("`piola curve all` compares energies with measured points: add --data FILE, or --data treloar")]
+    RankedWithoutData,
+    /// All rubbers are to be ranked, with an option for one material.
+    #[error("`piola curve all` has no use for {0}: it fits all parameters to all points, at constant volume")]
+    RankedWith(
+        /// The option, such as `--param`.
+        &'static str,
+    ),
+    /// All rubbers are to be ranked beside a test that changes the volume.
+    #[error("{}: `piola curve all` fits solids that keep their volume; leave the volumetric test out", path.display())]
+    RankedByVolume {
+        /// The file.
+        path: PathBuf,
+    },
     /// Parameters cannot be fitted to the data.
     #[error(
         "{material} cannot be fitted: {source}{}",

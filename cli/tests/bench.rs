@@ -102,3 +102,33 @@ fn other_minima_are_told_beside_the_one_found() {
         format!("another minimum has differences of {found} %, beside {found} % of this one: --param c10=");
     assert!(text.contains(&said), "`{said}` is not in: {text}");
 }
+
+#[test]
+fn rubbers_are_ranked_and_those_without_a_fit_named() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let text = "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.6\nuniaxial,4,1.2\nuniaxial,6,2.5\n\
+                equibiaxial,2,0.8\nequibiaxial,3,1.2\n";
+    fs::write(folder.path().join("few.csv"), text).expect("a scratch file");
+    let text = piola(folder.path(), &["curve", "all", "--data", "few.csv", "--svg", "few.svg"]);
+    let (_, table) = text.split_once("stability\n").expect("a table");
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split_whitespace().collect()).collect();
+    let (failed, ranked): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.get(1) == Some(&"not"));
+    let refused = failed.iter().find(|row| row[0] == "ogden").expect("6 parameters, 5 points");
+    assert!(refused.join(" ").contains("5 points cannot determine 6 parameters"), "{text}");
+    assert_eq!(rows.len(), piola_materials::CATALOGUE.iter().filter(|entry| entry.is_rubber).count());
+
+    let number = |row: &[&str], column: usize| row[column].parse::<f64>().expect("a number");
+    assert!(
+        ranked.len() > 20 && ranked.is_sorted_by(|one, other| number(one, 2) >= number(other, 2)),
+        "{text}"
+    );
+    for row in &ranked {
+        // Both are rounded to five digits.
+        let share = number(row, 2) / number(row, 1);
+        assert!((number(row, 5) - share).abs() < 1e-5, "{row:?}");
+    }
+    let svg = fs::read_to_string(folder.path().join("few.svg")).expect("a chart");
+    for word in ["gent_thomas", "equibiaxial", "R²/n", "stability", "kept"] {
+        assert!(svg.contains(word), "`{word}` is not in the chart");
+    }
+}

@@ -1,9 +1,11 @@
-//! Test curves and measured points as a chart, in SVG.
+//! Test curves and measured points, and the agreement of several energies, as charts in SVG.
 //!
 //! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap
 //! where the material has no stress.
+//! [`rows`] draws a [ranking](mod@crate::ranking).
 
 mod panel;
+mod rows;
 
 use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
@@ -12,6 +14,7 @@ use crate::data::{Agreement, Measurements};
 use panel::Panel;
 
 pub use panel::ChartError;
+pub use rows::rows;
 
 /// A curve to be drawn.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,8 @@
 //!   sides solved;
 //! * [`data`]: measured curves, and how well an energy agrees with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
-//! * [`chart`]: both in one picture;
+//! * [`ranking`]: several energies beside the same measurements, in the order of their agreement;
+//! * [`chart`]: all of these in pictures;
 //! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!
 //! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an
@@ -17,6 +18,7 @@ pub mod chart;
 pub mod curve;
 pub mod data;
 pub mod fit;
+pub mod ranking;
 mod specimen;
 pub mod stability;
 

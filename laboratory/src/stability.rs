@@ -23,9 +23,12 @@
 //! Between the points of the box nothing is known, and a stable solid may still buckle: that depends on the
 //! body.
 //!
+//! [`constant_volume`] has the same for solids that keep their volume.
+//!
 //! [`criteria`] has the inequalities and how they imply each other; [`wave`] tells how strong ellipticity is
 //! decided without a search.
 
+pub mod constant_volume;
 pub mod criteria;
 mod display;
 mod map;

@@ -14,6 +14,9 @@ pub struct Entry {
     pub name: &'static str,
     /// Formula, parameters, domain.
     pub description: Description,
+    /// Whether it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
+    /// be fitted to tests of others.
+    pub is_rubber: bool,
     pub(crate) kind: Kind,
 }
 
@@ -36,10 +39,10 @@ pub trait FittableVisitor {
 }
 
 /// Declares the energies of the crate: for each its feature, its file, its type with the lengths that its
-/// lists may have at run time, and whether it is `without fit`, the derivatives with respect to its
-/// parameters.
+/// lists may have at run time, whether it is `without fit`, the derivatives with respect to its parameters,
+/// and whether it is `for rubber`.
 macro_rules! catalogue {
-    ($($feature:literal $module:ident::$Material:ident $(<$($length:literal),+>)? $(without $fit:ident)?,)+) => {
+    ($($feature:literal $module:ident::$Material:ident $(<$($length:literal),+>)? $(without $fit:ident)? $(for $rubber:ident)?,)+) => {
         $(
             #[cfg(feature = $feature)]
             mod $module;
@@ -60,6 +63,7 @@ macro_rules! catalogue {
             Entry {
                 name: stringify!($module),
                 description: catalogue!(@description $Material $($($length)+)?),
+                is_rubber: catalogue!(@is $($rubber)?),
                 kind: Kind::$Material,
             },
         )+];
@@ -117,6 +121,8 @@ macro_rules! catalogue {
             }
         }
     };
+    (@is) => { false };
+    (@is rubber) => { true };
     (@description $Material:ident) => { <$Material as ::piola::material::Declared>::DESCRIPTION };
     (@description $Material:ident $first:literal $($length:literal)*) => { <$Material<$first> as ::piola::material::Declared>::DESCRIPTION };
     (@visit_fittable [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {

@@ -3,6 +3,7 @@
 
     python -m venv venv && venv/bin/pip install mpmath==1.4.1 gmpy2==2.3.2
     venv/bin/python generate.py cases-more.json             # writes the file beside this script, the same bytes each time
+    venv/bin/python generate.py --further cases-further.json    # likewise: the energies that came later
     venv/bin/python generate.py --ordinary cases-ordinary.json  # likewise: what the report of speed and error calls ordinary
     venv/bin/python generate.py --check cases.json          # recomputes every number of a file of this schema
 
@@ -150,10 +151,14 @@ class Stretches:
         return self.J ** (-4 * THIRD) * self.I2
 
     @cached_property
+    def isochoric(self):
+        """The stretches J^(−1/3) λ."""
+        return Stretches([self.J ** -THIRD * l for l in self.all])
+
+    @cached_property
     def E(self):
         """Green strains."""
         return [(l * l - 1) / 2 for l in self.all]
-
 
     @cached_property
     def U(self):
@@ -236,7 +241,119 @@ ENERGIES = {
     "anssari_benam_bucchi": lambda s, mu, n, kappa: (
         mu * n * ((s.I1b - 3) / (6 * n) - ln((s.I1b - 3 * n) / (3 - 3 * n))) + kappa * s.U
     ),
+    "isihara": lambda s, c10, c20, c01, kappa: (
+        c10 * (s.I1b - 3) + c20 * (s.I1b - 3) ** 2 + c01 * (s.I2b - 3) + kappa * s.U
+    ),
+    "haines_wilson": lambda s, c10, c01, c11, c02, c20, c30, kappa: (
+        polynomial(s, {(1, 0): c10, (0, 1): c01, (1, 1): c11, (0, 2): c02, (2, 0): c20, (3, 0): c30}) + kappa * s.U
+    ),
+    "james_green_simpson": lambda s, c10, c01, c11, c20, c30, kappa: (
+        polynomial(s, {(1, 0): c10, (0, 1): c01, (1, 1): c11, (2, 0): c20, (3, 0): c30}) + kappa * s.U
+    ),
+    "swanson": lambda s, a, alpha, b, beta, kappa: sum(
+        mpf(3) / 2 * c / (1 + e) * ((invariant / 3) ** (1 + e) - 1)
+        for invariant, moduli, exponents in [(s.I1b, a, alpha), (s.I2b, b, beta)]
+        for c, e in zip(moduli, exponents)
+    ) + kappa * s.U,
+    "horgan_saccomandi": lambda s, mu, jm, kappa: (
+        -mu / 2 * jm * ln((jm**3 - jm**2 * s.I1b + jm * s.I2b - 1) / (jm - 1) ** 3) + kappa * s.U
+    ),
+    "edwards_vilgis": lambda s, nc, ns, alpha, eta, kappa: (
+        nc / 2 * ((1 - alpha**2) * s.I1b / (1 - alpha**2 * s.I1b) + ln(1 - alpha**2 * s.I1b))
+        + ns / 2 * (
+            s.isochoric.sum(
+                lambda l: (1 + eta) * (1 - alpha**2) * l**2 / ((1 + eta * l**2) * (1 - alpha**2 * s.I1b))
+                + ln(1 + eta * l**2)
+            )
+            + ln(1 - alpha**2 * s.I1b)
+        )
+        + kappa * s.U
+    ),
+    "flory_erman": lambda s, cp, cc, kappa_c, kappa: (
+        cp / 2 * (s.I1b - 3) + cc / 2 * s.isochoric.sum(lambda l: constraint(l, kappa_c)) + kappa * s.U
+    ),
+    "attard_hunt": lambda s, a1, a2, a3, b1, lam: (
+        s.sum(lambda l: sum(a / (2 * n) * (l ** (2 * n) - 1) for n, a in [(1, a1), (2, a2), (3, a3)]))
+        + s.sum(lambda l: b1 / 2 * (l**-2 - 1)) - (a1 + a2 + a3 - b1) * ln(s.J) + lam / 2 * ln(s.J) ** 2
+    ),
+    "davidson_goulbourne": lambda s, gc, lambda_m, ge, kappa: (
+        gc / 6 * (s.I1b - 3) - gc * lambda_m**2 * ln((3 * lambda_m**2 - s.I1b) / (3 * lambda_m**2 - 3))
+        + ge * s.isochoric.sum(lambda l: l + 1 / l - 2) + kappa * s.U
+    ),
+    "khajehsaeid": lambda s, a, alpha, beta, kappa: (
+        a * (exp(alpha * (s.I1b - 3)) / alpha + beta * (s.I1b - 2) * (1 - ln(s.I1b - 2)) - 1 / alpha - beta)
+        + kappa * s.U
+    ),
+    "mansouri_darijani": lambda s, a1, m1, b1, n1, kappa: (
+        a1 * (exp(m1 * (s.I1b - 3)) - 1) + b1 * (exp(n1 * (s.I2b - 3)) - 1) + kappa * s.U
+    ),
+    "hoss_marczak": lambda s, alpha, beta, mu, b, n, c2, kappa: (
+        alpha / beta * (1 - exp(-beta * (s.I1b - 3))) + mu / (2 * b) * ((1 + b / n * (s.I1b - 3)) ** n - 1)
+        + c2 * ln(s.I2b / 3) + kappa * s.U
+    ),
+    "hartmann_neff": lambda s, alpha, c10, c01, kappa: (
+        alpha * (s.I1b**3 - 27) + c10 * (s.I1b - 3) + c01 * (s.I2b ** mpf(1.5) - 3 * mp.sqrt(3))
+        + kappa / 50 * (s.J**5 + s.J**-5 - 2)
+    ),
+    "yeoh_fleming": lambda s, a, b, c10, im, kappa: (
+        a / b * (im - 3) * (1 - exp(-b * (s.I1b - 3) / (im - 3)))
+        - c10 * (im - 3) * ln(1 - (s.I1b - 3) / (im - 3)) + kappa * s.U
+    ),
+    "dobrynin_carrillo": lambda s, g, beta, kappa: (
+        g / 6 * (s.I1b - 3) + g / beta * ((1 - beta * s.I1b / 3) ** -1 - 1 / (1 - beta)) + kappa * s.U
+    ),
+    "veronda_westmann": lambda s, c1, alpha, kappa: (
+        c1 * (exp(alpha * (s.I1b - 3)) - 1) - c1 * alpha / 2 * (s.I2b - 3) + kappa * s.U
+    ),
+    "three_chain": lambda s, mu, n, kappa: mu * n / 3 * (
+        s.isochoric.sum(lambda l: cohen(l**2 / n)) - 3 * cohen(1 / n)
+    ) + kappa * s.U,
+    "peng_landel": lambda s, e, kappa: (
+        e * s.isochoric.sum(
+            lambda l: l - 1 - ln(l) - ln(l) ** 2 / 6 + ln(l) ** 3 / 18 - ln(l) ** 4 / 216
+        ) + kappa * s.U
+    ),
+    "levinson_burgess": lambda s, mu, f, nu: mu / 2 * (
+        f * (s.I1 - 3) + (1 - f) * (s.I2 / s.J**2 - 3) + 2 * (1 - 2 * f) * (s.J - 1)
+        + (2 * f + (4 * nu - 1) / (1 - 2 * nu)) * (s.J - 1) ** 2
+    ),
+    "murnaghan": lambda s, lam, mu, l, m, n: (
+        (lam + 2 * mu) / 2 * sum(s.E) ** 2 - 2 * mu * (s.E[0] * s.E[1] + s.E[1] * s.E[2] + s.E[2] * s.E[0])
+        + (l + 2 * m) / 3 * sum(s.E) ** 3
+        - 2 * m * sum(s.E) * (s.E[0] * s.E[1] + s.E[1] * s.E[2] + s.E[2] * s.E[0])
+        + n * s.E[0] * s.E[1] * s.E[2]
+    ),
+    "bazant": lambda s, mu, lam: (
+        mu * s.sum(lambda l: ((l - 1 / l) / 2) ** 2) + lam / 2 * s.sum(lambda l: (l - 1 / l) / 2) ** 2
+    ),
+    "seth_hill": lambda s, mu, lam, m: (
+        mu * s.sum(lambda l: ((l ** (2 * m) - 1) / (2 * m)) ** 2)
+        + lam / 2 * s.sum(lambda l: (l ** (2 * m) - 1) / (2 * m)) ** 2
+    ),
+    "symmetric_arap": lambda s, mu: mu / 2 * s.sum(lambda l: (l - 1) ** 2 + (1 / l - 1) ** 2),
+    "mips": lambda s, mu, alpha: (
+        mu * (alpha * (s.I1 * s.I2 / s.J**2 - 1) / 8 + (1 - alpha) * (s.J + 1 / s.J) / 2)
+    ),
 }
+
+
+def polynomial(s, coefficients):
+    """Σ Cij (I1b − 3)^i (I2b − 3)^j."""
+    x, y = s.I1b - 3, s.I2b - 3
+    power = lambda x, i: x**i if i else 1
+    return sum(c * power(x, i) * power(y, j) for (i, j), c in coefficients.items())
+
+
+def constraint(l, kappa):
+    """Flory and Erman's B + D − ln(1 + B) − ln(1 + D), as printed."""
+    b = kappa**2 * (l**2 - 1) / (l**2 + kappa) ** 2
+    d = l**2 * b / kappa
+    return b + d - ln(1 + b) - ln(1 + d)
+
+
+def cohen(square):
+    """∫ x (3 − x²)/(1 − x²) dx at x²."""
+    return square / 2 - ln(1 - square)
 
 
 def energy_of(material, parameters):
@@ -561,6 +678,8 @@ FAMILIES = {
     "pure_rotation": rotated(lambda rng, k: [1, 1, 1]),
     "shear": shear,
     "diagonal": diagonal,
+    "inverted": rotated(lambda rng, k: [ordinary(rng), ordinary(rng), -ordinary(rng)]),
+    "near_pair_inverted": rotated(lambda rng, k: [(a := mpf(ordinary(rng))) + mpf(10) ** -k, a, -ordinary(rng)]),
 }
 # How many cases of each family an energy gets, and the levels k that they take in turn.
 PLAN = [
@@ -581,6 +700,20 @@ PLAN = [
     ("diagonal", 1, [None]),
 ]
 LOCKING = ("gent_locking", 4, [1, 2, 3, 4])
+# The same for the energies of `cases-further.json`, of which those that are defined there get inverted ones.
+FURTHER_PLAN = [
+    ("rest_exact", 1, [None]),
+    ("near_rest", 1, [1, 2, 4, 6, 8]),
+    ("random_large", 1, [None]),
+    ("exact_pair", 1, [None]),
+    ("near_pair", 1, list(range(4, 15))),
+    ("near_triple", 1, list(range(4, 15))),
+    ("near_singular", 1, list(range(2, 13))),
+    ("line_collapse", 1, list(range(1, 13))),
+]
+FURTHER_LOCKING = ("gent_locking", 1, [1, 2, 3, 4])
+INVERTED = [("near_pair_inverted", 1, [2, 6, 10, 14]), ("inverted", 2, [None])]
+DEFINED_INVERTED = ["murnaghan"]
 
 # -------------------------------------------------------------------------------------------------------------- parameters
 
@@ -607,6 +740,13 @@ def lists(rng, p, exponents):
 def foam(rng, p, d):
     values = lists(rng, p, [-2.0, -0.5, 1.5, 3.25, 4.5, 8.0])
     return {**values, "beta": [d(0.125, 2) for _ in values["mu"]]}
+
+
+def two_lists(rng, p):
+    """Swanson's moduli and exponents, as many of one invariant as of the other."""
+    count = rng.randint(1, 2)
+    alpha, beta = rng.sample([-0.5, 0.25, 0.5, 1.5, 3.0], count), rng.sample([-0.75, -0.5, 0.25, 0.5], count)
+    return {"a": [p(0.5, 5) for _ in alpha], "alpha": alpha, "b": [p(0.125, 2) for _ in beta], "beta": beta}
 
 
 # p draws a modulus, d a pure number; `room` is a power of two above I1b − 3, for the energies that bound it.
@@ -637,16 +777,82 @@ PARAMETERS = {
     "knowles": lambda rng, p, d, room: {"mu": p(0.5, 5), "b": d(0.125, 2), "n": d(0.25, 4), "kappa": p(1, 200)},
     "anssari_benam_bucchi": lambda rng, p, d, room: {"mu": p(0.5, 5), "n": d(1.25, 8) * room, "kappa": p(1, 200)},
 }
+# The energies of `cases-further.json`, as above.
+FURTHER = {
+    "isihara": lambda rng, p, d, room: {
+        "c10": p(0.5, 5), "c20": p(1e-3, 0.1), "c01": p(0.125, 2), "kappa": p(1, 200),
+    },
+    "haines_wilson": lambda rng, p, d, room: {
+        "c10": p(0.5, 5), "c01": p(0.125, 2), "c11": p(1e-3, 0.01), "c02": p(1e-4, 1e-3), "c20": -p(1e-3, 0.1),
+        "c30": p(1e-3, 0.01), "kappa": p(1, 200),
+    },
+    "james_green_simpson": lambda rng, p, d, room: {
+        "c10": p(0.5, 5), "c01": p(0.125, 2), "c11": p(1e-3, 0.01), "c20": -p(1e-3, 0.1), "c30": p(1e-3, 0.01),
+        "kappa": p(1, 200),
+    },
+    "swanson": lambda rng, p, d, room: {**two_lists(rng, p), "kappa": p(1, 200)},
+    "horgan_saccomandi": lambda rng, p, d, room: {"mu": p(0.5, 5), "jm": d(2, 8) * room, "kappa": p(1, 200)},
+    "edwards_vilgis": lambda rng, p, d, room: {
+        "nc": p(0.5, 5), "ns": p(0.5, 5), "alpha": d(0.25, 0.75) * 2.0 ** -int(mp.ceil(mp.log(2 * room, 4))),
+        "eta": d(0.125, 1), "kappa": p(1, 200),
+    },
+    "flory_erman": lambda rng, p, d, room: {
+        "cp": p(0.5, 5), "cc": p(0.5, 5), "kappa_c": d(0.5, 20), "kappa": p(1, 200),
+    },
+    "attard_hunt": lambda rng, p, d, room: {
+        "a1": p(0.5, 5), "a2": p(0.01, 0.1), "a3": p(1e-3, 0.01), "b1": p(0.125, 2), "lambda": p(1, 200),
+    },
+    "davidson_goulbourne": lambda rng, p, d, room: {
+        "gc": p(0.5, 5), "lambda_m": d(1, 2) * 2.0 ** int(mp.ceil(mp.log(room, 4))), "ge": p(0.125, 2),
+        "kappa": p(1, 200),
+    },
+    "khajehsaeid": lambda rng, p, d, room: {
+        "a": p(0.5, 5), "alpha": d(0.25, 2) / room, "beta": d(0.01, 0.1), "kappa": p(1, 200),
+    },
+    "mansouri_darijani": lambda rng, p, d, room: {
+        "a1": p(0.5, 5), "m1": d(0.25, 2) / room, "b1": p(0.125, 2), "n1": d(0.25, 2) / room**2, "kappa": p(1, 200),
+    },
+    "hoss_marczak": lambda rng, p, d, room: {
+        "alpha": p(0.125, 2), "beta": d(0.25, 2), "mu": p(0.5, 5), "b": d(0.125, 2), "n": d(0.25, 4),
+        "c2": p(0.125, 2), "kappa": p(1, 200),
+    },
+    "hartmann_neff": lambda rng, p, d, room: {
+        "alpha": p(1e-3, 0.01), "c10": p(0.5, 5), "c01": p(0.125, 2), "kappa": p(1, 200),
+    },
+    "yeoh_fleming": lambda rng, p, d, room: {
+        "a": p(0.125, 2), "b": d(0.25, 4), "c10": p(0.5, 5), "im": d(1.25, 8) * room, "kappa": p(1, 200),
+    },
+    "dobrynin_carrillo": lambda rng, p, d, room: {"g": p(0.5, 5), "beta": d(0.25, 0.75) / room, "kappa": p(1, 200)},
+    "veronda_westmann": lambda rng, p, d, room: {"c1": p(0.5, 5), "alpha": d(1, 4) / room, "kappa": p(1, 200)},
+    "three_chain": lambda rng, p, d, room: {"mu": p(0.5, 5), "n": d(2, 8) * room, "kappa": p(1, 200)},
+    "peng_landel": lambda rng, p, d, room: {"e": p(0.5, 5), "kappa": p(1, 200)},
+    "levinson_burgess": lambda rng, p, d, room: {
+        "mu": p(0.5, 5), "f": d(0.125, 0.75), "nu": 0.5 - d(0.01, 0.25),
+    },
+    "murnaghan": lambda rng, p, d, room: {
+        "lambda": p(1, 5), "mu": p(0.5, 5), "l": -p(1, 20), "m": -p(1, 20), "n": -p(1, 20),
+    },
+    "bazant": lambda rng, p, d, room: {"mu": p(0.5, 5), "lambda": p(0.5, 200)},
+    "seth_hill": lambda rng, p, d, room: {
+        "mu": p(0.5, 5), "lambda": p(0.5, 50), "m": rng.choice([-1.0, -0.375, 0.125, 0.25, 0.5, 1.0, 1.5]),
+    },
+    "symmetric_arap": lambda rng, p, d, room: {"mu": p(0.5, 5)},
+    "mips": lambda rng, p, d, room: {"mu": p(0.5, 5), "alpha": d(0.25, 0.75)},
+}
 # The upper bound of I1b − 3.
 BOUND = {
     "gent_gent": lambda values: values["jm"],
     "extended_tube": lambda values: values["delta"] ** -2.0,
     "anssari_benam_bucchi": lambda values: 3 * (values["n"] - 1),
+    "edwards_vilgis": lambda values: values["alpha"] ** -2.0 - 3,
+    "davidson_goulbourne": lambda values: 3 * (values["lambda_m"] ** 2 - 1),
+    "yeoh_fleming": lambda values: values["im"] - 3,
+    "dobrynin_carrillo": lambda values: 3 / values["beta"] - 3,
 }
 
 
 def isochoric_excess(stretches):
-    return Stretches([mpf(x) for x in stretches]).I1b - 3
+    return Stretches([abs(mpf(x)) for x in stretches]).I1b - 3
 
 
 def locking(rng, k, bound):
@@ -665,23 +871,24 @@ def draw(material, tag, k, rng):
     unit = rng.choice([1.0, 1.0, 1.0, 65536.0])
     d = lambda low, high: dyadic(rng, low, high)
     p = lambda low, high: unit * d(low, high)
+    parameters = {**PARAMETERS, **FURTHER}[material]
     if tag == LOCKING[0]:
-        values = PARAMETERS[material](rng, p, d, 8.0)
+        values = parameters(rng, p, d, 8.0)
         F = locking(rng, k, BOUND[material](values))
     else:
         F = FAMILIES[tag](rng, k)
         if rng.random() < 0.5 and (k or 0) <= 6:
             F = [to_f32(x) for x in F]
         excess = isochoric_excess(signed_decomposition(generic(F))[1])
-        values = PARAMETERS[material](rng, p, d, 2.0 ** max(3, int(mp.ceil(mp.log(max(excess, 1), 2)))))
+        values = parameters(rng, p, d, 2.0 ** max(3, int(mp.ceil(mp.log(max(excess, 1), 2)))))
     return {"material": material, "params": values, "tag": tag, "k": k, "F": F}
 
 
 # ------------------------------------------------------------------------------------------------------- write and check
 
 
-def generate(position, material, tag, k):
-    """The line of one case; drawn again where a value leaves the range of f64."""
+def generate(name, position, material, tag, k):
+    """The line of one case of the set of this name; drawn again where a value leaves the range of f64."""
     rng = random.Random(f"{material} {tag} {position}")
     for _ in range(100):
         case = draw(material, tag, k, rng)
@@ -690,7 +897,7 @@ def generate(position, material, tag, k):
             break
     else:
         return f"{material} {tag} {k}: always beyond the range of f64"
-    case["id"] = f"more-{position:04}"
+    case["id"] = f"{name}-{position:04}"
     *solution, difference = solve(case)
     if difference > AGREEMENT:
         return f"{case['id']} {material} {tag} {k}: the derivations differ by {mp.nstr(difference, 3)}"
@@ -702,6 +909,14 @@ def planned():
         for tag, count, levels in PLAN + ([LOCKING] if material in BOUND else []):
             for i in range(count):
                 # Energies take the levels where the one before left off, so that each level is met.
+                yield material, tag, levels[(number * count + i) * 7 % len(levels)]
+
+
+def planned_further():
+    for number, material in enumerate(FURTHER):
+        locking = [FURTHER_LOCKING] if material in BOUND else []
+        for tag, count, levels in FURTHER_PLAN + locking + (INVERTED if material in DEFINED_INVERTED else []):
+            for i in range(count):
                 yield material, tag, levels[(number * count + i) * 7 % len(levels)]
 
 
@@ -762,6 +977,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--check", action="store_true", help="recompute the file instead of writing it")
     arguments.add_argument("--ordinary", action="store_true", help="write ordinary deformations, not hard ones")
+    arguments.add_argument("--further", action="store_true", help="write the energies of FURTHER")
     arguments.add_argument("file", type=Path)
     arguments = arguments.parse_args()
     with ProcessPoolExecutor() as workers:
@@ -777,11 +993,12 @@ def main():
                 plan = [(material, i) for material in ORDINARY for i in range(ORDINARY_COUNT)]
                 lines = list(workers.map(generate_ordinary, *zip(*plan), chunksize=4))
             else:
-                plan = [(i, *x) for i, x in enumerate(planned())]
+                name, cases = ("further", planned_further()) if arguments.further else ("more", planned())
+                plan = [(name, i, *x) for i, x in enumerate(cases)]
                 lines = list(workers.map(generate, *zip(*plan), chunksize=4))
             complaints = [line for line in lines if not line.startswith("{")]
             print("\n".join(complaints), end="\n" if complaints else "")
-            name = "ordinary" if arguments.ordinary else "more"
+            name = "ordinary" if arguments.ordinary else name
             head = f'{{"schema":"isohyper-oracle-1","set":"{name}","count":{len(lines)},"cases":[\n'
             if not complaints:
                 arguments.file.write_text(head + ",\n".join(lines) + "\n]}\n")

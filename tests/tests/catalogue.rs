@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use piola::Inversion;
-use piola_materials::{CATALOGUE, Entry};
+use piola::material::Fittable;
+use piola_materials::{CATALOGUE, Entry, FittableVisitor};
 
 fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../materials/src")
@@ -18,6 +19,23 @@ fn every_declaration_has_typical_parameters_and_units() {
         for (parameter, values) in description.parameters.iter().zip(typical.values) {
             assert!(!values.is_empty(), "{name}: {} has no value", parameter.name);
             assert!(parameter.unit.is_some(), "{name}: {} has no unit", parameter.name);
+        }
+    }
+}
+
+#[test]
+fn energies_of_rubber_are_those_with_typical_parameters_of_it_and_can_be_fitted() {
+    struct Fits;
+    impl FittableVisitor for Fits {
+        type Output = ();
+        fn visit<M: Fittable + 'static>(self, _: M) {}
+    }
+    for entry in CATALOGUE {
+        let source = entry.description.typical.map_or("", |typical| typical.source);
+        assert_eq!(entry.is_rubber, source.contains("natural rubber"), "{}", entry.name);
+        if entry.is_rubber {
+            let fits = entry.visit_fittable(entry.typical(), Inversion::Refuse, Fits);
+            assert_eq!(fits, Ok(()), "{}", entry.name);
         }
     }
 }

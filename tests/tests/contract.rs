@@ -37,8 +37,11 @@ impl Visitor for Contract {
 
 fn settings(name: &str) -> Settings {
     let default = Settings::default();
-    // Beyond, the exponential amplifies rounding errors by its exponent.
-    let range = if name == "fung" { (0.5, 1.6) } else { default.range };
+    let range = match name {
+        // Beyond, the exponential amplifies rounding errors by its exponent.
+        "fung" | "veronda_westmann" => (0.5, 1.6),
+        _ => default.range,
+    };
     Settings { range, ..default }
 }
 

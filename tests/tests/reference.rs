@@ -30,8 +30,12 @@ use piola_tests::declared;
 const C: f64 = 30.0;
 
 /// The files of cases, beside their description.
-const FILES: [&str; 3] =
-    ["reference/cases.json", "reference/cases-more.json", "reference/cases-ordinary.json"];
+const FILES: [&str; 4] = [
+    "reference/cases.json",
+    "reference/cases-more.json",
+    "reference/cases-further.json",
+    "reference/cases-ordinary.json",
+];
 
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];

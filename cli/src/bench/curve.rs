@@ -10,11 +10,17 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
-use super::{FINE, Material, as_options, draw, keep_data, measured_range, measurements, spaced, titled};
+use super::{
+    FINE, Material, as_options, draw, keep_data, measured_range, measurements, ranking, spaced, titled,
+};
 use crate::error::Error;
 
 /// Stresses are in Pa.
+///
+/// `piola curve all --data FILE` fits every rubber of the catalogue to the data instead and ranks them by R²,
+/// the share of the variance of all measured stresses that the fitted energy explains.
 #[derive(Debug, Args)]
+#[command(after_help = ranking::HELP)]
 pub(crate) struct Curve {
     #[command(flatten)]
     material: Material,
@@ -61,6 +67,9 @@ impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         keep_data(self.data.as_ref(), self.svg.as_ref())?;
+        if self.material.material == ranking::ALL {
+            return self.rank();
+        }
         let material = self.material.spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;
@@ -109,6 +118,24 @@ impl Curve {
             draw(file, &title, &options, &curves, compared)?;
         }
         Ok(text)
+    }
+}
+
+impl Curve {
+    /// Ranks all rubbers beside the data.
+    fn rank(self) -> Result<String, Error> {
+        for (is_given, option) in [
+            (!self.material.parameters.is_empty(), "--param"),
+            (!self.modes.is_empty(), "--mode"),
+            (self.from.is_some(), "--from"),
+            (self.to.is_some(), "--to"),
+            (self.rows.is_some(), "--rows"),
+        ] {
+            if is_given {
+                return Err(Error::RankedWith(option));
+            }
+        }
+        ranking::run(&self.data.ok_or(Error::RankedWithoutData)?, self.svg.as_deref())
     }
 }
 

@@ -11,13 +11,13 @@ use super::{Curve, Group};
 use crate::curve::Mode;
 use crate::data::{Agreement, Measurements, short as determined};
 
-const FONT: &str = "sans-serif";
-const GREY: RGBColor = RGBColor(90, 90, 90);
+pub(super) const FONT: &str = "sans-serif";
+pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Pixels of a line of the legend.
 const LINE: i32 = 20;
 
 /// Colours of Okabe and Ito, which all kinds of colour vision tell apart.
-fn colour(mode: Mode) -> RGBColor {
+pub(super) fn colour(mode: Mode) -> RGBColor {
     match mode {
         Mode::Uniaxial => RGBColor(0, 114, 178),
         Mode::Equibiaxial => RGBColor(213, 94, 0),
@@ -27,7 +27,7 @@ fn colour(mode: Mode) -> RGBColor {
     }
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Why there is no chart.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

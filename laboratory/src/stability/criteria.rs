@@ -83,13 +83,23 @@ impl Judgement {
     ///
     /// `None` where the material does not admit them, or its derivatives are infinite or NaN.
     #[must_use]
-    pub fn of(specimen: &dyn Specimen, mut stretches: [f64; 3]) -> Option<Self> {
+    pub fn of(specimen: &dyn Specimen, stretches: [f64; 3]) -> Option<Self> {
+        Self::with(specimen, stretches, |_, _| {})
+    }
+
+    /// Judges a material whose derivatives at the ordered stretches are changed before.
+    pub(super) fn with(
+        specimen: &dyn Specimen,
+        mut stretches: [f64; 3],
+        change: impl FnOnce(&mut Blocks<f64>, [f64; 3]),
+    ) -> Option<Self> {
         stretches.sort_by(|one, other| other.total_cmp(one));
         let in_range = |stretch: &f64| stretch.is_finite() && *stretch > 0.0;
         if !stretches.iter().all(in_range) || !specimen.admits(stretches) {
             return None;
         }
-        let blocks = specimen.blocks(stretches);
+        let mut blocks = specimen.blocks(stretches);
+        change(&mut blocks, stretches);
         let Blocks { gradient, hessian, flip, twist } = blocks;
         let (stiffest, steepest) =
             (largest([largest(hessian), largest(flip), largest(twist)]), largest(gradient));

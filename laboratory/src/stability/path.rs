@@ -74,7 +74,8 @@ pub struct Walk {
     pub lost: [Option<f64>; 3],
 }
 
-const STEPS: u32 = 256;
+/// Steps of a path.
+pub(super) const STEPS: u32 = 256;
 
 /// Halvings of the logarithms between two stretches: from one end of f64 to the other they leave 10⁻¹⁵.
 const HALVINGS: u32 = 60;

@@ -1,0 +1,168 @@
+//! Several energies fitted to the same measurements and put in an order: the comparison that reviews of
+//! rubber print.
+//!
+//! Each energy is fitted as an incompressible solid, and stands by four numbers:
+//!
+//! * *n*, how many of its parameters were fitted: lists count by their entries, and what says nothing at
+//!   constant volume, such as a bulk modulus, does not count;
+//! * *R²* of all points together, and of those of each test ([`Measurements::agreement`]);
+//! * *R²/n*, the former by the number of parameters, so that of two energies that agree alike the one with
+//!   fewer parameters is ahead. It compares energies of like R²: a single parameter with R² = 0.5 has more of
+//!   it than two with R² = 0.99;
+//! * *stability*, where each inequality of a stable solid is lost first on the way from rest to the ends of
+//!   the data ([`constant_volume`]).
+
+mod display;
+
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use crate::curve::{Mode, Volume};
+use crate::data::Measurements;
+use crate::fit::{Candidate, Fit, FitError, FitSettings, Standing, TrialError, fit_parameters};
+use crate::stability::constant_volume;
+
+/// An energy with the parameters from which its fit begins.
+pub struct Contender {
+    /// The name under which it is ranked.
+    pub name: String,
+    /// The energy.
+    pub candidate: Box<dyn Candidate>,
+}
+
+/// Energies in the order of their agreement with the same measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ranking {
+    /// Those that were fitted, by falling R² of all points.
+    pub places: Vec<Place>,
+    /// Those that could not be fitted, in the order in which they were given.
+    pub failures: Vec<(String, FitError)>,
+}
+
+/// An energy that was fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The name under which it is ranked.
+    pub name: String,
+    /// Its best parameters, with R² of each mode and of all.
+    pub fit: Fit,
+    /// For each of [`Criterion::ALL`](crate::stability::criteria::Criterion::ALL) the test and the control at
+    /// which it is lost nearest to rest, if it is lost between rest and the data's ends.
+    pub lost: [Option<Loss>; 3],
+}
+
+/// Where a criterion is lost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loss {
+    /// The test.
+    pub mode: Mode,
+    /// The control at which it is lost: λ or γ.
+    pub control: f64,
+}
+
+impl Place {
+    /// n, the number of parameters that were fitted.
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        self.fit.numbers.iter().filter(|number| number.standing == Standing::Free).count()
+    }
+
+    /// R²/n of all points; `None` where their stresses do not vary.
+    #[must_use]
+    pub fn share(&self) -> Option<f64> {
+        // A fit without a free parameter is an error.
+        self.fit.agreement.total.map(|total| total / self.parameters() as f64)
+    }
+}
+
+/// Fits every contender to the data at constant volume and ranks them by R².
+///
+/// Of the settings the [volume](FitSettings::volume) is not looked at. The fits run on all processors; the
+/// result does not depend on how many there are.
+///
+/// ```
+/// use piola_laboratory::data::{Measurements, TRELOAR_1944};
+/// use piola_laboratory::fit::{Difference, FitSettings};
+/// use piola_laboratory::ranking::{Contender, rank};
+/// use piola_materials::{IsochoricNeoHookean, Yeoh};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let contenders = [
+///     Contender { name: "neo-Hookean".into(), candidate: Box::new(IsochoricNeoHookean::new(4e5, 2e7)?) },
+///     Contender { name: "Yeoh".into(), candidate: Box::new(Yeoh::new(1.9e5, -2e3, 40.0, 2e7)?) },
+/// ];
+/// let settings = FitSettings::default().with_difference(Difference::Absolute).with_restarts(2);
+/// let ranking = rank(&contenders, &Measurements::read(TRELOAR_1944)?, &settings);
+/// let names: Vec<_> = ranking.places.iter().map(|place| (&*place.name, place.parameters())).collect();
+/// assert_eq!(names, [("Yeoh", 3), ("neo-Hookean", 1)]);
+/// # Ok(())
+/// # }
+/// ```
+#[must_use]
+pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSettings) -> Ranking {
+    let settings = settings.clone().with_volume(Volume::Kept);
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::with_capacity(contenders.len()));
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(contender) = contenders.get(index) else { break };
+            let result = place(contender, data, &settings);
+            if let Ok(mut results) = results.lock() {
+                results.push((index, result));
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 1..thread::available_parallelism().map_or(1, NonZeroUsize::get) {
+            // Without further threads this one does all.
+            let _ = thread::Builder::new().spawn_scoped(scope, work);
+        }
+        work();
+    });
+    let mut results = results.into_inner().unwrap_or_default();
+    results.sort_by_key(|&(index, _)| index);
+
+    let mut ranking = Ranking { places: Vec::new(), failures: Vec::new() };
+    for (index, result) in results {
+        match result {
+            Ok(place) => ranking.places.push(place),
+            Err(error) => ranking.failures.push((contenders[index].name.clone(), error)),
+        }
+    }
+    let determination = |place: &Place| place.fit.agreement.total.unwrap_or(f64::NEG_INFINITY);
+    // Those that are equal keep the order in which they were given.
+    ranking.places.sort_by(|one, other| determination(other).total_cmp(&determination(one)));
+    ranking
+}
+
+fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> Result<Place, FitError> {
+    let fit = fit_parameters(&*contender.candidate, data, settings)?;
+    let fitted = contender.candidate.with_values(&fit.values).map_err(TrialError::Inadmissible)?;
+    let mut lost: [Option<Loss>; 3] = [None; 3];
+    for mode in data.modes() {
+        let controls = data.of(mode).map(|point| point.control);
+        let ends = controls.fold([mode.rest(); 2], |[least, most], x| [least.min(x), most.max(x)]);
+        for end in ends {
+            let losses = constant_volume::lost(&*fitted, mode, end);
+            for (first, control) in lost.iter_mut().zip(losses) {
+                let loss = control.map(|control| Loss { mode, control });
+                let is_nearer = |loss: &Loss| first.is_none_or(|first| loss.strain() < first.strain());
+                *first = loss.filter(is_nearer).or(*first);
+            }
+        }
+    }
+    Ok(Place { name: contender.name.clone(), fit, lost })
+}
+
+impl Loss {
+    /// How far the specimen is from rest: ln λ of its greatest stretch along the axes that the machine moves.
+    fn strain(self) -> f64 {
+        match self.mode {
+            Mode::SimpleShear => (0.5 * self.control).asinh().abs(),
+            _ => self.control.ln().abs(),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Where an incompressible solid loses a criterion on the way from rest to the end of a test.
+//!
+//! At constant volume an energy says nothing of the pressure, and no criterion may depend on it. So each is
+//! asked only for changes that keep the volume: Hill's for tr d ln U = 0, strong ellipticity for waves with m
+//! · F⁻ᵀN = 0. To these it is restricted by a penalty K/2 (J − 1)², with K a million times the greatest of
+//! the moduli, which at J = 1 adds K/(λi λj) to ψij and nothing else. Pressures and bulk moduli of the energy
+//! vanish beside it, and what coupling takes from the other modes is a millionth of the greatest.
+
+use piola::material::{Blocks, PAIRS};
+
+use super::criteria::Judgement;
+use super::path::STEPS;
+use crate::Specimen;
+use crate::curve::{Mode, Volume, respond};
+
+/// The penalty by the greatest modulus.
+const PENALTY: f64 = 1e6;
+
+/// Halvings of a step: to 10⁻¹² of the way.
+const HALVINGS: u32 = 32;
+
+/// The first control at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost on the way
+/// from rest to a control, the volume being kept; rest itself where it does not hold there.
+///
+/// The steps are as many as those of a [`Walk`](super::Walk), equal in ln λ or in γ. A volumetric test has no
+/// way that keeps the volume and loses nothing; nor does a way beyond the domain.
+///
+/// ```
+/// use piola_laboratory::curve::Mode;
+/// use piola_laboratory::stability::constant_volume::lost;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // τ2 − τ3 = 2 (λ2² − λ3²) (1 − λ1²/4) for I1 − I2/4 as two terms of Ogden's: lost where λ1 = 2.
+/// let solid = piola_materials::Ogden::new([2.0, 0.5], [2.0, -2.0], 1e3)?;
+/// let [baker_ericksen, ..] = lost(&solid, Mode::Uniaxial, 3.0);
+/// assert!(baker_ericksen.is_some_and(|stretch| (stretch - 2.0).abs() < 1e-8));
+/// # Ok(())
+/// # }
+/// ```
+#[must_use]
+pub fn lost(specimen: &dyn Specimen, mode: Mode, to: f64) -> [Option<f64>; 3] {
+    let control = |share: f64| match mode {
+        Mode::SimpleShear => share * to,
+        _ => to.powf(share),
+    };
+    let judged = |share: f64| {
+        let response = respond(specimen, mode, Volume::Kept, control(share)).ok()?;
+        Judgement::with(specimen, response.stretches, penalise)
+    };
+    let mut lost = [None; 3];
+    let share = |step: u32| f64::from(step) / f64::from(STEPS);
+    for step in 0..=STEPS {
+        let Some(judgement) = judged(share(step)) else { break };
+        for (k, lost) in lost.iter_mut().enumerate() {
+            if lost.is_none() && !judgement.kept[k] {
+                let (mut holding, mut beyond) = (share(step.saturating_sub(1)), share(step));
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (holding + beyond);
+                    let keeps = judged(middle).is_some_and(|judgement| judgement.kept[k]);
+                    *(if keeps { &mut holding } else { &mut beyond }) = middle;
+                }
+                *lost = Some(control(holding));
+            }
+        }
+    }
+    lost
+}
+
+/// Adds the penalty on the volume, at J = 1.
+fn penalise(blocks: &mut Blocks<f64>, stretches: [f64; 3]) {
+    // Those of ψii, then those of the pairs.
+    let products: [f64; 6] = std::array::from_fn(|k| match k.checked_sub(3) {
+        None => stretches[k] * stretches[k],
+        Some(pair) => stretches[PAIRS[pair].0] * stretches[PAIRS[pair].1],
+    });
+    let stresses = (0..3).map(|i| (stretches[i] * blocks.gradient[i]).abs());
+    let moduli = (0..6).map(|k| (products[k] * blocks.hessian[k]).abs());
+    let penalty = PENALTY * stresses.chain(moduli).fold(0.0, f64::max);
+    for (modulus, product) in blocks.hessian.iter_mut().zip(products) {
+        *modulus += penalty / product;
+    }
+}
