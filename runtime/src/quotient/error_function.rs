@@ -40,9 +40,9 @@ pub fn erf_quotient<R: Real>(a: R, b: R) -> R {
 
 /// The mean of 2/√π e^(−x²) over m − h … m + h, for 0 ≤ h ≤ m and 4mh < 1.
 ///
-/// e^(−(m + hs)²) = e^(−m²) Σ tₙ (−s)ⁿ with tₙ = hⁿ Hₙ(m)/n! from Hermite's polynomials, of which the mean over
-/// −1 < s < 1 keeps t₂ₖ/(2k + 1). Their recurrence is n tₙ = 2mh tₙ₋₁ − 2h² tₙ₋₂. With 2mh and 2h² below ½ the
-/// terms fall fast: what is left out is below u/16.
+/// e^(−(m + hs)²) = e^(−m²) Σ tₙ (−s)ⁿ with tₙ = hⁿ Hₙ(m)/n! from Hermite's polynomials, of which the mean
+/// over −1 < s < 1 keeps t₂ₖ/(2k + 1). Their recurrence is n tₙ = 2mh tₙ₋₁ − 2h² tₙ₋₂. With 2mh and 2h² below
+/// ½ the terms fall fast: what is left out is below u/16.
 #[inline(always)]
 fn mean_around_middle<R: Real>(m: R, h: R) -> R {
     let order = if R::UNIT_ROUNDOFF < 1e-10 { 22 } else { 12 };
