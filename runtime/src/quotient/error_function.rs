@@ -6,8 +6,8 @@ use crate::lanes::{Mask, Real, scaled_complement};
 
 /// (erf a − erf b)/(a − b).
 ///
-/// A series where |a − b| < 1 and |a² − b²| < 1. Elsewhere nothing cancels in the plain quotient of numbers of
-/// opposite signs. Otherwise a ≥ b ≥ 0 by symmetry, and with erfc x = e^(−x²) X(x)
+/// A series where |a − b| < 1 and |a² − b²| < 1. Elsewhere nothing cancels in the plain quotient of numbers
+/// of opposite signs. Otherwise a ≥ b ≥ 0 by symmetry, and with erfc x = e^(−x²) X(x)
 ///
 /// ```text
 /// erf a − erf b = erfc b − erfc a = e^(−b²) (X(b) − e^(−(a² − b²)) X(a))
