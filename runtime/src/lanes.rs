@@ -13,9 +13,11 @@
 //! This module has no matrices and no materials. It is the only one with unsafe code.
 
 mod backend;
+mod complement;
 mod elementary;
 mod lanes2;
 mod non_temporal;
+mod polynomial;
 mod primitive;
 mod real;
 mod scalar;
@@ -24,7 +26,7 @@ mod vector;
 mod x86;
 
 pub use backend::{Backend, Kernel};
-pub(crate) use elementary::scaled_complement;
+pub(crate) use complement::scaled_complement;
 pub use lanes2::Lanes2;
 pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};

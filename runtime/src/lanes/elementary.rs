@@ -8,7 +8,8 @@
 //!
 //! Coefficients are minimax fits of the series' tails on the stated intervals. The leading terms stay exact,
 //! so that the functions are exact where they should be: ln 1 = 0, e⁰ = 1, x⁰ = 1, 1ʸ = 1, ∛(n³) = n, and
-//! those that vanish at 0 keep the digits of x close to it. Odd functions are those of |x| with the sign of x.
+//! those that vanish at 0 keep the digits of x close to it. Odd functions are those of |x| with the sign of
+//! x.
 //!
 //! Errors, in units in the last place, hold with and without a fused multiply-add: without it a product whose
 //! own error matters is taken apart. `tests/elementary.rs` of the judge measures them.
@@ -32,7 +33,6 @@ pub(super) use arctangent::atan;
 pub(super) use arithmetic::{is_finite, power_of_two_scale, two_product};
 pub(super) use cube_root::cbrt;
 pub(super) use error_function::erf;
-pub(crate) use error_function::scaled_complement;
 pub(super) use exponential::{exp, exp_m1, power};
 pub(super) use hyperbolic::{cosh, sinh, tanh};
 pub(super) use inverse_hyperbolic::asinh;

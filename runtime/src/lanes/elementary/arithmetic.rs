@@ -1,11 +1,7 @@
-//! Polynomials, roundings, and sums and products with their rounding errors.
+//! Roundings, and sums and products with their rounding errors.
 
+pub(super) use crate::lanes::polynomial::{is_single, polynomial};
 use crate::lanes::primitive::Primitive;
-use crate::lanes::real::Real;
-
-pub(super) const fn is_single<R: Real>() -> bool {
-    R::UNIT_ROUNDOFF > 1e-10
-}
 
 /// `value` minus its nearest neighbour in the format, if that is `f32`; else `low`, what `f64` takes from it.
 #[inline(always)]
@@ -27,18 +23,6 @@ pub(super) fn ln_2<P: Primitive>() -> (P, P) {
         (0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10)
     };
     (P::splat(high), P::splat(low))
-}
-
-/// Σ cₖ xᵏ by Horner's rule, with the coefficients that were fitted for the number format.
-#[inline(always)]
-pub(super) fn polynomial<R: Real>(x: R, single: &[f64], double: &[f64]) -> R {
-    let coefficients = if is_single::<R>() { single } else { double };
-    let degree = coefficients.len() - 1;
-    let mut sum = R::splat(coefficients[degree]);
-    for k in (0..degree).rev() {
-        sum = sum.mul_add(x, R::splat(coefficients[k]));
-    }
-    sum
 }
 
 /// The integer nearest to a b, for |a b| ≤ 2⁵⁰ (`f32`: 2²¹).

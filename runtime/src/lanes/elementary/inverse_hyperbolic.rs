@@ -8,7 +8,8 @@ use crate::lanes::primitive::Primitive;
 ///
 /// The argument of the logarithm comes with twice the digits, so that little is left of an error of u² when 1
 /// is taken from it. Where x < 2⁻²⁰ (`f32`: 2⁻⁸) even that counts, and x − x³/6 is as good. Where x > 2²⁹
-/// (`f32`: 2¹⁵) the argument is 2x to the last bit, and its 2 goes to the exponent because 2x may be too large.
+/// (`f32`: 2¹⁵) the argument is 2x to the last bit, and its 2 goes to the exponent because 2x may be too
+/// large.
 #[inline(always)]
 pub(in super::super) fn asinh<P: Primitive>(x: P) -> P {
     let a = x.abs();

@@ -107,8 +107,8 @@ fn of_reduced<P: Primitive>(Reduced { e, t, t_low }: Reduced<P>) -> P {
     high + without_nan((t * square).mul_add(tail, low))
 }
 
-/// ln(2ⁿ (high + low)) for |low| ≤ 2u high, with a relative error that does not grow where the sum is close to
-/// 1.
+/// ln(2ⁿ (high + low)) for |low| ≤ 2u high, with a relative error that does not grow where the sum is close
+/// to 1.
 ///
 /// ln(high + low) = ln high + low/high, and t of `high` = 1 is 0: then the result is low itself.
 #[inline(always)]

@@ -4,9 +4,9 @@
 //!
 //! π/2 is the sum of three parts so short that k times each is exact, and of a last one with all digits
 //! \[CW80\]. What one product leaves may be as small as the next, hence differences with their errors. For
-//! k ≤ 2²⁰, |x| ≤ 1.6·10⁶ (`f32`: k ≤ 2¹⁰, |x| ≤ 1600), r has more digits than the format, however close x is to
-//! a multiple of π/2. Beyond, products are rounded, and the values are those at an argument within 4u |x| of
-//! x, up to |x| = 2⁵⁰ (`f32`: 2²¹). Still larger numbers give some value between −1 and 1.
+//! k ≤ 2²⁰, |x| ≤ 1.6·10⁶ (`f32`: k ≤ 2¹⁰, |x| ≤ 1600), r has more digits than the format, however close x
+//! is to a multiple of π/2. Beyond, products are rounded, and the values are those at an argument within
+//! 4u |x| of x, up to |x| = 2⁵⁰ (`f32`: 2²¹). Still larger numbers give some value between −1 and 1.
 
 use super::arithmetic::{is_single, nearest_integer_to_product, polynomial, quick_two_sum, two_sum};
 use crate::lanes::primitive::Primitive;

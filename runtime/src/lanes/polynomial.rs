@@ -1,0 +1,19 @@
+//! Polynomials with coefficients for each number format.
+
+use super::real::Real;
+
+pub(super) const fn is_single<R: Real>() -> bool {
+    R::UNIT_ROUNDOFF > 1e-10
+}
+
+/// Σ cₖ xᵏ by Horner's rule, with the coefficients that were fitted for the number format.
+#[inline(always)]
+pub(super) fn polynomial<R: Real>(x: R, single: &[f64], double: &[f64]) -> R {
+    let coefficients = if is_single::<R>() { single } else { double };
+    let degree = coefficients.len() - 1;
+    let mut sum = R::splat(coefficients[degree]);
+    for k in (0..degree).rev() {
+        sum = sum.mul_add(x, R::splat(coefficients[k]));
+    }
+    sum
+}
