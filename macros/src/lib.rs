@@ -10,13 +10,13 @@ use proc_macro::TokenStream;
 /// `piola::Univariate`, such as `piola::Spline`. The body is ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
-/// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`,
-///   `x.exp_m1()`, `x.ln_1p()`, `x.log10()`, `x.log2()`, `x.log(base)`, `x.sinh()`, `x.cosh()`, `x.tanh()`,
-///   `x.asinh()`, `x.sin()`, `x.cos()`, `x.atan()`, `x.erf()`, `x.softplus()` for ln(1 + eˣ) and `x.sigmoid()`
-///   for 1/(1 + e⁻ˣ);
+/// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`, `x.exp_m1()`,
+///   `x.ln_1p()`, `x.log10()`, `x.log2()`, `x.log(base)`, `x.sinh()`, `x.cosh()`, `x.tanh()`, `x.asinh()`,
+///   `x.sin()`, `x.cos()`, `x.atan()`, `x.erf()`, `x.softplus()` for ln(1 + eˣ) and `x.sigmoid()` for 1/(1 +
+///   e⁻ˣ);
 /// * `f(l1)` of a parameter that is a function;
-/// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`; `sum(|l| …)`, where `l` is read as
-///   a number, over the three stretches; `sum(|a, b| …)` over their three pairs;
+/// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`; `sum(|l| …)`, where `l` is read
+///   as a number, over the three stretches; `sum(|a, b| …)` over their three pairs;
 /// * `PI`, and constants such as `std::f64::consts::LN_2`;
 /// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1 and
 ///   `I2b` = J^(−4/3) I2.
@@ -28,10 +28,10 @@ use proc_macro::TokenStream;
 /// Parentheses, blocks, signs and calls may be nested 64 deep; a sum may have thousands of terms.
 ///
 /// A logarithm, a denominator or a real power of an expression that vanishes inside the domain is refused if
-/// a usual deformation shows it, and so is a real power of one that vanishes at rest, such as `J - 1.0`: it is
-/// negative nearby. I1b − 3 is not, nor are I2b − 3 and combinations such as (1 − β) I1b + β I2b − 3: of these
-/// `(I1b - 3.0).powf(n)` has a finite stiffness at rest for n > 1, and they keep their digits there. They are not
-/// continued beyond J > 0.
+/// a usual deformation shows it, and so is a real power of one that vanishes at rest, such as `J - 1.0`: it
+/// is negative nearby. I1b − 3 is not, nor are I2b − 3 and combinations such as (1 − β) I1b + β I2b − 3: of
+/// these `(I1b - 3.0).powf(n)` has a finite stiffness at rest for n > 1, and they keep their digits there.
+/// They are not continued beyond J > 0.
 ///
 /// The documentation of a parameter may end with its unit, as in `/// Shear modulus, Pa.` or `/// Exponent,
 /// dimensionless.`: the energy must then be in Pa. Units are `Pa`, `1/Pa` and `dimensionless`, of a function

@@ -39,8 +39,8 @@
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
 //! point has its own.
 //!
-//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has plane
-//! strain and plane stress, and what starts from displacement gradients.
+//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has
+//! plane strain and plane stress, and what starts from displacement gradients.
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
 //! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or

@@ -2,8 +2,8 @@
 //!
 //! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A
 //! parameter whose type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. The
-//! type supplies φ′ and φ″, mostly φ as well, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which have defaults.
-//! [`Spline`] is such a type.
+//! type supplies φ′ and φ″, mostly φ as well, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which
+//! have defaults. [`Spline`] is such a type.
 //!
 //! \[XSZB15\] Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, 2015.
 
@@ -62,9 +62,10 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// φ(x).
     ///
-    /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give derivatives alone: by
-    /// Gauss's rule with eight points on each of 16 equal parts. Its error is within rounding if φ′ is analytic in a
-    /// neighbourhood of the interval that is as wide as such a part, and matters to ψ alone where φ stands alone in the energy.
+    /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give
+    /// derivatives alone: by Gauss's rule with eight points on each of 16 equal parts. Its error is within
+    /// rounding if φ′ is analytic in a neighbourhood of the interval that is as wide as such a part, and
+    /// matters to ψ alone where φ stands alone in the energy.
     #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         const PARTS: u8 = 16;
@@ -148,9 +149,9 @@ impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
 impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
     /// Whether the slope jumps between a and b, at a point that is not among the breakpoints.
     ///
-    /// A mean of slopes is then wrong by up to the jump. Between close points a smooth slope is nearly straight: its second
-    /// difference s(a) − 2 s(m) + s(b) is far below its first. A jump is in one half, and both are as large as it is. What
-    /// noise explains, 2¹⁴ u of the slopes, is no jump.
+    /// A mean of slopes is then wrong by up to the jump. Between close points a smooth slope is nearly
+    /// straight: its second difference s(a) − 2 s(m) + s(b) is far below its first. A jump is in one half,
+    /// and both are as large as it is. What noise explains, 2¹⁴ u of the slopes, is no jump.
     #[inline(always)]
     fn bends<R: Real>(&self, a: R, b: R) -> R::Mask {
         if !self.0.breakpoints().is_empty() {

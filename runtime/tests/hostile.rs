@@ -351,6 +351,10 @@ fn batches_in_the_plane() {
         let _ = batch.plane_strains(&deformations, &mut four, &mut many);
         let _ = batch.plane_stresses(&deformations, &mut across, &mut four, &mut many);
         let _ = batch.uniaxial_stresses(&axial, &mut across, &mut one, &mut other);
+        let [displacements, mut nine, mut all] = [9, 9, 81].map(|size| hostile.numbers(size * points));
+        let _ = batch.energies_from_displacements(&displacements, &mut one);
+        let _ = batch.stresses_from_displacements(&displacements, &mut nine);
+        let _ = batch.tangents_from_displacements(&displacements, &mut nine, &mut all);
     });
 }
 

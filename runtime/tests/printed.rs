@@ -24,7 +24,8 @@ fn Kilian(
         + kappa / 2.0 * ((J.powi(2) - 1.0) / 2.0 - J.ln())
 }
 
-/// Yamashita, Kawabata, *Approximated form of the strain energy-density function of carbon-black-filled rubbers*, 1992.
+/// Yamashita, Kawabata, *Approximated form of the strain energy-density function of carbon-black-filled
+/// rubbers*, 1992.
 #[piola::material(domain(J > 0.0), admissible(n > 0.0), fit)]
 fn YamashitaKawabata(
     [l1, l2, l3]: [f64; 3],

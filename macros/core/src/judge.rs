@@ -6,7 +6,7 @@
 //! [`report`] puts them into words.
 
 use crate::algebra::excess::has_squares;
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::domain::Volume;
 pub(crate) use explain::report;
@@ -32,7 +32,7 @@ mod volume;
 /// Checks that ψ does not change when two stretches are exchanged.
 pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
     [[0, 1], [1, 2]].into_iter().find_map(|exchanged| {
-        let is_asymmetric = |id: Id| differs(graph, id, exchanged, samples);
+        let is_asymmetric = |id: Id| differs(graph, [id; 2], exchanged, samples);
         is_asymmetric(source.energy).then(|| {
             let blamed = source.blamed_term(is_asymmetric);
             let term = blamed.and_then(|term| source.nodes.of(term)).filter(|&term| term != source.energy);
@@ -43,22 +43,28 @@ pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) ->
 
 /// Checks that conditions of the domain are alike for all stretches, or on the largest or the smallest one.
 pub(crate) fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
-    let is_asymmetric =
-        |bound: Id| [[0, 1], [1, 2]].into_iter().any(|exchanged| differs(graph, bound, exchanged, samples));
-    let names_second = |bound: Id| {
-        graph.reachable(&[bound]).into_iter().any(|id| matches!(graph.node(id), Node::Stretch(1)))
+    let is_on_second = |bound: Id| {
+        let differs = |exchanged| differs(graph, [bound; 2], exchanged, samples);
+        differs([0, 1]) && differs([1, 2]) && !differs([0, 2])
+    };
+    // Conditions may be written out for each stretch.
+    let is_written_out = |bound: Id| {
+        let is_mirror = |other: Id, exchanged| !differs(graph, [bound, other], exchanged, samples);
+        [[0, 1], [1, 2]]
+            .into_iter()
+            .all(|exchanged| source.bounds.iter().any(|&other| is_mirror(other, exchanged)))
     };
     let conditions = source.bounds.iter().zip(source.declaration.bounds());
-    let mistaken = conditions.filter(|&(&bound, _)| names_second(bound) && is_asymmetric(bound));
+    let mistaken = conditions.filter(|&(&bound, _)| is_on_second(bound) && !is_written_out(bound));
     mistaken.map(|(_, condition)| Finding::new(condition, Violation::OnOneStretch)).collect()
 }
 
-/// Whether an expression changes when two stretches are exchanged.
-fn differs(graph: &Graph, id: Id, [i, j]: [usize; 2], samples: &[Point]) -> bool {
+/// Whether an expression differs from another one in which two stretches are exchanged.
+fn differs(graph: &Graph, [one, other]: [Id; 2], [i, j]: [usize; 2], samples: &[Point]) -> bool {
     samples.iter().any(|point| {
         let mut swapped = point.clone();
         swapped.stretches.swap(i, j);
-        let [a, b] = [point, &swapped].map(|point| evaluate(graph, id, point));
+        let (a, b) = (evaluate(graph, one, point), evaluate(graph, other, &swapped));
         // NaN differs.
         !is_zero(Estimate { value: a.value - b.value, magnitude: a.magnitude + b.magnitude })
     })

@@ -307,7 +307,7 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let mut without_written = FxHashMap::default();
     let mut lower = |id| {
         let id = extension::lower(graph, id, &mut lowered);
-        excess::lower(graph, id, &mut without_written)
+        excess::squares_alone(graph, id, &mut without_written)
     };
     Variant {
         energy: lower(energy),

@@ -1,8 +1,8 @@
 //! Many points, one after the other: in the plane, and from displacement gradients.
 //!
-//! A [`PointBatch`] computes what lanes side by side would gain nothing from, such as a free stretch, whose search
-//! takes another number of steps at each point. Every point has the bits that it has alone; points are shared
-//! among threads if asked for, and nothing is allocated.
+//! A [`PointBatch`] computes what lanes side by side would gain nothing from, such as a free stretch, whose
+//! search takes another number of steps at each point. Every point has the bits that it has alone; points are
+//! shared among threads if asked for, and nothing is allocated.
 
 use super::jobs::{Tile, Work, for_each_tile};
 use super::{LengthError, Stages};

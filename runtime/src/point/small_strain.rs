@@ -38,16 +38,17 @@
 //! The signs and the order of the columns of V drop out of S. The quotients need λi > 0, away from zero: this
 //! is for ‖H‖ < ½, where λ3 > ½ and λi is the positive root. Beyond, F has lost nothing worth keeping.
 //!
-//! **Energy.** ψ is of second order in the strain, while its terms are of first order and cancel: at a strain of
-//! 10⁻⁸ no digit of ψ(F) is left. The work of the stress on the straight way from rest has no such terms:
+//! **Energy.** ψ is of second order in the strain, while its terms are of first order and cancel: at a strain
+//! of 10⁻⁸ no digit of ψ(F) is left. The work of the stress on the straight way from rest has no such terms:
 //!
 //! ```text
 //! ψ(s) − ψ(0) = ∫₀¹ Σ si ψi(t s) dt
 //! ```
 //!
-//! Two panels of Gauss's rule with eight points are exact to rounding where ψi is analytic at stretches from ½ to
-//! 3/2: on t from ½ to 1, with the nearest singularity at t = 2, the error falls by (5 + √24)² = 98 for each point,
-//! and 98⁻⁸ is 10⁻¹⁶. An energy that ends at a smaller strain than ½ keeps fewer digits as it comes near that end.
+//! Two panels of Gauss's rule with eight points are exact to rounding where ψi is analytic at stretches from
+//! ½ to 3/2: on t from ½ to 1, with the nearest singularity at t = 2, the error falls by (5 + √24)² = 98 for
+//! each point, and 98⁻⁸ is 10⁻¹⁶. An energy that ends at a smaller strain than ½ keeps fewer digits as it
+//! comes near that end.
 //!
 //! **Error.** A few u (‖P‖ + ‖dP/dF‖ ‖H‖), with a material whose ψi are accurate relative to the strains,
 //! however small these are: no square of a strain can underflow where it matters. (The tangent needs none of
@@ -118,12 +119,12 @@ pub fn evaluate_stress_from_displacement<R: Real>(
     (P, (near.1 & is_small) | (far.1 & !is_small))
 }
 
-/// The energy density above that of rest, ψ(I + H) − ψ(I), Pa, and its status; H is the displacement gradient,
-/// dimensionless.
+/// The energy density above that of rest, ψ(I + H) − ψ(I), Pa, and its status; H is the displacement
+/// gradient, dimensionless.
 ///
-/// Accurate to u (|ψ| + ‖P‖ ‖H‖) times a small number, where the difference of
-/// [`evaluate_energy`] at I + H and at I has an error of u times the largest term of ψ, which does not vanish at rest. Where
-/// ‖H‖ ≥ ½ in the Frobenius norm it is that difference. The status is that of [`evaluate_energy`].
+/// Accurate to u (|ψ| + ‖P‖ ‖H‖) times a small number, where the difference of [`evaluate_energy`] at I + H
+/// and at I has an error of u times the largest term of ψ, which does not vanish at rest. Where ‖H‖ ≥ ½ in
+/// the Frobenius norm it is that difference. The status is that of [`evaluate_energy`].
 ///
 /// ```
 /// use piola::point::evaluate_energy_from_displacement;

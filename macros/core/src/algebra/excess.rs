@@ -14,17 +14,17 @@
 //! whose terms are never negative, and as accurate, relative to themselves, as the differences of the
 //! stretches are. I2b − 3 is the same in the reciprocal stretches, a = λ1^(−2/3).
 //!
-//! An expression in them, such as (1 − β) I1b + β I2b − 3 or (I1b − 3)/(Λ² − 3), is found by writing 3 + X for
-//! I1b and 3 + Y for I2b and multiplying out: if what is left vanishes with X and Y, it is the sum of squares.
-//! [`Node::Excess`] holds it beside the expression as written, which is for readers.
+//! An expression in them, such as (1 − β) I1b + β I2b − 3 or (I1b − 3)/(Λ² − 3), is found by writing 3 + X
+//! for I1b and 3 + Y for I2b and multiplying out: if what is left vanishes with X and Y, it is the sum of
+//! squares. [`Node::Excess`] holds it beside the expression as written, which is for readers.
 //!
 //! # At rest
 //!
-//! X is of second order in the strains. So Xⁿ is twice continuously differentiable for n > 1, not only for
-//! n ≥ 2: its stiffness n (n − 1) Xⁿ⁻² X′ X′ + n Xⁿ⁻¹ X″ falls with the strain to the power 2n − 2. At rest
+//! X is of second order in the strains. So Xⁿ is twice continuously differentiable for n > 1, not only for n
+//! ≥ 2: its stiffness n (n − 1) Xⁿ⁻² X′ X′ + n Xⁿ⁻¹ X″ falls with the strain to the power 2n − 2. At rest
 //! itself Xⁿ⁻² may be infinite beside X′ = 0, and so the base of a power is kept from zero by the smallest
-//! positive number: then the product is 0, as it should be. That needs derivatives of the squares, which vanish
-//! where they do: those of I1b − 3 as it is written would leave u, times a power that may be infinite.
+//! positive number: then the product is 0, as it should be. That needs derivatives of the squares, which
+//! vanish where they do: those of I1b − 3 as it is written would leave u, times a power that may be infinite.
 
 use rustc_hash::FxHashMap;
 
@@ -47,7 +47,7 @@ pub fn has_squares(graph: &Graph, id: Id) -> bool {
 }
 
 /// The expression without what its sums of squares were written as, before it is scheduled.
-pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
+pub fn squares_alone(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Excess(value, _) => Some(graph.excess(value, value)),
         _ => None,

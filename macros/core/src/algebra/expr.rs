@@ -9,10 +9,11 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::elementary::Elementary;
 use crate::algebra::rational::Rational;
+pub use elementary::Elementary;
 pub use exponent::Exponent;
 
+mod elementary;
 mod exponent;
 mod products;
 mod sums;
@@ -50,8 +51,8 @@ pub enum Node {
     },
     /// Π base^exponent, in the order of the bases; rational coefficients live in `Linear`.
     Product(Vec<(Id, Exponent)>),
-    /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it is
-    /// written. Its value is kept from zero, so that powers of it have one.
+    /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it
+    /// is written. Its value is kept from zero, so that powers of it have one.
     Excess(Id, Id),
     /// Natural logarithm.
     Ln(Id),

@@ -1,7 +1,6 @@
 //! Programs: operations in order, and loops over lists.
 
-use crate::algebra::elementary::Elementary;
-use crate::algebra::expr::{Length, ParameterIndex, Stretch};
+use crate::algebra::expr::{Elementary, Length, ParameterIndex, Stretch};
 
 /// The result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -273,6 +273,20 @@ fn sums_inside_sums() {
     check("", &item, &[(inner, "names one of them: write `sum(|l| l.powf(a[p]))`")]);
 }
 
+/// Stretches come in order, so that a condition on the second one is on neither the largest nor the smallest.
+#[test]
+fn domains_are_symmetric() {
+    check_arguments(
+        "domain(J > 0.0, l2 < 3.0)",
+        &[("l2 < 3.0", "write this condition for the largest, `l1`")],
+    );
+    for domain in
+        ["J > 0.0, l1 < 3.0", "J > 0.0, l1 < 3.0, l2 < 3.0, l3 < 3.0", "J > 0.0, l1 + l2 + l3 < 9.0"]
+    {
+        check_arguments(&format!("domain({domain})"), &[]);
+    }
+}
+
 /// The closure of a sum over stretches has names of its own, each read at least once.
 #[test]
 fn sums_over_stretches() {

@@ -1,5 +1,5 @@
-//! Many points of bodies that hardly deform: slices of displacement gradients H = F − I in, slices of energies,
-//! stresses and tangents out.
+//! Many points of bodies that hardly deform: slices of displacement gradients H = F − I in, slices of
+//! energies, stresses and tangents out.
 //!
 //! As [`evaluate_energy_from_displacement`], [`evaluate_stress_from_displacement`] and
 //! [`evaluate_from_displacement`] do for one point.

@@ -221,8 +221,7 @@ impl Lists {
         stretches: Option<&[Ident; 3]>,
         diagnostics: &mut Diagnostics,
     ) {
-        const MESSAGE: &str =
-            "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: F`, with `F: piola::Univariate`";
+        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: F`, with `F: piola::Univariate`";
         let FnArg::Typed(argument) = input else {
             return diagnostics.error(input, MESSAGE);
         };

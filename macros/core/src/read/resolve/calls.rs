@@ -5,8 +5,7 @@ use syn::{Expr, ExprCall, ExprMethodCall, Ident};
 
 use super::tensors::{self, Tensor};
 use super::{Resolver, Scope, paper_notation};
-use crate::algebra::elementary::Elementary;
-use crate::algebra::expr::{Exponent, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::literals::is_number;
 use crate::read::parse::identifiers;
