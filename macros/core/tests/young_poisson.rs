@@ -10,15 +10,20 @@ use proc_macro2::TokenStream;
 
 /// The energies with `from_young_poisson`. Of the others, some have one modulus, some more than two
 /// parameters in their moduli, and in some, as Gent's, an exponent or limit enters too.
-const DETERMINED: [&str; 13] = [
+const DETERMINED: [&str; 18] = [
+    "Bazant",
     "CiarletNeoHookean",
     "ExponentiatedHencky",
     "FixedCorotated",
     "Hencky",
     "IsochoricNeoHookean",
+    "Khajehsaeid",
     "Knowles",
+    "Murnaghan",
     "NeoHookean",
+    "PengLandel",
     "RotatedLinear",
+    "SethHill",
     "StVenantKirchhoff",
     "StableNeoHookean",
     "ValanisLandel",
