@@ -46,7 +46,8 @@ fn known_constants() {
 /// Values with 125 digits from mpmath 1.3.
 #[test]
 fn known_values() {
-    let values: [(fn(Number) -> Number, f64, &str); 29] = [
+    type Function = fn(Number) -> Number;
+    let values: [(Function, f64, &str); 29] = [
         (
             Number::sin,
             2.0,

@@ -39,10 +39,9 @@ pub(crate) fn roughness(graph: &Graph, hessian: &[Id], findings: &mut Findings<'
     };
     let points = candidates(source, 0x9FB2_1C65_1E98_DF25, 0..CANDIDATES);
     let mut good = points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS);
-    // NaN is no stiffness either.
     let grows = good.any(|point| {
         let [near, far] = STRAINS.map(|strain| stiffness(&point, strain));
-        !(far <= GROWTH * near)
+        far.is_nan() || near.is_nan() || far > GROWTH * near
     });
     if grows {
         let is_power = |id: Id| match graph.node(id) {
