@@ -108,10 +108,11 @@ impl Invariants {
             return None;
         }
         let collected = self.collected(graph, expanded).unwrap_or(expanded);
-        let value = rewrite(graph, collected, &mut FxHashMap::default(), &|graph, id| match *graph.node(id) {
-            Node::Excess(value, _) => Some(value),
-            _ => None,
-        });
+        let value =
+            rewrite(graph, collected, &mut FxHashMap::default(), &|graph, id| match *graph.node(id) {
+                Node::Excess(value, _) => Some(value),
+                _ => None,
+            });
         Some(graph.excess(value, base))
     }
 

@@ -75,11 +75,11 @@ impl Increments {
     }
 
     fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
-        // A product with a factor that vanishes at rest is its own difference.
+        // A product with a factor that vanishes at rest is its own difference, and so is a power of what does.
         let vanishes = factors.iter().any(|&(base, exponent)| {
             exponent.as_integer().is_some_and(|n| n > 0) && is_zero_at_rest(graph, base)
         });
-        if vanishes && factors.len() > 1 {
+        if vanishes {
             let factors: Vec<_> = factors.iter().map(|&(base, e)| (self.accurate(graph, base), e)).collect();
             return graph.product(&factors);
         }
@@ -166,5 +166,21 @@ mod tests {
         let point = Point { stretches: [1.0 + s, 1.0, 1.0], ..Point::default() };
         let found = evaluate(&graph, increment, &point).value;
         assert!((found - (2.0 * s - s * s)).abs() <= 4.0 * f64::EPSILON * s, "{found:e}");
+    }
+
+    #[test]
+    fn a_square_of_what_vanishes_at_rest_has_no_factor_of_stretches() {
+        // (√x − √y)², in which strains of 2⁻⁴⁰ and their difference are exact, and √x − √y by stretches is not.
+        let mut graph = Graph::default();
+        let half = Exponent::rational(Rational::new(1, 2).unwrap());
+        let [x, y] = [0, 1].map(|k| graph.stretch(k)).map(|x| graph.power(x, half));
+        let difference = graph.sub(x, y);
+        let square = graph.powi(difference, 2);
+        let increment = Increments::default().increment(&mut graph, square);
+        let s = 2f64.powi(-40);
+        let point = Point { stretches: [1.0 + s, 1.0 - s, 1.0], ..Point::default() };
+        let found = evaluate(&graph, increment, &point).value;
+        // √(1 + s) − √(1 − s) = s + s³/8 + …
+        assert!((found / (s * s) - 1.0).abs() <= 8.0 * f64::EPSILON, "{found:e}");
     }
 }
