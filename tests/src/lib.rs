@@ -9,6 +9,7 @@
 //!   them;
 //! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in
 //!   `STABILITY.md`;
+//! * [`random`]: energies that nobody wrote, and what they must compute;
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
@@ -24,5 +25,6 @@ pub mod compiled;
 pub mod declared;
 pub mod multiprecision;
 pub mod quotients;
+pub mod random;
 pub mod soundness;
 pub mod stability;

@@ -75,11 +75,12 @@ impl Increments {
     }
 
     fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
-        // A product with a factor that vanishes at rest is its own difference.
+        // A product with a factor that vanishes at rest is its own difference, and so is a power of what does.
+        // Of real powers, only positive ones are taken of what vanishes.
         let vanishes = factors.iter().any(|&(base, exponent)| {
-            exponent.as_integer().is_some_and(|n| n > 0) && is_zero_at_rest(graph, base)
+            exponent.as_integer().is_none_or(|n| n > 0) && is_zero_at_rest(graph, base)
         });
-        if vanishes && factors.len() > 1 {
+        if vanishes {
             let factors: Vec<_> = factors.iter().map(|&(base, e)| (self.accurate(graph, base), e)).collect();
             return graph.product(&factors);
         }
@@ -166,5 +167,24 @@ mod tests {
         let point = Point { stretches: [1.0 + s, 1.0, 1.0], ..Point::default() };
         let found = evaluate(&graph, increment, &point).value;
         assert!((found - (2.0 * s - s * s)).abs() <= 4.0 * f64::EPSILON * s, "{found:e}");
+    }
+
+    #[test]
+    fn powers_of_what_vanishes_at_rest_have_no_factor_of_stretches() {
+        // (√x − √y)² and (√x − √y)^(3/2): strains of 2⁻⁴⁰ are exact, and √x − √y by stretches is not.
+        let mut graph = Graph::default();
+        let of_two = |n: i128| Exponent::rational(Rational::new(n, 2).unwrap());
+        let [x, y] = [0, 1].map(|k| graph.stretch(k)).map(|x| graph.power(x, of_two(1)));
+        let difference = graph.sub(x, y);
+        let s = 2f64.powi(-40);
+        for exponent in [4, 3] {
+            let power = graph.power(difference, of_two(exponent));
+            let increment = Increments::default().increment(&mut graph, power);
+            let point = Point { stretches: [1.0 + s, 1.0 - s, 1.0], ..Point::default() };
+            let found = evaluate(&graph, increment, &point).value;
+            // √(1 + s) − √(1 − s) = s + s³/8 + …
+            let expected = s.powf(exponent as f64 / 2.0);
+            assert!((found / expected - 1.0).abs() <= 8.0 * f64::EPSILON, "{found:e} for {expected:e}");
+        }
     }
 }

@@ -1,0 +1,125 @@
+//! Random energies at hard stretches, beside an oracle that shares nothing with their compiler:
+//! `cargo test -p piola-tests --test random`.
+//!
+//! No declaration may make the compiler panic, and no value may be wrong without saying so: each is within 30
+//! u (|X| + sens) of the exact one, or infinite or NaN, which a status says. Two kinds of values may be
+//! worse, and are counted: those for which the formula as printed, or a sum in the compiled expression,
+//! rounds what it then subtracts. `PIOLA_RANDOM=1000000` asks for so many declarations, `PIOLA_RANDOM_SEED`
+//! for those from a seed on.
+
+#![expect(clippy::print_stdout, reason = "counts to show")]
+
+use std::collections::BTreeMap;
+
+use piola::random::Random;
+use piola::{Inversion, Real};
+use piola_codegen::model::model;
+use piola_materials::{CATALOGUE, Visitor};
+use piola_tests::declared::declarations;
+use piola_tests::random::hard;
+use piola_tests::random::judge::{Tally, judge};
+use piola_tests::random::program::{Inputs, Parameters, run};
+use rayon::prelude::*;
+
+/// Declarations, unless `PIOLA_RANDOM` says how many.
+const DECLARATIONS: u64 = 300;
+
+/// Stretches at which each declaration is judged; a quarter as many strains.
+const POINTS: usize = 24;
+
+/// Failures that are printed.
+const SHOWN: usize = 40;
+
+fn from_environment(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+#[test]
+fn random_energies_have_no_wrong_digit_that_they_do_not_flag() {
+    let count = from_environment("PIOLA_RANDOM").unwrap_or(DECLARATIONS);
+    let first = from_environment("PIOLA_RANDOM_SEED").unwrap_or(0);
+    let mut total = Tally::default();
+    for start in (first..first + count).step_by(1000) {
+        let seeds = start..(start + 1000).min(first + count);
+        for tally in seeds.into_par_iter().map(|seed| judge(seed, POINTS)).collect::<Vec<_>>() {
+            total.add(tally);
+        }
+        if count > 1000 {
+            println!("{total}");
+        }
+    }
+    println!("{total}");
+    let mut refusals: BTreeMap<_, usize> = BTreeMap::new();
+    for refusal in &total.refusals {
+        *refusals.entry(refusal.chars().take(60).collect::<String>()).or_default() += 1;
+    }
+    for (refusal, count) in refusals {
+        println!("{count:6} refused: {refusal} …");
+    }
+    let shown = total.failures.iter().take(SHOWN).cloned().collect::<Vec<_>>().join("\n");
+    assert!(total.failures.is_empty(), "{} declarations fail\n\n{shown}", total.failures.len());
+    // Otherwise the generator makes nothing worth judging: it is 15 %, 5 %, and 0.3 %.
+    assert!(2 * total.refused < total.declarations && 10 * total.flagged < total.judged, "{total}");
+    assert!(100 * (total.lost + total.terms + total.range) < total.judged, "{total}");
+}
+
+/// Runs the programs of an energy of the catalogue, and its compiled form.
+struct Same<'a> {
+    name: &'a str,
+    parameters: Parameters,
+    model: piola_codegen::model::Model,
+}
+
+impl Same<'_> {
+    fn check<R: Real>(&mut self, material: &impl piola::Material, stretches: [R; 3], strains: [R; 3]) {
+        let Self { name, parameters, model } = self;
+        let plain = model.plain.clone();
+        let inputs = Inputs { stretches, strains, epsilon: 0.0 };
+        let mut found = |roots: &[_]| run(&model.program(roots), parameters, &inputs);
+        let same = |found: Vec<R>, compiled: &[R], what: &str| {
+            // The text of a floating-point number is that of its bits, but for NaN.
+            assert_eq!(format!("{found:?}"), format!("{compiled:?}"), "{what} of {name} at {stretches:?}");
+        };
+        same(found(&[plain.energy]), &[material.energy(stretches)], "ψ");
+        same(found(&plain.gradient), &material.gradient(stretches), "ψi");
+        let blocks = material.blocks(stretches);
+        let blocks = [&blocks.gradient[..], &blocks.hessian, &blocks.flip, &blocks.twist].concat();
+        same(found(&plain.blocks()), &blocks, "blocks");
+        let inputs = Inputs { stretches: strains.map(|strain| R::splat(1.0) + strain), ..inputs };
+        let by_strains = run(&model.program(&model.at_strains.clone()), parameters, &inputs);
+        same(by_strains, &material.gradient_at_strains(strains), "ψi by strains");
+    }
+}
+
+impl Visitor for Same<'_> {
+    type Output = ();
+
+    fn visit<M: piola::material::Declared + 'static>(mut self, material: M) {
+        let mut random = Random::new(5);
+        for stretches in hard::stretches(&mut random, 24, false) {
+            let strains = stretches.map(|stretch| 1e-3 * (stretch - 1.0));
+            self.check(&material, stretches, strains);
+            self.check(&material, stretches.map(|x| x as f32), strains.map(|x| x as f32));
+        }
+    }
+}
+
+#[test]
+fn programs_have_the_bits_of_generated_code() {
+    let declarations = declarations().expect("the catalogue");
+    let mut compared = 0;
+    for entry in CATALOGUE {
+        let declaration = declarations
+            .iter()
+            .find(|declaration| declaration.name == entry.description.name)
+            .expect("declared");
+        if declaration.has_functions() {
+            continue;
+        }
+        let parameters = Parameters::new(declaration, entry.typical());
+        let same = Same { name: entry.name, parameters, model: model(declaration).expect("an energy") };
+        entry.visit(entry.typical(), Inversion::Refuse, same).expect("typical parameters");
+        compared += 1;
+    }
+    assert!(compared > 25, "{compared}");
+}
