@@ -10,9 +10,9 @@
 //! | φ(f)  | φ[f, f₁] Δf, φ\[a, b\] as in [`quotient`] |
 //!
 //! and zero for expressions without stretches. A product with a factor that vanishes at rest is its own
-//! difference, in which that factor, and what else vanishes there, is written as one. No rule subtracts, so each term of Δψi is as accurate,
-//! relative to itself, as the strains are. At a rest state free of stress ψi is Δψi: the constants that
-//! cancel there have dropped out.
+//! difference, in which that factor, and what else vanishes there, is written as one. No rule subtracts, so
+//! each term of Δψi is as accurate, relative to itself, as the strains are. At a rest state free of stress
+//! ψi is Δψi: the constants that cancel there have dropped out.
 //!
 //! It is the sum over k of sk times the quotient of e in λk and 1, with the stretches before k already at 1.
 //!
@@ -75,8 +75,8 @@ impl Increments {
     }
 
     fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
-        // A product with a factor that vanishes at rest is its own difference, and so is a power of what does.
-        // Of real powers, only positive ones are taken of what vanishes.
+        // A product with a factor that vanishes at rest is its own difference, and so is a power of what
+        // does. Of real powers, only positive ones are taken of what vanishes.
         let vanishes = factors.iter().any(|&(base, exponent)| {
             exponent.as_integer().is_none_or(|n| n > 0) && is_zero_at_rest(graph, base)
         });
