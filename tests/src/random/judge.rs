@@ -30,7 +30,7 @@ const UNDERFLOW: f64 = 1e-280;
 /// second derivatives may leave the range of `f64`, and a reciprocal of what has overflowed is zero.
 const RANGE: f64 = 1e75;
 
-/// What has been found so far.
+/// Counts of judged declarations and values.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// Declarations generated.
@@ -39,9 +39,9 @@ pub struct Tally {
     pub refused: usize,
     /// Values judged.
     pub judged: usize,
-    /// Of these, values that are infinite or NaN, which a status says.
+    /// Judged values that are infinite or NaN, which a status says.
     pub flagged: usize,
-    /// Of these, values that are finite, of formulas with no part near the ends of the range of `f64`.
+    /// Flagged values that are finite, of formulas with no part near the ends of the range of `f64`.
     pub needless: usize,
     /// Values that lose digits, but not more than the formula as printed does.
     pub lost: usize,
@@ -223,7 +223,7 @@ fn terms(model: &Model, parameters: &Parameters, root: Id, stretches: [f64; 3]) 
     evaluate(&model.graph, root, &point).magnitude
 }
 
-/// What is judged, and what is known of it.
+/// A value to be judged, and its circumstances.
 struct Found<'a> {
     name: &'a dyn Fn() -> String,
     at: &'a str,

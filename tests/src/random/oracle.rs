@@ -1,4 +1,4 @@
-//! What an energy and its derivatives must be, from the generator's expression as it is printed.
+//! Reference values of an energy and its derivatives, from the generator's expression as it is printed.
 //!
 //! Taylor polynomials of degree 2 in 256 bits give ψ, ψi and ψij; flips and twists are their definition, (ψi
 //! ∓ ψj)/(λi ∓ λj), at stretches that are moved by 2⁻⁷⁰ of themselves, so that no gap is zero. This changes a
@@ -22,7 +22,7 @@ use crate::multiprecision::Multiprecision;
 /// 256 bits.
 pub type Number = Multiprecision<4>;
 
-/// What a value must be, and how exactly it can be asked for.
+/// A reference value, and how exactly it can be asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Expected {
     /// The value.
@@ -123,7 +123,7 @@ pub fn at_strains(declaration: &Declaration, strains: [f64; 3]) -> [Expected; 3]
 #[derive(Clone, Copy)]
 struct Quantity {
     exact: Polynomial<Number, QUADRATIC>,
-    /// The same to degree 3, roughly.
+    /// An estimate of it to degree 3.
     rough: Polynomial<f64, CUBIC>,
     /// Errors of the coefficients in units of u.
     error: Polynomial<f64, QUADRATIC>,

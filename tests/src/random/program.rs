@@ -7,7 +7,7 @@ use piola::__private::{
     self as kernels, Pair, above_zero, exp_quotient, ln_product, pole_floor, share_above, share_below,
 };
 use piola::Real;
-use piola_codegen::algebra::elementary::Elementary;
+use piola_codegen::algebra::expr::Elementary;
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program, Statement, Value};
 

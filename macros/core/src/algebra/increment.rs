@@ -75,8 +75,8 @@ impl Increments {
     }
 
     fn product_rule(&mut self, graph: &mut Graph, factors: &[(Id, Exponent)]) -> Id {
-        // A product with a factor that vanishes at rest is its own difference, and so is a power of what does.
-        // Of real powers, only positive ones are taken of what vanishes.
+        // A product with a factor that vanishes at rest is its own difference, and so is a power of what
+        // does. Of real powers, only positive ones are taken of what vanishes.
         let vanishes = factors.iter().any(|&(base, exponent)| {
             exponent.as_integer().is_none_or(|n| n > 0) && is_zero_at_rest(graph, base)
         });
