@@ -7,8 +7,6 @@
 //! rounds what it then subtracts. `PIOLA_RANDOM=1000000` asks for so many declarations, `PIOLA_RANDOM_SEED`
 //! for those from a seed on.
 
-#![expect(clippy::print_stdout, reason = "counts to show")]
-
 use std::collections::BTreeMap;
 
 use piola::random::Random;
