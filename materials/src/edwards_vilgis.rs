@@ -9,7 +9,8 @@ use piola::material;
 ///
 /// Edwards, Vilgis, *The effect of entanglements in rubber elasticity*, 1986, where Nc and Ns are numbers of
 /// links times kT; ψ at rest is not zero there, and not here. As Π λ̄i = 1, the sums over stretches are
-/// functions of I1b, I2b and Q = Π (1 + η λ̄i²) = 1 + η I1b + η² I2b + η³. The source is incompressible; the
+/// functions of I1b, I2b and Q = Π (1 + η λ̄i²) = 1 + η I1b + η² I2b + η³; I2b is written Σ λ̄i⁻², since
+/// J^(−4/3) and I2 leave the range of f32 where their product does not. The source is incompressible; the
 /// last term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined
 /// for J > 0 and α² I1b < 1.
 #[material(
@@ -35,11 +36,13 @@ pub fn EdwardsVilgis(
     /// Bulk modulus κ, Pa.
     kappa: f64,
 ) -> f64 {
-    let room = 1.0 - alpha * alpha * I1b;
+    let e1 = I1b;
+    let e2 = J.cbrt().powi(2) * (l1.powi(-2) + l2.powi(-2) + l3.powi(-2));
+    let room = 1.0 - alpha * alpha * e1;
     let s = (1.0 - alpha * alpha) / room;
-    let q = 1.0 + eta * I1b + eta.powi(2) * I2b + eta.powi(3);
-    let slides = (I1b + 2.0 * eta * I2b + 3.0 * eta.powi(2)) / q;
-    let crosslinks = nc / 2.0 * (s * I1b + room.ln());
+    let q = 1.0 + eta * e1 + eta.powi(2) * e2 + eta.powi(3);
+    let slides = (e1 + 2.0 * eta * e2 + 3.0 * eta.powi(2)) / q;
+    let crosslinks = nc / 2.0 * (s * e1 + room.ln());
     let sliplinks = ns / 2.0 * ((1.0 + eta) * s * slides + q.ln() + room.ln());
     crosslinks + sliplinks + kappa / 2.0 * ((J * J - 1.0) / 2.0 - J.ln())
 }

@@ -96,7 +96,6 @@ catalogue! {
     "ogden" ogden::Ogden<1, 2, 3, 4, 5, 6> for rubber,
     "peng-landel" peng_landel::PengLandel for rubber,
     "rotated-linear" rotated_linear::RotatedLinear,
-    "seth-hill" seth_hill::SethHill,
     "st-venant-kirchhoff" st_venant_kirchhoff::StVenantKirchhoff,
     "stable-neo-hookean" stable_neo_hookean::StableNeoHookean,
     "storakers" storakers::Storakers<1, 2, 3>,

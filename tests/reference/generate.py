@@ -326,10 +326,6 @@ ENERGIES = {
     "bazant": lambda s, mu, lam: (
         mu * s.sum(lambda l: ((l - 1 / l) / 2) ** 2) + lam / 2 * s.sum(lambda l: (l - 1 / l) / 2) ** 2
     ),
-    "seth_hill": lambda s, mu, lam, m: (
-        mu * s.sum(lambda l: ((l ** (2 * m) - 1) / (2 * m)) ** 2)
-        + lam / 2 * s.sum(lambda l: (l ** (2 * m) - 1) / (2 * m)) ** 2
-    ),
     "symmetric_arap": lambda s, mu: mu / 2 * s.sum(lambda l: (l - 1) ** 2 + (1 / l - 1) ** 2),
     "mips": lambda s, mu, alpha: (
         mu * (alpha * (s.I1 * s.I2 / s.J**2 - 1) / 8 + (1 - alpha) * (s.J + 1 / s.J) / 2)
@@ -833,9 +829,6 @@ FURTHER = {
         "lambda": p(1, 5), "mu": p(0.5, 5), "l": -p(1, 20), "m": -p(1, 20), "n": -p(1, 20),
     },
     "bazant": lambda rng, p, d, room: {"mu": p(0.5, 5), "lambda": p(0.5, 200)},
-    "seth_hill": lambda rng, p, d, room: {
-        "mu": p(0.5, 5), "lambda": p(0.5, 50), "m": rng.choice([-1.0, -0.375, 0.125, 0.25, 0.5, 1.0, 1.5]),
-    },
     "symmetric_arap": lambda rng, p, d, room: {"mu": p(0.5, 5)},
     "mips": lambda rng, p, d, room: {"mu": p(0.5, 5), "alpha": d(0.25, 0.75)},
 }

@@ -10,7 +10,7 @@ use proc_macro2::TokenStream;
 
 /// The energies with `from_young_poisson`. Of the others, some have one modulus, some more than two
 /// parameters in their moduli, and in some, as Gent's, an exponent or limit enters too.
-const DETERMINED: [&str; 18] = [
+const DETERMINED: [&str; 17] = [
     "Bazant",
     "CiarletNeoHookean",
     "ExponentiatedHencky",
@@ -23,7 +23,6 @@ const DETERMINED: [&str; 18] = [
     "NeoHookean",
     "PengLandel",
     "RotatedLinear",
-    "SethHill",
     "StVenantKirchhoff",
     "StableNeoHookean",
     "ValanisLandel",
