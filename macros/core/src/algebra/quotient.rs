@@ -26,7 +26,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::divided::power_quotient;
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::algebra::extension;
-use crate::algebra::interpret::{Memo, Point, evaluate_with};
+use crate::algebra::interpret::{Estimate, Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
 
 /// A reflection of two stretches.
@@ -59,6 +59,9 @@ pub struct Quotients<'a> {
 
 /// The pair of stretches whose signs are changed, if any.
 type Negated = Option<(Stretch, Stretch)>;
+
+/// Three orders of magnitude above rounding errors, eleven below a term that is really there.
+const NOISE: f64 = 1e-12;
 
 /// The largest degree of a product of sums that is multiplied out to separate odd from even terms.
 const LARGEST_EXPANDED_POWER: i64 = 4;
@@ -247,16 +250,51 @@ impl<'a> Quotients<'a> {
 
     /// The parity of an expression, decided numerically, relative to what rounding could hide: a normal form
     /// would miss identities. The body of a sum is evaluated for its first entry, which stands for all.
+    ///
+    /// A sum is odd if what is left without its odd terms is: beside an exponential of 10¹⁶, a term that is not odd
+    /// would look like its noise.
     fn parity(&mut self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
-        // Three orders of magnitude above rounding errors, eleven below a term that is really there.
-        const NOISE: f64 = 1e-12;
+        let found = self.parity_as_a_whole(graph, e, i, j);
+        let Node::Linear { constant, terms } = graph.node(e) else { return found };
+        if found != Parity::Odd || terms.len() < 2 {
+            return found;
+        }
+        let mut others = terms.clone();
+        others.retain(|&(term, _)| self.parity_as_a_whole(graph, term, i, j) != Parity::Odd);
+        let is_odd = (0..self.samples.len()).all(|k| {
+            let (mut sum, mut magnitude) = (2.0 * constant.to_f64(), 2.0 * constant.to_f64().abs());
+            for &(term, coefficient) in &others {
+                let (here, there) = self.mirrored(graph, term, k, (i, j));
+                sum += coefficient.to_f64() * (here.value + there.value);
+                magnitude += coefficient.to_f64().abs() * (here.magnitude + there.magnitude);
+            }
+            sum.abs() <= NOISE * magnitude
+        });
+        if is_odd { Parity::Odd } else { Parity::None }
+    }
+
+    /// Values at a sample, and with two stretches of opposite sign.
+    fn mirrored(
+        &mut self,
+        graph: &Graph,
+        e: Id,
+        sample: usize,
+        (i, j): (Stretch, Stretch),
+    ) -> (Estimate, Estimate) {
+        let point = &self.samples[sample];
+        let mut mirrored = point.clone();
+        mirrored.stretches[i] = -point.stretches[i];
+        mirrored.stretches[j] = -point.stretches[j];
+        let here = evaluate_with(graph, e, point, self.values.entry((sample, None)).or_default());
+        let there =
+            evaluate_with(graph, e, &mirrored, self.values.entry((sample, Some((i, j)))).or_default());
+        (here, there)
+    }
+
+    fn parity_as_a_whole(&mut self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
         let (mut odd, mut even) = (true, true);
-        for (k, point) in self.samples.iter().enumerate() {
-            let mut mirrored = point.clone();
-            mirrored.stretches[i] = -point.stretches[i];
-            mirrored.stretches[j] = -point.stretches[j];
-            let here = evaluate_with(graph, e, point, self.values.entry((k, None)).or_default());
-            let there = evaluate_with(graph, e, &mirrored, self.values.entry((k, Some((i, j)))).or_default());
+        for k in 0..self.samples.len() {
+            let (here, there) = self.mirrored(graph, e, k, (i, j));
             let noise = NOISE * (here.magnitude + there.magnitude);
             // Written so that NaN, as from a real power of a negative number, is neither odd nor even; nor is
             // a value that overflows, as the exponential of an extended function may at a negative stretch.
