@@ -100,7 +100,7 @@ catalogue! {
     "stable-neo-hookean" stable_neo_hookean::StableNeoHookean,
     "storakers" storakers::Storakers<1, 2, 3>,
     "stretch-spline" stretch_spline::StretchSpline without fit,
-    "swanson" swanson::Swanson<1, 2> for rubber,
+    "swanson" swanson::Swanson<1, 2, 3> for rubber,
     "symmetric-arap" symmetric_arap::SymmetricArap,
     "symmetric-dirichlet" symmetric_dirichlet::SymmetricDirichlet,
     "three-chain" three_chain::ThreeChain for rubber,

@@ -49,7 +49,15 @@ fn stress_follows_young_at_any_strain() -> Result<(), Box<dyn std::error::Error>
 
 #[test]
 fn a_volumetric_parameter_brings_poisson_about() -> Result<(), Box<dyn std::error::Error>> {
-    let without = ["arap", "blatz_ko", "fung", "storakers", "symmetric_dirichlet"];
+    let without = [
+        "arap",
+        "blatz_ko",
+        "fung",
+        "levinson_burgess",
+        "storakers",
+        "symmetric_arap",
+        "symmetric_dirichlet",
+    ];
     for entry in CATALOGUE {
         let found = moduli(entry, &entry.matching(Moduli::from_young_poisson(1e6, 0.45)?)?)?;
         let matches = (found.poisson() - 0.45).abs() < TOLERANCE;

@@ -39,6 +39,11 @@ fn f32_is_sound_at_every_pattern_of_bits() {
     every_entry::<f32>();
 }
 
+/// A number of an energy's own, so that another energy in the catalogue does not change its patterns.
+fn seed(name: &str) -> u64 {
+    name.bytes().fold(0, |seed: u64, byte| seed.wrapping_mul(31).wrapping_add(u64::from(byte)))
+}
+
 fn patterns() -> usize {
     std::env::var("PIOLA_BITS").ok().and_then(|text| text.parse().ok()).unwrap_or(PATTERNS)
 }
@@ -52,13 +57,13 @@ fn every_entry<R: Judged>() {
     let start = Instant::now();
     let mut total = Tally::default();
     let mut report = String::new();
-    for (index, entry) in CATALOGUE.iter().enumerate() {
+    for entry in CATALOGUE {
         let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
         for &inversion in inversions {
             let admissible = "typical parameters are admissible";
             let trial = Trial::<R> {
                 elements: entry.elements(entry.typical(), inversion).expect(admissible),
-                seed: index as u64,
+                seed: seed(entry.name),
                 patterns: patterns() / inversions.len(),
                 precision: PhantomData,
             };

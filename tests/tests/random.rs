@@ -22,8 +22,8 @@ use rayon::prelude::*;
 /// Declarations, unless `PIOLA_RANDOM` says how many.
 const DECLARATIONS: u64 = 300;
 
-/// Seeds of declarations that once failed: stresses from strains of powers of I1b − 3, and a twist without a term
-/// that a larger one hid.
+/// Seeds of declarations that once failed: stresses from strains of powers of I1b − 3, and a twist without a
+/// term that a larger one hid.
 const REMEMBERED: [u64; 3] = [14, 202_572, 1_002_194];
 
 /// Stretches at which each declaration is judged; a quarter as many strains.

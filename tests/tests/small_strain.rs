@@ -67,7 +67,7 @@ impl<R: Real<Mask = bool>> Visitor for Judge<R> {
                 norm(differences) / (R::UNIT_ROUNDOFF * scale)
             };
             // The oracle of ψ keeps 96 digits, of which the square of the strain takes its own.
-            if self.magnitude > 1e-30 {
+            if self.magnitude > 1e-30 && is_free_of_stress(&material) {
                 let (energy, status) = compiled::evaluate_energy_from_displacement(&material, &rounded);
                 assert!(!status.refused && !status.nonfinite);
                 let one = Exact::splat(1.0);
@@ -82,6 +82,15 @@ impl<R: Real<Mask = bool>> Visitor for Judge<R> {
         }
         worst
     }
+}
+
+/// Whether ψ in 96 digits has no stress at rest. It has a little where it has a fraction that `f64` rounds,
+/// such as 1/6, and is then no oracle for strains: its linear term outweighs the rest.
+fn is_free_of_stress(material: &impl Declared) -> bool {
+    let (one, step) = (Exact::splat(1.0), Exact::splat(1e-30));
+    let energy = |step: Exact| material.energy([one + step, one, one]);
+    let slope = ((energy(step) - energy(-step)) / (step + step)).to_f64();
+    slope.abs() < 1e-25 * material.moduli().mu
 }
 
 fn plus_identity<R: Real>(displacement: &Matrix3<R>) -> Matrix3<R> {

@@ -334,7 +334,7 @@ mod tests {
                 // What moving the stretches changes.
                 let error = (found.value - Number::splat(*expected)).to_f64().abs();
                 assert!(error <= 100.0 * NUDGE * found.scale, "{found:?} for {expected}");
-                assert!(found.scale < 1e3 && found.printed < 1e3);
+                assert!(found.scale < 1e3 && found.printed < 1e3, "{found:?}");
             }
         };
         check(&[energy], &[36.0]);

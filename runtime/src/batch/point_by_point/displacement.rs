@@ -31,7 +31,7 @@ impl<M: ?Sized> PointBatch<'_, M> {
     /// let rubber = Rubber::new(1e6)?;
     /// // A strain of 10⁻⁸: ψ is μ times its square, of which nothing is left in F.
     /// let H = [1e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0].repeat(100);
-    /// let mut energies = vec![0.0; 100];
+    /// let mut energies = vec![0.0_f64; 100];
     /// PointBatch::new(&rubber).energies_from_displacements(&H, &mut energies)?;
     /// assert!((energies[99] - 1e6 * 1e-16).abs() < 1e-7 * 1e6 * 1e-16);
     /// # Ok(())
