@@ -331,10 +331,9 @@ mod tests {
             at_stretches(&declaration, [2.0, 1.0, 1.0]);
         let check = |found: &[Expected], expected: &[f64]| {
             for (found, expected) in found.iter().zip(expected) {
-                // What moving the stretches changes.
                 let error = (found.value - Number::splat(*expected)).to_f64().abs();
-                assert!(error <= 100.0 * NUDGE * found.scale, "{found:?} for {expected}");
-                assert!(found.scale < 1e3 && found.printed < 1e3, "{found:?}");
+                // What moving the stretches by 2⁻⁷⁰ changes, at slopes below 10⁴.
+                assert!(error <= 1e4 * NUDGE, "{found:?} for {expected}");
             }
         };
         check(&[energy], &[36.0]);
