@@ -54,6 +54,7 @@ fn a_volumetric_parameter_brings_poisson_about() -> Result<(), Box<dyn std::erro
         "blatz_ko",
         "fung",
         "levinson_burgess",
+        "mips",
         "storakers",
         "symmetric_arap",
         "symmetric_dirichlet",

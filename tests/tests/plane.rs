@@ -48,7 +48,7 @@ fn near_rest_every_material_has_plane_and_uniaxial_stress() {
     everywhere(|name, material| {
         for _ in 0..200 {
             // Murnaghan's metals have no equilibrium beyond a strain of a few percent.
-            let F = drawn(&mut random, if name == "murnaghan" { 0.01 } else { 0.1 });
+            let F = drawn(&mut random, if name.starts_with("murnaghan") { 0.01 } else { 0.1 });
             let point = plane_stress(material, &F, Filter::None);
             assert!(point.status.is_clean() && !point.no_equilibrium, "{name} at {F:?}");
             let space = evaluate(material, &in_space(&F, point.out_of_plane_stretch), Filter::None);

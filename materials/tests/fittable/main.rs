@@ -23,10 +23,13 @@ const STEP: f64 = 1.0 / 128.0;
 const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
 
 /// Typical parameters, but none zero, where steps relative to it would be none and conditions often end, and
-/// none so near a pole, as Levinson and Burgess's Poisson's ratio is near ½, that steps would show it.
+/// none for which steps show more than the slope: Levinson and Burgess's Poisson's ratio near its pole at ½,
+/// and the exponential of skin.
 fn values(entry: &Entry) -> Vec<Vec<f64>> {
-    if entry.name == "levinson_burgess" {
-        return vec![vec![3.74e5], vec![0.5], vec![0.3]];
+    match entry.name {
+        "levinson_burgess" => return vec![vec![3.74e5], vec![0.5], vec![0.3]],
+        "veronda_westmann" => return vec![vec![3.94e3], vec![1.0], vec![1e6]],
+        _ => {}
     }
     let nonzero = |&value: &f64| if value == 0.0 { 0.5 } else { value };
     entry.typical().iter().map(|list| list.iter().map(nonzero).collect()).collect()
