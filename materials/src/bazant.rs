@@ -12,7 +12,7 @@ use piola::material;
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),
-    extend(lambda >= 0.0),
+    refuse("continued, its reciprocal stretches leave the range of f64 at the ends of what F can be"),
     typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6),
     fit
 )]
