@@ -7,8 +7,7 @@ use piola::material;
 /// ψ = μ Σ hi² + λ/2 (Σ hi)² with hi = (λi − 1/λi)/2.
 ///
 /// Bažant, *Easy-to-compute tensors with symmetric inverse approximating Hencky finite strain and its rate*,
-/// 1998: the strain of its family with m = 1, in the energy of Hooke. Defined for J > 0; continued below a
-/// threshold stretch with [`Inversion::Extend`](piola::Inversion::Extend) if λ ≥ 0.
+/// 1998: the strain of its family with m = 1, in the energy of Hooke. Defined for J > 0.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0),
