@@ -36,8 +36,7 @@ use crate::algebra::volume::rewrite;
 
 /// The energy with the bases of its real powers as sums of squares, wherever they are found to be such.
 pub fn with_squares(graph: &mut Graph, energy: Id) -> Id {
-    let known = Invariants::new(graph);
-    rewrite(graph, energy, &mut FxHashMap::default(), &|graph, id| known.powers(graph, id))
+    Invariants::new(graph).rewritten(graph, energy)
 }
 
 /// Whether an expression has such bases.
@@ -57,42 +56,50 @@ pub fn squares_alone(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> 
 /// The nodes by which isochoric invariants are recognised.
 struct Invariants {
     volume: Id,
-    /// I1 and I2, each with the exponent of J in its isochoric part, and that part less 3.
-    each: [(Id, Rational, Id); 2],
+    both: [Isochoric; 2],
+}
+
+/// I1b = J^(−2/3) I1, or I2b = J^(−4/3) I2.
+struct Isochoric {
+    /// I1 or I2.
+    invariant: Id,
+    /// The exponent of J.
+    exponent: Rational,
+    /// I1b − 3 or I2b − 3.
+    excess: Id,
 }
 
 impl Invariants {
     fn new(graph: &mut Graph) -> Self {
-        let stretches = [0, 1, 2].map(|i| graph.stretch(i));
-        let volume = graph.product_of(&stretches);
-        let squares = stretches.map(|stretch| graph.powi(stretch, 2));
-        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
-        let each = [(squares, -2), (pairs, -4)].map(|(terms, numerator)| {
-            let invariant = graph.sum_of(&terms);
+        let [first, second, volume] = graph.invariants();
+        let both = [(first, -2), (second, -4)].map(|(invariant, numerator)| {
             let exponent = Rational::new(numerator, 3).unwrap_or(Rational::ONE);
             let isochoric =
                 graph.product(&[(volume, Exponent::rational(exponent)), (invariant, Exponent::ONE)]);
             let plain = graph.linear(Rational::integer(-3), &[(isochoric, Rational::ONE)]);
             let value = squares_of_differences(graph, if numerator == -2 { 2 } else { -2 });
-            (invariant, exponent, graph.excess(value, plain))
+            Isochoric { invariant, exponent, excess: graph.excess(value, plain) }
         });
-        Self { volume, each }
+        Self { volume, both }
+    }
+
+    /// An expression with the bases of its real powers replaced.
+    fn rewritten(&self, graph: &mut Graph, e: Id) -> Id {
+        rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| self.powers(graph, id))
     }
 
     /// A product with the bases of its real powers replaced.
     fn powers(&self, graph: &mut Graph, id: Id) -> Option<Id> {
         let Node::Product(factors) = graph.node(id).clone() else { return None };
-        let is_real = |&(_, exponent): &(Id, Exponent)| exponent.as_integer().is_none();
-        if !factors.iter().any(is_real) {
+        let is_real = |exponent: Exponent| exponent.as_integer().is_none();
+        if !factors.iter().any(|&(_, exponent)| is_real(exponent)) {
             return None;
         }
-        let replaced: Vec<_> = factors
-            .iter()
-            .map(|&(base, exponent)| match is_real(&(base, exponent)).then(|| self.squares(graph, base)) {
-                Some(Some(squares)) => (squares, exponent),
-                _ => (with_squares_inside(self, graph, base), exponent),
-            })
-            .collect();
+        let mut replaced = Vec::with_capacity(factors.len());
+        for (base, exponent) in factors {
+            let squares = if is_real(exponent) { self.squares(graph, base) } else { None };
+            replaced.push((squares.unwrap_or_else(|| self.rewritten(graph, base)), exponent));
+        }
         Some(graph.product(&replaced))
     }
 
@@ -119,7 +126,7 @@ impl Invariants {
     /// X − β X + β Y as (1 − β) X + β Y, in which nothing cancels; `None` for what is not linear in X and Y.
     fn collected(&self, graph: &mut Graph, expanded: Id) -> Option<Id> {
         let Node::Linear { terms, .. } = graph.node(expanded).clone() else { return None };
-        let mut factors = self.each.map(|(.., excess)| (excess, Vec::new()));
+        let mut factors = [0, 1].map(|k: usize| (self.both[k].excess, Vec::new()));
         for (term, coefficient) in terms {
             let has = |&mut (excess, _): &mut (Id, Vec<_>)| graph.reachable(&[term]).contains(&excess);
             let (excess, of) = factors.iter_mut().find_map(|each| has(&mut *each).then_some(each))?;
@@ -140,14 +147,13 @@ impl Invariants {
     fn shifted(&self, graph: &mut Graph, e: Id) -> Id {
         rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| {
             let Node::Product(factors) = graph.node(id).clone() else { return None };
-            for &(invariant, per_power, excess) in &self.each {
+            for &Isochoric { invariant, exponent, excess } in &self.both {
                 let of = |base: Id| factors.iter().find(|factor| factor.0 == base).map(|factor| factor.1);
                 let (Some(n), Some(volume)) = (of(invariant).and_then(Exponent::as_integer), of(self.volume))
                 else {
                     continue;
                 };
-                if n < 1
-                    || Some(volume) != per_power.checked_mul(Rational::integer(n)).map(Exponent::rational)
+                if n < 1 || Some(volume) != exponent.checked_mul(Rational::integer(n)).map(Exponent::rational)
                 {
                     continue;
                 }
@@ -160,10 +166,6 @@ impl Invariants {
             None
         })
     }
-}
-
-fn with_squares_inside(known: &Invariants, graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| known.powers(graph, id))
 }
 
 /// ½ (1/(b c) + 1/(c a) + 1/(a b)) ((a − b)² + (b − c)² + (c − a)²) with a = λ1^(n/3) and so on.
@@ -192,7 +194,7 @@ mod tests {
     use crate::algebra::interpret::{Point, evaluate};
 
     fn isochoric(graph: &mut Graph) -> [Id; 2] {
-        Invariants::new(graph).each.map(|(_, _, excess)| match *graph.node(excess) {
+        Invariants::new(graph).both.map(|Isochoric { excess, .. }| match *graph.node(excess) {
             Node::Excess(_, plain) => graph.linear(Rational::integer(3), &[(plain, Rational::ONE)]),
             _ => excess,
         })

@@ -185,6 +185,25 @@ fn what_vanishes_at_rest_has_whole_powers() {
     );
 }
 
+/// A stress that is longer than some lines is not quoted to be appended: isochoric stretches leave none.
+#[test]
+fn long_stresses_are_avoided_instead_of_balanced() {
+    let chain = "let x = l / n.sqrt(); x * (3.0 - x.powi(2)) / (1.0 - x.powi(2)) * (x / x.sinh()).ln()";
+    let energy = format!("mu * n * sum(|l| {{ {chain} }})");
+    let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 {{ {energy} }}");
+    let found = mistakes("domain(J > 0.0, l1.powi(2) < n), admissible(n > 1.0)", &item);
+    let [(tokens, message)] = &found[..] else { panic!("{found:#?}") };
+    assert_eq!(tokens, &energy);
+    assert!(
+        message.contains("write `l1 / J.cbrt()` for `l1`, and so on for `l2` and `l3`, which leaves none")
+    );
+    assert!(message.len() < 300, "{message}");
+    // The remedy is what it says.
+    let isochoric = energy.replace("l / n.sqrt()", "l / J.cbrt() / n.sqrt()");
+    let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 {{ {isochoric} }}");
+    check("domain(J > 0.0, l1.powi(2) < n * J.powf(2.0 / 3.0)), admissible(n > 1.0), part", &item, &[]);
+}
+
 /// I1b − 3 is never negative, and its real powers above 1 are smooth.
 #[test]
 fn powers_of_what_is_never_negative() {

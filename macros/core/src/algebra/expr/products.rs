@@ -9,6 +9,14 @@ impl Graph {
         self.product(&[(a, Exponent::ONE), (b, Exponent::ONE)])
     }
 
+    /// I1 = Σ λ², I2 = λ1²λ2² + λ2²λ3² + λ3²λ1² and J = λ1 λ2 λ3.
+    pub fn invariants(&mut self) -> [Id; 3] {
+        let stretches = [0, 1, 2].map(|i| self.stretch(i));
+        let squares = stretches.map(|stretch| self.powi(stretch, 2));
+        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| self.mul(squares[a], squares[b]));
+        [self.sum_of(&squares), self.sum_of(&pairs), self.product_of(&stretches)]
+    }
+
     /// The product of several expressions.
     pub fn product_of(&mut self, factors: &[Id]) -> Id {
         let factors: Vec<_> = factors.iter().map(|&factor| (factor, Exponent::ONE)).collect();

@@ -143,14 +143,9 @@ impl Resolver<'_> {
     /// I2.
     fn word(&mut self, word: &str) -> Option<Id> {
         let graph = &mut *self.graph;
-        let stretches = [0, 1, 2].map(|i| graph.stretch(i));
         let [i1, i2, j] = match self.scope {
-            Scope::Invariants => stretches,
-            Scope::Stretches | Scope::Isochoric | Scope::Parameters => {
-                let squares = stretches.map(|stretch| graph.powi(stretch, 2));
-                let pairs = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| graph.mul(squares[a], squares[b]));
-                [graph.sum_of(&squares), graph.sum_of(&pairs), graph.product_of(&stretches)]
-            }
+            Scope::Invariants => [0, 1, 2].map(|i| graph.stretch(i)),
+            Scope::Stretches | Scope::Isochoric | Scope::Parameters => graph.invariants(),
         };
         let mut isochoric = |invariant: Id, numerator: i128| {
             let exponent = Rational::new(numerator, 3).map(Exponent::rational)?;
