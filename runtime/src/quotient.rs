@@ -169,13 +169,17 @@ pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
 }
 
 /// The base of a real power that vanishes at rest alone, kept from zero: at least the smallest positive
-/// number.
+/// number over u², so that its reciprocal leaves room for other factors.
 ///
 /// So 0^(n − 2) 0 is 0 and not NaN, as the stiffness of (I1b − 3)ⁿ at rest is for n > 1. A negative base,
 /// which no sum of squares has, is NaN.
 #[inline(always)]
 pub fn above_zero<R: Real>(base: R) -> R {
-    R::select(base.less(R::splat(0.0)), R::splat(f64::NAN), base.max(R::splat(R::MIN_POSITIVE)))
+    R::select(
+        base.less(R::splat(0.0)),
+        R::splat(f64::NAN),
+        base.max(R::splat(R::MIN_POSITIVE / (R::UNIT_ROUNDOFF * R::UNIT_ROUNDOFF))),
+    )
 }
 
 /// The fraction of the interval from a to b that lies above ε. For a = b it is 1 if a ≥ ε, else 0.
