@@ -46,12 +46,10 @@ fn near_rest_every_material_has_plane_and_uniaxial_stress() {
     let mut random = Random::new(141);
     let mut worst = 0f64;
     everywhere(|name, material| {
-        // Murnaghan's metals have no equilibrium beyond a strain of a thousandth.
-        if name.starts_with("murnaghan") {
-            return;
-        }
+        // The stress of Murnaghan's plastic falls from a strain of some 6 % on: λ + 2μ + 2 (l + 2m) E = 0.
+        let strain = if name.starts_with("murnaghan") { 0.01 } else { 0.1 };
         for _ in 0..200 {
-            let F = drawn(&mut random, 0.1);
+            let F = drawn(&mut random, strain);
             let point = plane_stress(material, &F, Filter::None);
             assert!(point.status.is_clean() && !point.no_equilibrium, "{name} at {F:?}");
             let space = evaluate(material, &in_space(&F, point.out_of_plane_stretch), Filter::None);
@@ -70,7 +68,7 @@ fn near_rest_every_material_has_plane_and_uniaxial_stress() {
                 let error = (ahead[i][j] - behind[i][j]) / (2.0 * h) - dP[i][j];
                 assert!(error.abs() <= 1e-7 * stiffness, "{name}: {error:e} beside {stiffness:e} at {F:?}");
             }
-            let stretch = random.uniform(0.9, 1.1);
+            let stretch = random.uniform(1.0 - strain, 1.0 + strain);
             let bar = uniaxial_stress(material, stretch);
             assert!(bar.status.is_clean(), "{name} at {stretch}");
         }

@@ -5,8 +5,9 @@
 //! inwards after.
 //!
 //! **Enclosing.** Between the stretch of constant volume and 1 lies the root of nearly every solid with
-//! 0 ≤ ν ≤ ½. Otherwise the interval is widened to both sides, by factors 1.25, 1.25², 1.25⁴, …, until one
-//! of the new parts has a root. Where the energy is not defined, at the end of a chain say, the domain may be
+//! 0 ≤ ν ≤ ½. Otherwise the interval is widened to both sides, by factors 1 + 2⁻¹⁰ and its squares, until one
+//! of the new parts has a root. The first parts are narrow, because an energy for metals softens within a few
+//! percent: a wide one would have the stable root and the unstable one behind it. Where the energy is not defined, at the end of a chain say, the domain may be
 //! an end of the interval: such an energy keeps away from it.
 //!
 //! **Solving.** Newton's method with the slope that the energy has. Where a step would leave the interval,
@@ -25,8 +26,8 @@
 
 use crate::lanes::Real;
 
-/// Widenings of the interval: 1.25 to the power of 2¹² leaves the range of `f64`.
-const WIDENINGS: usize = 12;
+/// Widenings of the interval: 1 + 2⁻¹⁰ to the power of 2²⁰ leaves the range of `f64`.
+const WIDENINGS: usize = 20;
 
 /// Steps after which an iteration that rounding keeps from ending is given up; some ten are the rule, and
 /// halving an interval of f64 to nothing takes 120.
@@ -111,7 +112,7 @@ fn enclose<R: Real<Mask = bool>>(
         return Ok(interval);
     }
     let mut is_defined = low.1.is_some() || high.1.is_some();
-    let mut factor = R::splat(1.25);
+    let mut factor = R::splat(1.0 + 1.0 / 1024.0);
     for _ in 0..WIDENINGS {
         let (below, above) = (end(low.0 / factor), end(high.0 * factor));
         if let Some(interval) = Interval::between(below, low).or_else(|| Interval::between(high, above)) {
@@ -193,6 +194,16 @@ mod tests {
             // t/c − c/t errs by 2 u beside a slope of 2/c.
             check(spring, Ok(root), 4.0 * f64::EPSILON);
         }
+    }
+
+    #[test]
+    fn a_stable_root_is_told_from_the_unstable_one_behind_it() {
+        // As of a metal whose stress falls from a strain of 7 % on.
+        let softening = |t: f64| {
+            Some(Side { stress: (t - 1.02) * (1.12 - t), slope: 2.14 - 2.0 * t, magnitude: 2.0 * t })
+        };
+        // t − 1.02 errs by u, and the product by as much times 0.1, beside a slope of 0.1.
+        check(softening, Ok(1.02), 64.0 * f64::EPSILON);
     }
 
     #[test]
