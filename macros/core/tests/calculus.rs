@@ -199,6 +199,25 @@ fn quotients_are_what_they_are_defined_to_be() {
     }
 }
 
+/// Where one stretch is far below the other, the plain quotient is exact. ψ1 is a product of a factor that vanishes
+/// with its stretch and of one that grows without bound.
+#[test]
+fn factors_of_opposite_trends_do_not_cancel_on_flat_elements() {
+    let item = quote! {
+        fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
+            mu * (sum(|l| l.ln().tanh() + l.powi(2)) - 3.0)
+        }
+    };
+    let model = compile("opposite trends", &quote!(domain(J > 0.0), prestressed), &item);
+    for flat in [1e-2, 1e-4, 1e-8, 1e-10] {
+        let point = Point { stretches: [1.3, 1.1, flat], ..model.samples[0].clone() };
+        let value = |id| evaluate(&model.graph, id, &point).value;
+        let [g1, _, g3] = model.plain.gradient.map(value);
+        let (found, plain) = (value(model.plain.flip[1]), (g1 - g3) / (1.3 - flat));
+        assert!((found - plain).abs() <= 1e-12 * plain.abs(), "{found:e} for {plain:e} at {flat:e}");
+    }
+}
+
 #[test]
 fn twists_have_poles_exactly_where_the_stress_jumps() {
     for (name, has_pole, arguments, item) in energies() {

@@ -15,7 +15,7 @@
 //! | Re = e   | 0, and a factor s with Rs = s comes out: D(sf) = s Df        |
 //! | x, y, z  | 1, −1 (σ) or 1 (τ), 0                                        |
 //! | f + g    | Df + Dg                                                      |
-//! | f g      | Df g + Rf Dg, after taking out symmetric factors like xy    |
+//! | f g      | Df g + Rf Dg or Df Rg + f Dg, after taking out symmetric factors like xy |
 //! | φ(f)     | φ[f, Rf] Df with the divided difference φ[a, b]              |
 //!
 //! Equal stretches need no branch: the limit is what the formula gives. A part that is not odd in (x, y) has
@@ -55,6 +55,8 @@ pub struct Quotients<'a> {
     memo: FxHashMap<(Id, Reflection), Id>,
     /// Values at each sample, by its index, as it is and with two stretches negated.
     values: FxHashMap<(usize, Negated), Memo>,
+    /// Values where the second of two stretches is [`FLAT`] times the first.
+    flat_values: FxHashMap<(usize, Stretch, Stretch), Memo>,
 }
 
 /// The pair of stretches whose signs are changed, if any.
@@ -63,6 +65,12 @@ type Negated = Option<(Stretch, Stretch)>;
 /// Three orders of magnitude above rounding errors, eleven below a term that is really there.
 const NOISE: f64 = 1e-12;
 
+/// A ratio of stretches at which terms that cancel on flat elements are seen.
+const FLAT: f64 = 1e-6;
+
+/// Terms of a product rule may exceed their sum by a digit and a half.
+const BEARABLE: f64 = 32.0;
+
 /// The largest degree of a product of sums that is multiplied out to separate odd from even terms.
 const LARGEST_EXPANDED_POWER: i64 = 4;
 
@@ -70,7 +78,12 @@ impl<'a> Quotients<'a> {
     /// Decides parities at the given points, which must lie in the domain of the energy.
     #[must_use]
     pub fn new(samples: &'a [Point]) -> Self {
-        Self { samples, memo: FxHashMap::default(), values: FxHashMap::default() }
+        Self {
+            samples,
+            memo: FxHashMap::default(),
+            values: FxHashMap::default(),
+            flat_values: FxHashMap::default(),
+        }
     }
 
     /// The flip quotient D⁻ij from ψi.
@@ -183,12 +196,40 @@ impl<'a> Quotients<'a> {
         graph.mul(symmetric, quotient)
     }
 
-    /// The product rule D(fg) = Df g + Rf Dg.
+    /// The product rule D(fg) = Df g + Rf Dg = Df Rg + f Dg.
+    ///
+    /// Both are exact at small gaps. At wide ones the terms of either may be far larger than their sum, as
+    /// where f falls and g grows towards a stretch that vanishes: then the other has the values of f and g at
+    /// the other end.
     fn leibniz(&mut self, graph: &mut Graph, (f, df): (Id, Id), g: Id, reflection: Reflection) -> Id {
         let dg = self.quotient(graph, g, reflection);
-        let mirrored = reflect(graph, f, reflection);
-        let (left, right) = (graph.mul(df, g), multiply_pieces(graph, mirrored, dg));
-        graph.add(left, right)
+        let [f_mirrored, g_mirrored] = [f, g].map(|part| reflect(graph, part, reflection));
+        let mut terms = [graph.mul(df, g), multiply_pieces(graph, f_mirrored, dg)];
+        if self.cancellation(graph, terms, reflection) > BEARABLE {
+            let other = [graph.mul(df, g_mirrored), multiply_pieces(graph, f, dg)];
+            if self.cancellation(graph, other, reflection) <= BEARABLE {
+                terms = other;
+            }
+        }
+        graph.add(terms[0], terms[1])
+    }
+
+    /// By how much two terms exceed their sum where one stretch of the reflection is far below the other: the
+    /// median over the samples.
+    fn cancellation(&mut self, graph: &Graph, terms: [Id; 2], reflection: Reflection) -> f64 {
+        let (Reflection::Flip(i, j) | Reflection::Twist(i, j)) = reflection;
+        let mut factors: Vec<f64> = Vec::with_capacity(self.samples.len());
+        for (k, sample) in self.samples.iter().enumerate() {
+            let mut point = sample.clone();
+            point.stretches[j] = point.stretches[i].abs() * FLAT;
+            let memo = self.flat_values.entry((k, i, j)).or_default();
+            let [a, b] = terms.map(|term| evaluate_with(graph, term, &point, memo).value);
+            factors.push(a.abs().max(b.abs()) / (a + b).abs());
+        }
+        // A point that overflows, or is outside the domain, decides nothing.
+        factors.retain(|factor| factor.is_finite());
+        factors.sort_by(f64::total_cmp);
+        factors.get(factors.len() / 2).copied().unwrap_or(1.0)
     }
 
     fn power_rule(&mut self, graph: &mut Graph, base: Id, exponent: Exponent, reflection: Reflection) -> Id {
