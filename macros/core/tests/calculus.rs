@@ -199,8 +199,8 @@ fn quotients_are_what_they_are_defined_to_be() {
     }
 }
 
-/// Where one stretch is far below the other, the plain quotient is exact. ψ1 is a product of a factor that vanishes
-/// with its stretch and of one that grows without bound.
+/// Where one stretch is far below the other, the plain quotient is exact. ψ1 is a product of a factor that
+/// vanishes with its stretch and of one that grows without bound.
 #[test]
 fn factors_of_opposite_trends_do_not_cancel_on_flat_elements() {
     let item = quote! {

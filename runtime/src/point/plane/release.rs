@@ -7,8 +7,9 @@
 //! **Enclosing.** Between the stretch of constant volume and 1 lies the root of nearly every solid with
 //! 0 ≤ ν ≤ ½. Otherwise the interval is widened to both sides, by factors 1 + 2⁻¹⁰ and its squares, until one
 //! of the new parts has a root. The first parts are narrow, because an energy for metals softens within a few
-//! percent: a wide one would have the stable root and the unstable one behind it. Where the energy is not defined, at the end of a chain say, the domain may be
-//! an end of the interval: such an energy keeps away from it.
+//! percent: a wide one would have the stable root and the unstable one behind it. Where the energy is not
+//! defined, at the end of a chain say, the domain may be an end of the interval: such an energy keeps away
+//! from it.
 //!
 //! **Solving.** Newton's method with the slope that the energy has. Where a step would leave the interval,
 //! where it is not shorter than half of the step before the last, and where the slope is not positive, the
