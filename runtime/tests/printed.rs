@@ -88,3 +88,89 @@ fn energies_as_printed_keep_the_contract() {
     check(&volumetric.with_inversion(Inversion::Extend { epsilon: 0.1 }).unwrap(), &settings).unwrap();
     check(&Sums::new(1e6, 0.7, 1e7).unwrap(), &settings).unwrap();
 }
+
+/// Flory, Erman, *Theory of elasticity of polymer networks. 3*, 1982, as printed: 1 + B and 1 + D cancel on flat
+/// elements.
+#[piola::material(domain(J > 0.0), admissible(k > 0.0))]
+fn FloryErman(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    c: f64,
+    /** Dimensionless. */
+    k: f64,
+    /** Pa. */
+    kappa: f64,
+) -> f64 {
+    let constraint = sum(|l| {
+        let s = (l / J.cbrt()).powi(2);
+        let b = k.powi(2) * (s - 1.0) / (s + k).powi(2);
+        let d = s * b / k;
+        b + d - (1.0 + b).ln() - (1.0 + d).ln()
+    });
+    c / 2.0 * (I1b - 3.0 + constraint) + kappa / 2.0 * ((J * J - 1.0) / 2.0 - J.ln())
+}
+
+/// The same, multiplied out by hand: no term of the logarithms is negative.
+#[piola::material(domain(J > 0.0), admissible(k > 0.0))]
+fn FloryErmanByHand(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    c: f64,
+    /** Dimensionless. */
+    k: f64,
+    /** Pa. */
+    kappa: f64,
+) -> f64 {
+    let constraint = sum(|l| {
+        let s = (l / J.cbrt()).powi(2);
+        let b = s * (s + 2.0 * k + k.powi(2));
+        let d = (1.0 + k) * s.powi(2) + k * s + k.powi(2);
+        k * (s - 1.0) / (s + k) - b.ln() - d.ln() + 4.0 * (s + k).ln()
+    });
+    c / 2.0 * (I1b - 3.0 + constraint) + kappa / 2.0 * ((J * J - 1.0) / 2.0 - J.ln())
+}
+
+/// Digits that a root loses, which no fraction helps.
+#[piola::material(domain(J > 0.0), admissible(k > 0.0), prestressed)]
+fn Lossy(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    mu: f64,
+    /** Dimensionless. */
+    k: f64,
+) -> f64 {
+    mu * (I1 - sum(|l| ((l.powi(2) + k.powi(2)).sqrt() - k).ln()) - 2.0 * J.ln())
+}
+
+#[test]
+fn fractions_that_cancel_on_flat_elements_keep_their_digits() -> Result<(), Box<dyn std::error::Error>> {
+    use piola::Material;
+    let (printed, by_hand) = (FloryErman::new(4e5, 2.59, 2e7)?, FloryErmanByHand::new(4e5, 2.59, 2e7)?);
+    check(&printed, &Settings::default())?;
+    for k in 1..=12 {
+        let flat = 10f64.powi(-k);
+        for stretches in [[1.3, 0.9, flat], [1.2, flat, 0.7 * flat], [3.0 / flat, 1.0, 0.9]] {
+            let [found, expected] = [printed.blocks(stretches), by_hand.blocks(stretches)];
+            let rows = |b: piola::material::Blocks<f64>| {
+                [&b.gradient[..], &[&b.hessian[..], &b.flip, &b.twist].concat()].map(<[f64]>::to_vec)
+            };
+            for (found, expected) in rows(found).into_iter().zip(rows(expected)) {
+                let largest = expected.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+                for (found, expected) in found.iter().zip(&expected) {
+                    let error = (found - expected).abs() / (largest * f64::EPSILON / 2.0);
+                    assert!(error <= 60.0, "{found} for {expected} at {stretches:?}: {error} u");
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn digits_that_a_formula_loses_break_the_contract() -> Result<(), Box<dyn std::error::Error>> {
+    let violations =
+        check(&Lossy::new(1e5, 1.0)?, &Settings::default()).expect_err("lost digits went unnoticed");
+    let text = violations.to_string();
+    assert!(text.contains("f32 against f64") && text.contains("**Digits**"), "{text}");
+    Ok(())
+}

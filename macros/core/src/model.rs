@@ -5,6 +5,7 @@ use std::rc::Rc;
 use rustc_hash::FxHashMap;
 
 use crate::algebra::by_parameters::by_parameters;
+use crate::algebra::cancellation::{Ways, lossy, over_one_denominator};
 use crate::algebra::diff::Differentiator;
 use crate::algebra::excess::{self, has_squares, with_squares};
 use crate::algebra::expand::expand_products;
@@ -56,6 +57,8 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
     pub from_young_poisson: Option<YoungPoisson>,
+    /// Sums that cancel on flat, thin or huge elements and cost digits there.
+    pub lossy: Vec<Id>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
     /// The programs scheduled so far.
@@ -188,10 +191,14 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
 
     let positive = volume == Volume::Positive;
-    let mut in_range = |id| if positive { separate(&mut graph, id, Purpose::Evaluation) } else { id };
-    let bounds: Vec<_> = bounds.iter().copied().map(&mut in_range).collect();
-    let energy_in_range = in_range(energy);
+    let in_range =
+        |graph: &mut Graph, id| if positive { separate(graph, id, Purpose::Evaluation) } else { id };
+    let bounds: Vec<_> = bounds.iter().map(|&bound| in_range(&mut graph, bound)).collect();
+    let ways = Ways::new(&samples, |point| source.is_inside(&graph, point));
+    let joined = over_one_denominator(&mut graph, energy, &ways);
+    let energy_in_range = in_range(&mut graph, joined);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
+    let lossy = lossy(&graph, energy_in_range, [&plain.gradient, &plain.blocks()[3..]], &ways);
     let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
     if findings.is_empty() {
         findings = judge::values(&mut graph, &source, (plain.gradient[0], &plain.hessian), &samples);
@@ -220,7 +227,10 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     // By invariants, I1b − 3 is not known well enough for real powers.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
         .filter(|_| !has_squares(&graph, energy))
-        .map(|(energy, bounds)| by_invariants(&mut graph, energy, bounds));
+        .map(|(energy, bounds)| {
+            let energy = over_one_denominator(&mut graph, energy, &ways.by_invariants());
+            by_invariants(&mut graph, energy, bounds)
+        });
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
     if findings.is_empty() {
@@ -260,6 +270,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         by_parameters,
         constraints,
         from_young_poisson,
+        lossy,
         samples,
         programs: FxHashMap::default(),
         collector: Collector::default(),

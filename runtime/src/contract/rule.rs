@@ -78,6 +78,10 @@ pub enum Rule {
     /// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
     /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64`
     /// is so in `f32`.
+    ///
+    /// Likewise far from rest, as far as the range of `f32` goes: where one or two stretches of a sample are
+    /// 10⁻² … 10⁻⁴ of what they were, and all are 10⁻² … 10² times. A formula that cancels there loses digits
+    /// in `f32` first, and in `f64` on elements that are flatter still.
     SinglePrecision,
     /// Agreement of every result on lanes with that of its point alone:
     ///

@@ -11,7 +11,8 @@ pub(super) const FINITE: &str = "a finite number";
 const MISTAKE: f64 = 1e6;
 /// Advice for a difference below [`MISTAKE`], which is likelier lost digits.
 const DIGITS: &str = "so small a difference is likelier digits lost than a mistake in the formula: where something nearly cancels, such \
-                      as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters; where an \
+                      as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters (the \
+                      documentation of a declared type names sums that cancel far from rest under **Digits**); where an \
                       exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
 
 /// A broken rule of the contract, with the values that break it.

@@ -2,7 +2,7 @@
 //! the operations of each result.
 
 use crate::model::Model;
-use crate::printer::{Formulas, formulas, formulas_by_invariants};
+use crate::printer::{Formulas, formula, formulas, formulas_by_invariants};
 use crate::read::parse::Declaration;
 use crate::schedule::count::{LEGEND, table};
 
@@ -17,6 +17,7 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
         typical(declaration),
         format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
         format!("**Small strain**: μ = {shear}, λ = {lame}."),
+        digits(declaration, model),
         derivatives(declaration, model),
         by_parameters(declaration),
         operations(declaration, model),
@@ -65,6 +66,26 @@ fn outside(declaration: &Declaration) -> String {
         (None, Some(reason)) => format!(" It cannot be continued beyond that: {}.", reason.value()),
         (None, None) => String::new(),
     }
+}
+
+/// The sums that lose digits, those alone that are not the same by isotropy.
+fn digits(declaration: &Declaration, model: &mut Model) -> String {
+    let mut sums: Vec<String> = Vec::new();
+    for sum in model.lossy.clone() {
+        let sum = formula(&mut model.graph, declaration, sum).replace(['₂', '₃'], "₁");
+        if !sums.contains(&sum) {
+            sums.push(sum);
+        }
+    }
+    if sums.is_empty() {
+        return String::new();
+    }
+    let sums: Vec<_> = sums.iter().map(|sum| format!("`{sum}`")).collect();
+    format!(
+        "**Digits**: the terms of {} cancel on elements that are flat, or lines, or huge, and stress and tangent lose digits \
+         there; written as a product, or as a sum of terms of one sign, it would keep them.",
+        sums.join(", and of ")
+    )
 }
 
 /// The derivatives and quotients that are not the same by isotropy, and those by the invariants.
