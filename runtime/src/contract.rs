@@ -90,7 +90,7 @@ use strains::strains;
 pub use violation::{Violation, Violations};
 
 use judge::Judge;
-use subject::Subject;
+use subject::{OnLanes, Subject};
 
 /// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without
 /// optimisation may need.
@@ -173,15 +173,18 @@ pub struct Report {
 /// # Errors
 /// [`Violations`]: the first violation of each rule that is broken.
 pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Violations> {
-    let mut findings = Vec::new();
-    let mut violations = Vec::new();
-    for verdict in Rule::ALL.into_iter().filter_map(|rule| check_rule(rule, material, settings)) {
-        match verdict {
-            Ok(finding) => findings.push(finding),
-            Err(violation) => violations.push(violation),
-        }
-    }
-    if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
+    report(|rule| check_rule(rule, material, settings))
+}
+
+/// Checks every rule that applies to the material, but for [`Rule::Lanes`].
+///
+/// What a material computes on lanes is compiled for each back end. That takes two thirds of the time that a
+/// test of the contract takes to compile, which is wasted on materials whose lanes are judged elsewhere.
+///
+/// # Errors
+/// [`Violations`]: the first violation of each rule that is broken.
+pub fn check_without_lanes(material: &impl Material, settings: &Settings) -> Result<Report, Violations> {
+    report(|rule| judge_rule(rule, material, None, settings))
 }
 
 /// Checks one rule; `None` if the material lacks its subject: an extension, invariants or stated moduli.
@@ -190,18 +193,38 @@ pub fn check_rule(
     material: &impl Material,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    judge_rule(rule, material, settings)
+    judge_rule(rule, material, Some(material), settings)
 }
 
-/// [`check_rule`], compiled once for all materials.
-fn judge_rule(rule: Rule, material: &dyn Subject, settings: &Settings) -> Option<Result<Finding, Violation>> {
+fn report(verdict: impl FnMut(Rule) -> Option<Result<Finding, Violation>>) -> Result<Report, Violations> {
+    let mut findings = Vec::new();
+    let mut violations = Vec::new();
+    for verdict in Rule::ALL.into_iter().filter_map(verdict) {
+        match verdict {
+            Ok(finding) => findings.push(finding),
+            Err(violation) => violations.push(violation),
+        }
+    }
+    if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
+}
+
+/// [`check_rule`], compiled once for all materials; without lanes, their rule does not apply.
+fn judge_rule(
+    rule: Rule,
+    material: &dyn Subject,
+    on_lanes: Option<&dyn OnLanes>,
+    settings: &Settings,
+) -> Option<Result<Finding, Violation>> {
     let applies = match rule {
         Rule::Extension => material.inversion() != Inversion::Refuse,
         Rule::Invariants => material.has_invariants(),
         Rule::Moduli => material.stated_moduli().is_some(),
         _ => true,
     };
-    applies.then(|| match rule {
+    if !applies {
+        return None;
+    }
+    Some(match rule {
         Rule::Rest => rest(material, settings),
         Rule::Domain => domain(material, settings),
         Rule::Objectivity => objectivity(material, settings),
@@ -216,7 +239,7 @@ fn judge_rule(rule: Rule, material: &dyn Subject, settings: &Settings) -> Option
         Rule::Extension => extension(material, settings),
         Rule::Moduli => moduli(material),
         Rule::SinglePrecision => single_precision(material, settings),
-        Rule::Lanes => lanes(material, settings),
+        Rule::Lanes => lanes(material, on_lanes?, settings),
     })
 }
 

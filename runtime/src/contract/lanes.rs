@@ -2,14 +2,18 @@
 
 use super::results::{ALL, COUNT, everything, everything_name, name};
 use super::samples::{samples, together};
-use super::subject::Subject;
+use super::subject::{OnLanes, Subject};
 use super::tolerances::known;
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation};
 use crate::lanes::Backend;
 use crate::random::Random;
 
 /// [`Rule::Lanes`].
-pub(super) fn lanes(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
+pub(super) fn lanes(
+    material: &dyn Subject,
+    on_lanes: &dyn OnLanes,
+    settings: &Settings,
+) -> Result<Finding, Violation> {
     let mut judge = Judge::new(Rule::Lanes);
     let mut random = Random::new(settings.seed);
     let mut points = Vec::new();
@@ -21,7 +25,7 @@ pub(super) fn lanes(material: &dyn Subject, settings: &Settings) -> Result<Findi
     let alone: Vec<_> = points.iter().map(|&stretches| everything(material, stretches)).collect();
 
     let portable = Backend::portable();
-    let together = material.side_by_side_on(portable, &points);
+    let together = on_lanes.side_by_side_on(portable, &points);
     for ((&stretches, found), expected) in points.iter().zip(together).zip(&alone) {
         for k in 0..ALL {
             let name = || format!("{} on the {portable} back end against a scalar", everything_name(k));
@@ -30,12 +34,12 @@ pub(super) fn lanes(material: &dyn Subject, settings: &Settings) -> Result<Findi
     }
 
     let backend = Backend::best();
-    let in_order = material.side_by_side_on(backend, &points);
+    let in_order = on_lanes.side_by_side_on(backend, &points);
     // Each in the lane before, with other neighbours.
     let by = 1.min(points.len());
     let mut moved = points.clone();
     moved.rotate_left(by);
-    let mut shifted = material.side_by_side_on(backend, &moved);
+    let mut shifted = on_lanes.side_by_side_on(backend, &moved);
     shifted.rotate_right(by);
     for ((&stretches, found), expected) in points.iter().zip(shifted).zip(&in_order) {
         for k in 0..ALL {

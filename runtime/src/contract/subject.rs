@@ -27,9 +27,18 @@ pub(super) trait Subject: Response<f64> {
 
     /// Row of results in `f32`; `None` outside the domain.
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]>;
+}
 
+/// A material on lanes. Apart from [`Subject`], since each back end is compiled for it.
+pub(super) trait OnLanes {
     /// Rows of results at all points, from the lanes of a back end.
     fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]>;
+}
+
+impl<M: Material> OnLanes for M {
+    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
+        backend.run(SideBySide(self, points))
+    }
 }
 
 impl<M: Material> Subject for M {
@@ -55,10 +64,6 @@ impl<M: Material> Subject for M {
 
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]> {
         Material::admits(self, stretches).any().then(|| results(self, stretches))
-    }
-
-    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
-        backend.run(SideBySide(self, points))
     }
 }
 
