@@ -14,7 +14,8 @@ use proc_macro::TokenStream;
 ///   `x.ln_1p()`, `x.log10()`, `x.log2()`, `x.log(base)`, `x.sinh()`, `x.cosh()`, `x.tanh()`, `x.asinh()`,
 ///   `x.sin()`, `x.cos()`, `x.atan()`, `x.erf()`, `x.softplus()` for ln(1 + eˣ) and `x.sigmoid()` for 1/(1 +
 ///   e⁻ˣ);
-/// * `f(l1)` of a parameter that is a function;
+/// * `f(l1)` of a parameter that is a function; the energy is defined where each of its functions is
+///   (`Univariate::admits`);
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`; `sum(|l| …)`, where `l` is read
 ///   as a number, over the three stretches; `sum(|a, b| …)` over their three pairs;
 /// * `PI`, and constants such as `std::f64::consts::LN_2`;

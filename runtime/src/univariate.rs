@@ -60,6 +60,64 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The form of the numbers that [`from_values`](Univariate::from_values) takes.
     const FORM: Form = Form::Function;
 
+    /// Whether φ is defined at x; by default it is for every x.
+    ///
+    /// A material refuses the points at which an argument of one of its functions is not admitted, whatever
+    /// its [`inversion`](crate::material::Material::inversion): an extension continues the energy around its
+    /// functions, not the functions themselves, which get the continued arguments. So beside `extend` a
+    /// function should admit what inverted points ask of it. The rest state must be admitted.
+    ///
+    /// ```
+    /// use piola::{Real, Univariate, material};
+    ///
+    /// /// φ(x) = −limit/2 ln(1 − x/limit) for x < limit.
+    /// #[derive(Clone, Debug, PartialEq)]
+    /// struct Locking {
+    ///     limit: f64,
+    /// }
+    ///
+    /// impl Univariate for Locking {
+    ///     #[inline(always)]
+    ///     fn admits<R: Real>(&self, x: R) -> R::Mask {
+    ///         x.less(R::splat(self.limit))
+    ///     }
+    ///     #[inline(always)]
+    ///     fn value<R: Real>(&self, x: R) -> R {
+    ///         R::splat(-0.5 * self.limit) * (-(x / R::splat(self.limit))).ln_1p()
+    ///     }
+    ///     #[inline(always)]
+    ///     fn derivative<R: Real>(&self, x: R) -> R {
+    ///         R::splat(0.5 * self.limit) / (R::splat(self.limit) - x)
+    ///     }
+    ///     #[inline(always)]
+    ///     fn second_derivative<R: Real>(&self, x: R) -> R {
+    ///         let left = R::splat(self.limit) - x;
+    ///         R::splat(0.5 * self.limit) / (left * left)
+    ///     }
+    /// }
+    ///
+    /// /// Rubber whose chains lock at I1b = 3 + limit.
+    /// #[material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> f64 {
+    ///     mu * f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use piola::Material;
+    ///
+    /// let rubber = Rubber::new(1e6, 1e9, Locking { limit: 2.0 })?;
+    /// // In tension at constant volume I1b is l² + 2/l, which is 5 at l = 2.
+    /// let tension = |l: f64| -> [f64; 3] { [l, 1.0 / l.sqrt(), 1.0 / l.sqrt()] };
+    /// assert!(rubber.admits(tension(1.99)) && !rubber.admits(tension(2.01)));
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[inline(always)]
+    fn admits<R: Real>(&self, x: R) -> R::Mask {
+        let _ = x;
+        R::Mask::splat(true)
+    }
+
     /// φ(x).
     ///
     /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give

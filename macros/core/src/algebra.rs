@@ -3,6 +3,7 @@
 //! It knows no declaration and no Rust: neither `read` nor any later stage.
 
 pub mod by_parameters;
+pub mod calls;
 pub mod cancellation;
 pub mod diff;
 pub mod dimension;

@@ -18,6 +18,7 @@ mod constructor;
 mod declared;
 mod documentation;
 mod fittable;
+mod functions;
 mod invariants;
 mod material;
 mod serde;
@@ -52,7 +53,10 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
 /// The texts that documentation and description share.
 struct Texts {
     formula: String,
+    /// The conditions of the domain.
     domain: String,
+    /// Functions that narrow it, as in `where f is defined`; empty without functions.
+    defined: String,
     moduli: [String; 2],
     summary: String,
 }
@@ -66,9 +70,10 @@ impl Texts {
             [] => "every deformation".to_owned(),
             conditions => conditions.iter().map(condition_text).collect::<Vec<_>>().join(", "),
         };
+        let defined = functions::documentation(declaration);
         let summary = documentation(&declaration.attributes);
         let summary = summary.lines().next().unwrap_or_default().to_owned();
-        Self { formula, domain, moduli, summary }
+        Self { formula, domain, defined, moduli, summary }
     }
 }
 

@@ -114,7 +114,7 @@ fn admitted(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> R
         return Ok(false);
     }
     let remedy = "a limit of the domain other than J > 0 denies this inverted point and grants its mirror image: write that limit \
-                  in what no sign changes, such as I1, I2 or J * J";
+                  in what no sign changes, such as I1, I2 or J * J, or let the function that ends there go on";
     judge.holds(|| "admission".into(), stretches, material.admits(stretches), remedy)?;
     Ok(true)
 }

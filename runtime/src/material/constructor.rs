@@ -1,6 +1,6 @@
 //! Common parts of the constructors of declared materials: checks of parameters, and how they are read.
 
-use super::{Argument, Declared, Inversion, MaterialError, Moduli};
+use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli};
 
 /// Checks that a parameter is a finite number.
 ///
@@ -78,6 +78,21 @@ pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, M
             Err(MaterialError::NoExtension { material: M::DESCRIPTION.name, reason: M::DESCRIPTION.refusal })
         }
     }
+}
+
+/// A material that is defined where all stretches are 1.
+///
+/// # Errors
+/// [`MaterialError::UndefinedRest`].
+pub fn defined_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
+    if material.admits([1.0f64; 3]) { Ok(material) } else { Err(MaterialError::UndefinedRest) }
+}
+
+/// Whether the sign of a tiny stretch decides over the domain, as where a function of a stretch ends at 0.
+#[must_use]
+pub fn sign_decides(material: &impl Material) -> bool {
+    let tiny = 2f64.powi(-1000);
+    material.admits([1.0, 1.0, tiny]) != material.admits([1.0, 1.0, -tiny])
 }
 
 /// A material whose shear modulus at rest is positive and whose bulk modulus is not negative.

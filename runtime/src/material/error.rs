@@ -33,6 +33,8 @@ pub enum MaterialError {
         /// Poisson's ratio.
         poisson: f64,
     },
+    /// The rest state is outside the domain, which functions given as parameters narrow.
+    UndefinedRest,
     /// The rest state carries stress, which functions given as parameters do not cancel.
     StressedRest {
         /// ψ1(1, 1, 1), Pa.
@@ -109,6 +111,9 @@ impl fmt::Display for MaterialError {
                  what hardly changes its volume",
                 number(*young),
                 number(*poisson)
+            ),
+            Self::UndefinedRest => f.write_str(
+                "the energy is not defined at rest, where all stretches are 1: let each of its functions admit its argument there",
             ),
             Self::StressedRest { stress } => write!(
                 f,

@@ -63,11 +63,14 @@ fn new(declaration: &Declaration) -> TokenStream {
         options.admissible.iter().map(|condition| check(declaration, condition, &quote!(admissible)));
     let inversion = options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
     let material = quote!(Self { #(#names,)* #inversion });
+    // Where a function is defined, and what cancels its stress, no declaration can promise.
     let checked = match (options.prestressed, declaration.has_functions()) {
-        (true, _) => quote!(Ok(#material)),
+        (true, false) => quote!(Ok(#material)),
+        (true, true) => quote!(__p::defined_at_rest(#material)),
         (false, false) => quote!(__p::stable_at_rest(#material)),
-        // What cancels the stress of a function, no declaration can promise.
-        (false, true) => quote!(__p::stable_at_rest(#material).and_then(__p::stress_free_at_rest)),
+        (false, true) => quote! {
+            __p::defined_at_rest(#material).and_then(__p::stable_at_rest).and_then(__p::stress_free_at_rest)
+        },
     };
     quote! {
         #new_doc

@@ -13,7 +13,9 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
-    let Texts { formula, domain, moduli, summary } = texts;
+    let Texts { formula, domain, defined, moduli, summary } = texts;
+    let domain = [domain.as_str(), defined].join(" ");
+    let domain = domain.trim_end();
     let type_name = name.to_string();
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);

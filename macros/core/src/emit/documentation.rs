@@ -51,7 +51,8 @@ fn typical(declaration: &Declaration) -> String {
 
 fn domain(declaration: &Declaration, texts: &Texts) -> String {
     let has_conditions = !declaration.options.domain.is_empty();
-    if has_conditions { format!("`{}`.", texts.domain) } else { format!("{}.", texts.domain) }
+    let domain = if has_conditions { format!("`{}`", texts.domain) } else { texts.domain.clone() };
+    format!("{}.", [domain.as_str(), &texts.defined].join(" ").trim_end())
 }
 
 /// The behaviour outside the domain.

@@ -3,12 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::writer::Writer;
+use super::functions;
+use super::writer::{Writer, free_name};
 use crate::model::Model;
 use crate::read::domain::Volume;
+use crate::read::parse::Declaration;
 
 /// The constant that says so and the methods, if the energy is one of invariants.
-pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
+pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     let Some(invariants) = model.invariants.clone() else { return quote!() };
     let variables = ["I1", "I2", "J"].map(|name| format_ident!("{name}"));
     let [i1, i2, j] = &variables;
@@ -18,6 +20,9 @@ pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     let (energy, energy_output) = program(&[invariants.energy]);
     let (gradient, gradient_outputs) = program(&invariants.gradient);
     let (bounds, bound_outputs) = program(&invariants.bounds);
+    let of_functions = functions::defined(declaration, model, &named, invariants.energy);
+    let defined = free_name(declaration, &["defined", "functions_defined"]);
+    let of_functions = of_functions.map(|mask| quote!(let #defined = #mask;));
 
     // λ1 λ2 ≤ (λ1² + λ2²)/2, so λ3 ≥ 2J/I1: no stretch is below the threshold where 2J > ε I1.
     let threshold = &writer.threshold;
@@ -37,7 +42,8 @@ pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
             }
         },
     });
-    let conditions = bound_outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound))).chain(inside);
+    let conditions = bound_outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
+    let conditions = conditions.chain(of_functions.as_ref().map(|_| quote!(#defined))).chain(inside);
     let admits = conditions.reduce(|a, b| quote!(#a & #b));
     let admits = admits.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
 
@@ -62,6 +68,7 @@ pub(super) fn methods(model: &mut Model, writer: &Writer<'_>) -> TokenStream {
         #[allow(non_snake_case)]
         fn admits_invariants<R: __p::Real>(&self, #arguments) -> R::Mask {
             #bounds
+            #of_functions
             #admits
         }
     }

@@ -4,8 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Ident;
 
-use super::invariants;
-use super::writer::Writer;
+use super::writer::{Writer, free_name};
+use super::{functions, invariants};
 use super::{generics, naming, value_parameter};
 use crate::algebra::expr::Id;
 use crate::model::{Model, Variant};
@@ -86,6 +86,12 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
             (pole, if is_positive { refuses } else { quote!(false) })
         }
     };
+    // A function may end where a stretch is 0.
+    let is_certain = is_positive && model.extended.is_none();
+    let ends = match declaration.has_functions() && !is_certain {
+        true => quote!(#ends || __p::sign_decides(self)),
+        false => ends,
+    };
     let inversion = declaration.options.extend.as_ref().map(|_| {
         quote! {
             #[inline]
@@ -162,8 +168,8 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
         }
     });
     let at_strains = at_strains(model, writer, &declaration.stretches);
-    let admits = admits(model, writer, &declaration.stretches);
-    let by_invariants = invariants::methods(model, writer);
+    let admits = admits(declaration, model, writer);
+    let by_invariants = invariants::methods(declaration, model, writer);
     let strains = &writer.strains;
     quote! {
         #[inline(always)]
@@ -224,13 +230,35 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
 }
 
 /// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the
-/// other bounds are positive expressions.
-fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> TokenStream {
+/// other bounds are positive expressions, and functions know where they are defined.
+fn admits(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     let program = model.program(&model.bounds.clone());
     let (statements, outputs) = writer.program(&program);
     let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
     let mut conditions: Vec<TokenStream> = bounds.collect();
-    let smallest = &stretches[2];
+    let (plain, extended) = (model.plain.energy, model.extended.as_ref().map(|variant| variant.energy));
+    let of_functions = functions::defined(declaration, model, writer, plain).map(|plain| {
+        let extended = extended.and_then(|energy| functions::defined(declaration, model, writer, energy));
+        let threshold = &writer.threshold;
+        match extended.filter(|extended| extended.to_string() != plain.to_string()) {
+            None => plain,
+            Some(extended) => quote! {
+                match self.inversion {
+                    __p::Inversion::Refuse => #plain,
+                    __p::Inversion::Extend { epsilon: #threshold } => {
+                        let #threshold = R::splat(#threshold);
+                        #extended
+                    }
+                }
+            },
+        }
+    });
+    let defined = free_name(declaration, &["defined", "functions_defined"]);
+    let of_functions = of_functions.map(|mask| {
+        conditions.push(quote!(#defined));
+        quote!(let #defined = #mask;)
+    });
+    let smallest = &declaration.stretches[2];
     let inside = match model.volume {
         Volume::Any => None,
         Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
@@ -247,5 +275,5 @@ fn admits(model: &mut Model, writer: &Writer<'_>, stretches: &[Ident; 3]) -> Tok
     }));
     let all = conditions.into_iter().reduce(|a, b| quote!(#a & #b));
     let all = all.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
-    quote!(#statements #all)
+    quote!(#statements #of_functions #all)
 }

@@ -1,0 +1,72 @@
+//! Calls f(x) of functions that are parameters: an energy is defined where each f is at its x.
+
+use rustc_hash::FxHashMap;
+
+use crate::algebra::expr::{Graph, Id, Node, ParameterIndex};
+
+/// A call of a function that is a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// The function.
+    pub function: ParameterIndex,
+    /// Its argument.
+    pub argument: Id,
+    /// A list whose entries, one by one, make the argument: it stands in a sum.
+    pub list: Option<ParameterIndex>,
+}
+
+/// The calls in an expression, each once.
+pub fn calls(graph: &Graph, e: Id) -> Vec<Call> {
+    let mut lists = FxHashMap::default();
+    let mut calls: Vec<Call> = Vec::new();
+    for id in graph.reachable(&[e]) {
+        let list = match *graph.node(id) {
+            Node::Entry(k) => Some(k),
+            // Entries inside a sum are none outside.
+            Node::Sum(..) => None,
+            _ => graph.children(id).iter().find_map(|child| lists.get(child).copied().flatten()),
+        };
+        lists.insert(id, list);
+        if let Node::Function(function, 0, argument) = *graph.node(id) {
+            calls.push(Call { function, argument, list });
+        }
+    }
+    calls
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::TokenStream;
+    use quote::quote;
+
+    use super::calls;
+    use crate::algebra::expr::Node;
+    use crate::analyse;
+
+    /// The function and the list of each call, by their places among the parameters m, f, g.
+    fn found(body: TokenStream) -> Vec<(usize, Option<usize>)> {
+        let item = quote!(fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], f: Curve, g: Curve) -> f64 { #body });
+        let (_, model) = analyse(quote!(prestressed), item).expect("an energy");
+        calls(&model.graph, model.energy).into_iter().map(|call| (call.function, call.list)).collect()
+    }
+
+    #[test]
+    fn calls_are_found_in_arguments_and_in_sums() {
+        let body = quote!(f(g(I1)) + sum(|p| m[p] * f(m[p] * J)) + sum(|p| m[p]) * g(sum(|p| m[p]) * J));
+        let mut found = found(body);
+        found.sort_unstable();
+        assert_eq!(found, [(1, None), (1, Some(0)), (2, None), (2, None)]);
+    }
+
+    #[test]
+    fn an_energy_without_functions_calls_none() {
+        let item = quote!(
+            fn E([x, y, z]: [f64; 3], m: f64) -> f64 {
+                m * (I1 - 2.0 * J - 1.0)
+            }
+        );
+        let (_, model) = analyse(quote!(), item).expect("an energy");
+        assert!(calls(&model.graph, model.energy).is_empty());
+        assert!(!matches!(model.graph.node(model.energy), Node::Function(..)));
+    }
+}

@@ -1,0 +1,181 @@
+//! Functions as parameters: they may end, and a material ends with them.
+
+use piola::material::{Declared, MaterialError};
+use piola::{Inversion, Material, Real, Univariate, material};
+
+/// φ(s) = −limit/2 ln(1 − s/limit) for s < limit.
+#[derive(Clone, Debug, PartialEq)]
+struct Locking {
+    limit: f64,
+}
+
+impl Univariate for Locking {
+    #[inline(always)]
+    fn admits<R: Real>(&self, s: R) -> R::Mask {
+        s.less(R::splat(self.limit))
+    }
+    #[inline(always)]
+    fn value<R: Real>(&self, s: R) -> R {
+        R::splat(-0.5 * self.limit) * (-(s / R::splat(self.limit))).ln_1p()
+    }
+    #[inline(always)]
+    fn derivative<R: Real>(&self, s: R) -> R {
+        R::splat(0.5 * self.limit) / (R::splat(self.limit) - s)
+    }
+    #[inline(always)]
+    fn second_derivative<R: Real>(&self, s: R) -> R {
+        let left = R::splat(self.limit) - s;
+        R::splat(0.5 * self.limit) / (left * left)
+    }
+}
+
+/// φ(x) = ½ (ln x)² for x > 0.
+#[derive(Clone, Debug, PartialEq)]
+struct SquaredLogarithm;
+
+impl Univariate for SquaredLogarithm {
+    #[inline(always)]
+    fn admits<R: Real>(&self, x: R) -> R::Mask {
+        R::splat(0.0).less(x)
+    }
+    #[inline(always)]
+    fn value<R: Real>(&self, x: R) -> R {
+        R::splat(0.5) * x.ln() * x.ln()
+    }
+    #[inline(always)]
+    fn derivative<R: Real>(&self, x: R) -> R {
+        x.ln() / x
+    }
+    #[inline(always)]
+    fn second_derivative<R: Real>(&self, x: R) -> R {
+        (R::splat(1.0) - x.ln()) / (x * x)
+    }
+}
+
+/// Rubber whose chains lock, as a function of I1b − 3.
+#[material(domain(J > 0.0))]
+pub fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> f64 {
+    mu * f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// Fibres in all directions that lock at a stretch of 1 + limit/weight, one weight for each population.
+#[material(prestressed, domain(J > 0.0), extend)]
+pub fn InSums<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, weight: [f64; N], f: Locking) -> f64 {
+    let fibres = sum(|p| f(weight[p] * (l1 - 1.0)) + f(weight[p] * (l2 - 1.0)) + f(weight[p] * (l3 - 1.0)));
+    mu * fibres - mu * J.ln() + mu * f(f(J - 1.0))
+}
+
+/// Hencky's energy, without a domain of its own.
+#[material]
+pub fn OfStretches([l1, l2, l3]: [f64; 3], mu: f64, f: SquaredLogarithm) -> f64 {
+    2.0 * mu * (f(l1) + f(l2) + f(l3))
+}
+
+/// Hencky's energy by the logarithm of the volume, which goes on beyond J > 0 by its extension.
+#[material(domain(J > 0.0), extend)]
+pub fn OfLogarithm([l1, l2, l3]: [f64; 3], mu: f64, f: Locking) -> f64 {
+    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + mu * f(J.ln().powi(2))
+}
+
+fn locking() -> ByInvariants {
+    ByInvariants::new(2.0, 50.0, Locking { limit: 2.0 }).expect("a material")
+}
+
+fn in_sums() -> InSums<2> {
+    InSums::new(1.0, [0.5, 2.0], Locking { limit: 2.0 }).expect("a material")
+}
+
+piola::contract!(by_invariants: locking(), range: (0.5, 2.2));
+piola::contract!(of_stretches: OfStretches::new(1.0, SquaredLogarithm)?);
+piola::contract!(of_logarithm: OfLogarithm::new(1.0, Locking { limit: 1.5 })?, range: (0.4, 2.0));
+piola::contract!(
+    extended: OfLogarithm::new(1.0, Locking { limit: 1e4 })?.with_inversion(Inversion::Extend { epsilon: 0.3 })?,
+    range: (0.4, 2.0)
+);
+
+/// I1b − 3 in tension at constant volume.
+fn excess(l: f64) -> f64 {
+    l * l + 2.0 / l - 3.0
+}
+
+#[test]
+fn a_material_ends_where_its_function_does() {
+    // 2² + 2/2 = 5.
+    for (l, is_inside) in [(1.0f64, true), (1.999, true), (2.001, false), (5.0, false)] {
+        assert_eq!(excess(l) < 2.0, is_inside);
+        let stretches = [l, 1.0 / l.sqrt(), 1.0 / l.sqrt()];
+        assert_eq!(locking().admits(stretches), is_inside, "{l}");
+        // Neither I1b nor the function depends on a change of volume.
+        assert_eq!(locking().admits(stretches.map(|x| 0.2 * x)), is_inside, "{l}");
+        let invariants = [excess(l) + 3.0, 2.0 * l + 1.0 / (l * l), 1.0];
+        assert_eq!(locking().admits_invariants(invariants), is_inside, "{l}");
+        assert!(
+            !locking().admits(stretches.map(|x| -x)) && !locking().admits_invariants([3.0, 3.0, -1.0f64])
+        );
+    }
+    assert!(!locking().admits([f64::NAN; 3]));
+}
+
+#[test]
+fn beyond_the_end_of_a_function_points_are_refused_and_others_are_not() {
+    let line = [[1.5, 0.0, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.8], [3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.0, 0.6]];
+    let [inside, outside] = line.map(|f| {
+        let f = [[f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]];
+        piola::point::evaluate_stress(&locking(), &f)
+    });
+    assert!(outside.1.refused && !inside.1.refused && inside.1.is_clean());
+    // ψ1 = 2 φ′ μ (λ1 − I1b/(3 λ1)) J^(−2/3) + κ (J − 1) λ2 λ3, with φ′ = 1/(2 − I1b + 3).
+    let (l1, l2): (f64, f64) = (1.5, 0.8);
+    let j = l1 * l2 * l2;
+    let i1b = j.powf(-2.0 / 3.0) * (l1 * l1 + 2.0 * l2 * l2);
+    let slope = 1.0 / (5.0 - i1b);
+    let expected =
+        2.0 * slope * 2.0 * (j.powf(-2.0 / 3.0) * l1 - i1b / (3.0 * l1)) + 50.0 * (j - 1.0) * l2 * l2;
+    assert!((inside.0[0][0] - expected).abs() <= 1e-13 * 50.0, "{} for {expected}", inside.0[0][0]);
+}
+
+#[test]
+fn every_entry_of_a_list_and_every_inner_call_is_asked() {
+    let ends = |l: f64| !in_sums().admits([l, 1.0, 1.0 / l]);
+    // 2 (l − 1) reaches 2 at l = 2, where ½ (l − 1) is ½.
+    assert!(!ends(1.99) && ends(2.01));
+    // f(J − 1) = −ln(1 − (J − 1)/2) is 2 at J = 3 − 2 e⁻², before J − 1 is 2.
+    let end = 3.0 - 2.0 * (-2f64).exp();
+    let volumes = |j: f64| in_sums().admits([j.cbrt(); 3]);
+    assert!(volumes(end - 1e-9) && !volumes(end + 1e-9) && !volumes(3.5));
+}
+
+#[test]
+fn an_extension_continues_the_arguments_of_a_function_and_not_the_function() {
+    let solid = |limit: f64| OfLogarithm::new(1.0, Locking { limit }).expect("a material");
+    let flat: [f64; 3] = [1.0, 1.0, 0.1];
+    // (ln J)² is 5.3.
+    assert!(!solid(5.0).admits(flat) && solid(6.0).admits(flat));
+    // Below ε = ½ the logarithm is ln ½ + 2 d − 2 d², d = 0.1 − ½: −1.813.
+    let extended = |limit: f64| {
+        solid(limit).with_inversion(Inversion::Extend { epsilon: 0.5 }).expect("restoring").admits(flat)
+    };
+    assert!(!extended(3.28) && extended(3.29));
+}
+
+#[test]
+fn a_function_of_a_stretch_may_end_at_zero() {
+    let solid = OfStretches::new(1.0, SquaredLogarithm).expect("a material");
+    assert!(solid.ends_at_zero_volume() && !solid.admits([1.0, 1.0, -1e-300f64]));
+    assert!(!locking().has_pole() && locking().ends_at_zero_volume());
+}
+
+#[test]
+fn a_function_is_defined_at_rest() {
+    let error = ByInvariants::new(2.0, 50.0, Locking { limit: 0.0 }).expect_err("0 is not below 0");
+    assert_eq!(error, MaterialError::UndefinedRest);
+    assert!(error.to_string().contains("not defined at rest"));
+    let error = InSums::new(1.0, [1.0], Locking { limit: -1.0 }).expect_err("0 is not below −1");
+    assert_eq!(error, MaterialError::UndefinedRest);
+}
+
+#[test]
+fn the_domain_names_the_functions() {
+    assert_eq!(ByInvariants::DESCRIPTION.domain, "J > 0 where f is defined");
+    assert_eq!(OfStretches::DESCRIPTION.domain, "every deformation where f is defined");
+}
