@@ -10,8 +10,8 @@ use piola::lanes::Backend;
 use piola::material::{Graded, PerPoint, PerPointError};
 use piola::mesh::TetMesh;
 use piola::system::{Body, BodyError};
-use piola::{Inversion, Survey};
-use piola_materials::{Gent, NeoHookean, Ogden};
+use piola::{Inversion, Spline, Survey};
+use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -95,6 +95,21 @@ fn each_point_of_a_batch_gets_what_it_would_get_alone() -> Outcome {
         .map(|p| Ogden::new([stiffness(p), 0.2], [1.3, 3.0], 5.0)?.with_inversion(EXTEND))
         .collect();
     check_each(&ogdens?)
+}
+
+#[test]
+fn each_point_of_a_batch_may_have_functions_of_its_own() -> Outcome {
+    let drawn = |p: usize| {
+        let curve = |force: f64| Spline::through(&[[0.5, -force], [1.0, 0.0], [2.0, force]]);
+        let stiffness = 1.0 + 0.1 * p as f64;
+        StretchSpline::new(curve(stiffness)?, curve(0.2)?, curve(5.0)?)
+    };
+    let graded: Result<Vec<_>, _> = (0..COUNT).map(drawn).collect();
+    check_each(&graded?)?;
+    // Runs of points with one material, and points with different ones side by side.
+    let three = [drawn(0)?, drawn(1)?, drawn(2)?];
+    check_each(&(0..COUNT).map(|p| three[p / 40 % 3].clone()).collect::<Vec<_>>())?;
+    check_each(&(0..COUNT).map(|p| &three[p * p % 3]).collect::<Vec<_>>())
 }
 
 #[test]

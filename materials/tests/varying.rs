@@ -1,9 +1,9 @@
 //! Each point with parameters of its own gets what it would get alone.
 
 use piola::lanes::{Lanes, Lanes2};
-use piola::material::{Blocks, Graded, MaterialError};
-use piola::{Inversion, Material};
-use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff};
+use piola::material::{Blocks, Graded, MaterialError, Scaled};
+use piola::{Inversion, Material, Spline};
+use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff, StretchSpline};
 
 type Four = Lanes2<Lanes2<f64>>;
 
@@ -80,6 +80,20 @@ fn each_point_gets_what_it_would_get_alone() -> Result<(), MaterialError> {
     // The bound of its domain is a parameter.
     let gent = |limit: f64| Gent::new(1.0, limit, 10.0);
     check([gent(0.5)?, gent(30.0)?, gent(1.0)?, gent(2.0)?]);
+
+    // Functions, two of them the same.
+    let drawn = |scale: f64| {
+        let curve = |force: f64| {
+            let knots = [[0.5, -force], [1.0, 0.0], [2.0 * scale, force]];
+            Spline::through(&knots)
+        };
+        StretchSpline::new(curve(scale)?, curve(0.1)?, curve(3.0 * scale)?)
+    };
+    check([drawn(1.0)?, drawn(0.7)?, drawn(1.0)?, drawn(1.5)?]);
+    check([drawn(1.0)?, drawn(1.0)?, drawn(1.0)?, drawn(1.0)?]);
+    let (one, other) = (drawn(1.0)?, drawn(0.7)?);
+    check([&one, &other, &other, &one]);
+    check([one, other.clone(), other.clone(), other].map(|drawn| Scaled::new(2.0, drawn).expect("finite")));
     Ok(())
 }
 

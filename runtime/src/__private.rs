@@ -4,7 +4,7 @@ pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;
 pub use crate::material::{
     Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inversion, Limit, MaterialError,
-    Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
+    Mixed, Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
 };
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]

@@ -174,6 +174,47 @@ fn a_function_is_defined_at_rest() {
     assert_eq!(error, MaterialError::UndefinedRest);
 }
 
+/// Materials by invariants that end at different points, side by side on every back end.
+#[cfg(feature = "batch")]
+#[test]
+fn every_point_has_the_end_of_its_own_function() -> Result<(), Box<dyn std::error::Error>> {
+    use piola::StatusCell;
+    use piola::batch::Batch;
+    use piola::lanes::Backend;
+    use piola::material::PerPoint;
+
+    let limits = [0.5, 1.0, 1.0, 2.0, 1e9];
+    let materials = limits.map(|limit| ByInvariants::new(2.0, 50.0, Locking { limit }).expect("a material"));
+    let (mut points, mut solids) = (Vec::new(), Vec::new());
+    for p in 0..100 {
+        let l = 1.0 + 0.02 * p as f64;
+        points.push([l, 0.1, 0.0, 0.0, 1.0 / l.sqrt(), 0.0, 0.2, 0.0, 1.0 / l.sqrt()]);
+        solids.push(&materials[p * p % 5]);
+    }
+    for backend in Backend::available() {
+        let statuses: Vec<_> = points.iter().map(|_| StatusCell::default()).collect();
+        let mut energies = vec![0.0; points.len()];
+        let mut stresses = vec![0.0; 9 * points.len()];
+        let each = PerPoint::new(&solids)?;
+        let batch = Batch::new(&each).with_backend(backend).with_statuses(&statuses);
+        let survey = batch.energies(points.as_flattened(), &mut energies)?;
+        batch.stresses(points.as_flattened(), &mut stresses)?;
+        assert!(survey.refused > 10 && survey.refused < 60, "{survey:?}");
+        for (p, (point, solid)) in points.iter().zip(&solids).enumerate() {
+            let (mut energy, mut stress) = ([0.0], [0.0; 9]);
+            let alone = StatusCell::default();
+            let own = Batch::new(*solid).with_backend(backend).with_statuses(std::slice::from_ref(&alone));
+            own.energies(point, &mut energy)?;
+            own.stresses(point, &mut stress)?;
+            assert_eq!(statuses[p].get(), alone.get(), "point {p}, {backend}");
+            assert_eq!(energies[p].to_bits(), energy[0].to_bits(), "point {p}, {backend}");
+            let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&stresses[9 * p..][..9]), bits(&stress), "point {p}, {backend}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn the_domain_names_the_functions() {
     assert_eq!(ByInvariants::DESCRIPTION.domain, "J > 0 where f is defined");

@@ -216,10 +216,13 @@ macro_rules! sum_responses {
 with_responses!(sum_responses);
 
 impl<A: Graded, B: Graded> Graded for Sum<A, B> {
-    type OnLanes = Sum<A::OnLanes, B::OnLanes>;
+    type OnLanes<'a>
+        = Sum<A::OnLanes<'a>, B::OnLanes<'a>>
+    where
+        Self: 'a;
 
     #[inline(always)]
-    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a,
     {
@@ -228,10 +231,13 @@ impl<A: Graded, B: Graded> Graded for Sum<A, B> {
 }
 
 impl<M: Graded> Graded for Scaled<M> {
-    type OnLanes = Scaled<M::OnLanes, PerLane>;
+    type OnLanes<'a>
+        = Scaled<M::OnLanes<'a>, PerLane>
+    where
+        Self: 'a;
 
     #[inline(always)]
-    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a,
     {

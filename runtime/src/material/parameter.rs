@@ -5,10 +5,11 @@
 //! need.
 
 use std::fmt;
+use std::sync::Arc;
 
-#[cfg(doc)]
-use super::Inversion;
 use super::Material;
+#[cfg(doc)]
+use super::{Inversion, Mixed};
 use crate::lanes::Real;
 
 /// How a declared material keeps a parameter.
@@ -25,7 +26,7 @@ impl ParameterValue for f64 {
 }
 
 /// The most lanes of any back end: 16 of `f32` in AVX-512.
-const LANES: usize = 16;
+pub(super) const LANES: usize = 16;
 
 /// Values of a parameter for the points on the lanes of a register.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,22 +47,46 @@ impl ParameterValue for PerLane {
     }
 }
 
-/// A material whose parameters may differ from point to point: every declared one without functions as
-/// parameters.
+/// A material whose parameters may differ from point to point: every declared one.
+///
+/// Parameters that are numbers have a value for each lane. Those that are not, such as functions, do not: a
+/// point with a material that its neighbours do not have costs one more evaluation ([`Mixed`]).
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
-    type OnLanes: Material;
+    type OnLanes<'a>: Material
+    where
+        Self: 'a;
 
     /// Materials side by side, `material(lane)` on each of at most 16 lanes.
     ///
     /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] makes
     /// sure: it decides which program runs.
-    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a;
 }
 
+/// Points may share materials by pointers to them.
+macro_rules! graded_by_pointee {
+    ($($Pointer:ty),*) => {$(
+        impl<M: Graded> Graded for $Pointer {
+            type OnLanes<'a> = M::OnLanes<'a> where Self: 'a;
+
+            #[inline(always)]
+            fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
+            where
+                Self: 'a,
+            {
+                M::on_lanes(|lane| &**material(lane))
+            }
+        }
+    )*};
+}
+graded_by_pointee!(&M, Box<M>, Arc<M>);
+
 /// A material for each point of a batch, in their order.
+///
+/// Where many points have the same material, the slice may hold references, `&M` or `Arc<M>`.
 ///
 /// ```
 /// # #[cfg(feature = "batch")]
@@ -111,7 +136,7 @@ impl<'a, M: Graded> PerPoint<'a, M> {
     /// The materials of the points from `start` on; the last one serves for lanes beyond.
     #[cfg(feature = "batch")]
     #[inline(always)]
-    pub(crate) fn from(&self, start: usize) -> M::OnLanes {
+    pub(crate) fn from(&self, start: usize) -> M::OnLanes<'a> {
         let rest = &self.0[start..];
         M::on_lanes(|lane| &rest[lane.min(rest.len() - 1)])
     }

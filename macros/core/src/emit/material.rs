@@ -12,7 +12,7 @@ use crate::model::{Model, Variant};
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Kind};
 
-/// `impl Material`, and `impl Graded` where all parameters are numbers.
+/// `impl Material` and `impl Graded`.
 pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
@@ -26,6 +26,18 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             impl #bounds ::piola::Material for #name #arguments {
                 #computed
                 #constants
+            }
+
+            impl #bounds __p::Graded for #name #arguments {
+                type OnLanes<'a> = __p::Mixed<'a, Self>;
+
+                #[inline(always)]
+                fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes<'a>
+                where
+                    Self: 'a,
+                {
+                    __p::Mixed::new(material)
+                }
             }
         };
     }
@@ -53,10 +65,10 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         }
 
         impl #bounds __p::Graded for #name #arguments {
-            type OnLanes = #name<#(#lengths,)* #per_lane>;
+            type OnLanes<'a> = #name<#(#lengths,)* #per_lane>;
 
             #[inline(always)]
-            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes
+            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes<'a>
             where
                 Self: 'a,
             {

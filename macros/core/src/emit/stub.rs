@@ -156,7 +156,7 @@ fn inert_type(function: &Function) -> TokenStream {
 
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Graded for #name<#(#generics),*> {
-            type OnLanes = Self;
+            type OnLanes<'a> = Self;
             fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self
             where
                 Self: 'a,

@@ -611,11 +611,11 @@ const _: () = {
         }
     }
     impl __p::Graded for Gent {
-        type OnLanes = Gent<__p::PerLane>;
+        type OnLanes<'a> = Gent<__p::PerLane>;
         #[inline(always)]
         fn on_lanes<'a>(
             material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes
+        ) -> Self::OnLanes<'a>
         where
             Self: 'a,
         {

@@ -480,11 +480,11 @@ const _: () = {
         }
     }
     impl __p::Graded for NeoHookean {
-        type OnLanes = NeoHookean<__p::PerLane>;
+        type OnLanes<'a> = NeoHookean<__p::PerLane>;
         #[inline(always)]
         fn on_lanes<'a>(
             material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes
+        ) -> Self::OnLanes<'a>
         where
             Self: 'a,
         {

@@ -678,11 +678,11 @@ const _: () = {
         }
     }
     impl<const N: usize> __p::Graded for Ogden<N> {
-        type OnLanes = Ogden<N, __p::PerLane>;
+        type OnLanes<'a> = Ogden<N, __p::PerLane>;
         #[inline(always)]
         fn on_lanes<'a>(
             material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes
+        ) -> Self::OnLanes<'a>
         where
             Self: 'a,
         {

@@ -1,0 +1,134 @@
+//! Whole materials side by side, for parameters that no lane can hold.
+
+use super::parameter::LANES;
+use super::response::with_responses;
+use super::{Blocks, Inversion, Material, Moduli};
+use crate::lanes::{Mask, Real};
+
+/// A material for each lane, at most 16: how materials are [`Graded`](super::Graded) whose parameters are not
+/// numbers alone.
+///
+/// Each material is evaluated on all lanes, and those that have it take its results: a lane has the bits that
+/// it has alone. Materials count as one where they are equal (`==`), so that the time grows with the
+/// number of different materials on the lanes, and lanes with one material cost what that costs alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Mixed<'a, M> {
+    materials: [&'a M; LANES],
+}
+
+impl<'a, M: PartialEq> Mixed<'a, M> {
+    /// The material `material(lane)` on each lane.
+    #[inline(always)]
+    pub fn new(material: impl Fn(usize) -> &'a M) -> Self {
+        Self { materials: std::array::from_fn(material) }
+    }
+
+    /// The lanes that have the material of lane k.
+    #[inline(always)]
+    fn lanes_like<R: Real>(&self, k: usize) -> R::Mask {
+        let is_like = |other: &M| std::ptr::eq(self.materials[k], other) || *self.materials[k] == *other;
+        mask::<R>(|lane| is_like(self.materials[lane.min(LANES - 1)]))
+    }
+}
+
+#[inline(always)]
+fn mask<R: Real>(is_set: impl Fn(usize) -> bool) -> R::Mask {
+    R::splat(0.5).less(R::from_fn(|lane| f64::from(u8::from(is_set(lane)))))
+}
+
+/// Results that lanes take from different materials.
+trait Lanewise<R: Real> {
+    /// `yes` on the lanes of the mask, `no` elsewhere.
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self;
+}
+
+impl<R: Real> Lanewise<R> for R {
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        <R as Real>::select(mask, yes, no)
+    }
+}
+
+impl<R: Real, const N: usize> Lanewise<R> for [R; N] {
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        std::array::from_fn(|k| <R as Real>::select(mask, yes[k], no[k]))
+    }
+}
+
+impl<R: Real> Lanewise<R> for Blocks<R> {
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            gradient: Lanewise::<R>::select(mask, yes.gradient, no.gradient),
+            hessian: Lanewise::<R>::select(mask, yes.hessian, no.hessian),
+            flip: Lanewise::<R>::select(mask, yes.flip, no.flip),
+            twist: Lanewise::<R>::select(mask, yes.twist, no.twist),
+        }
+    }
+}
+
+impl<R: Real> Lanewise<R> for (R, Blocks<R>) {
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        (<R as Real>::select(mask, yes.0, no.0), Lanewise::<R>::select(mask, yes.1, no.1))
+    }
+}
+
+/// The response of each lane's material, given how those of two materials are put together.
+macro_rules! each_lane {
+    ($self:ident, $response:ident, $at:ident, |$lanes:ident, $of_lanes:ident, $others:ident| $together:expr) => {{
+        let mut $others = $self.materials[0].$response($at);
+        let mut known = $self.lanes_like::<R>(0);
+        for k in 1..LANES {
+            if !(!known).any() {
+                break;
+            }
+            // Lanes beyond those of R are in no mask.
+            if (!known & mask::<R>(|lane| lane == k)).any() {
+                let $lanes = $self.lanes_like::<R>(k);
+                let $of_lanes = $self.materials[k].$response($at);
+                $others = $together;
+                known = known | $lanes;
+            }
+        }
+        $others
+    }};
+}
+
+macro_rules! mixed_responses {
+    ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
+        impl<M: Material + PartialEq> Material for Mixed<'_, M> {
+            const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+            $(
+                #[inline(always)]
+                fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
+                    each_lane!(self, $linear, at, |lanes, found, others| {
+                        Lanewise::<R>::select(lanes, found, others)
+                    })
+                }
+            )*
+            $(
+                #[inline(always)]
+                fn $domain<R: Real>(&self, at: [R; 3]) -> R::Mask {
+                    each_lane!(self, $domain, at, |lanes, found, others| (lanes & found) | (!lanes & others))
+                }
+            )*
+            fn has_pole(&self) -> bool {
+                self.materials.iter().any(|material| material.has_pole())
+            }
+            fn ends_at_zero_volume(&self) -> bool {
+                self.materials.iter().any(|material| material.ends_at_zero_volume())
+            }
+            fn inversion(&self) -> Inversion {
+                self.materials[0].inversion()
+            }
+            /// Those of all lanes if they agree.
+            fn stated_moduli(&self) -> Option<Moduli> {
+                let first = self.materials[0].stated_moduli();
+                first.filter(|_| self.materials.iter().all(|material| material.stated_moduli() == first))
+            }
+        }
+    };
+}
+with_responses!(mixed_responses);
