@@ -6,7 +6,7 @@ use proc_macro::TokenStream;
 ///
 /// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`,
 /// with a checked constructor `new(parameters…)`. Its first argument names the three stretches, the others
-/// are the parameters: numbers `f64`, lists `[f64; N]` or functions, whose types implement
+/// are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, or functions, whose types implement
 /// `piola::Univariate`, such as `piola::Spline`. The body is ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
@@ -21,6 +21,10 @@ use proc_macro::TokenStream;
 /// * `PI`, and constants such as `std::f64::consts::LN_2`;
 /// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1 and
 ///   `I2b` = J^(−4/3) I2.
+///
+/// The lists of one sum have one length: a number, `N` with `const N: usize`, or, of vectors, a length known
+/// at run time, which `new` checks. A material with a vector or a function is `Clone`, others are `Copy` and
+/// can have parameters for each point of a batch.
 ///
 /// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
 /// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's

@@ -115,6 +115,14 @@ fn Mixed<const N: usize>(
         + K / 2.0 * (J - 1.0).powi(2)
 }
 
+/// Ogden's sum, with lists whose lengths are known at run time.
+#[material(domain(J > 0.0), extend, serde)]
+fn Terms([l1, l2, l3]: [f64; 3], mu: Vec<f64>, alpha: Vec<f64>, K: f64) -> f64 {
+    sum(|p| mu[p] / alpha[p] * (l1.powf(alpha[p]) + l2.powf(alpha[p]) + l3.powf(alpha[p]) - 3.0))
+        - sum(|p| mu[p]) * J.ln()
+        + K / 2.0 * (J - 1.0).powi(2)
+}
+
 /// Forces in each stretch.
 #[material(serde)]
 fn Drawn(
@@ -144,6 +152,11 @@ fn declared_materials_come_back_checked() -> Result<(), Box<dyn std::error::Erro
         let error = read(text).expect_err(complaint);
         assert!(error.contains(complaint), "{error}");
     }
+    let terms = Terms::new(vec![6.3e5, -1e4 / 3.0], vec![1.3, -2.0], 2e7)?.with_inversion(inversion)?;
+    assert_eq!(check(&terms), expected);
+    let error = serde_json::from_str::<Terms>(r#"{"mu": [1e5, 2e5], "alpha": [2], "K": 1e6}"#);
+    let error = error.expect_err("two and one").to_string();
+    assert!(error.starts_with("`alpha` must have as many entries as `mu`, 2, not 1"), "{error}");
     check(&Drawn::new(Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5 / 3.0]])?)?);
     Ok(())
 }

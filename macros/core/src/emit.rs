@@ -104,9 +104,9 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-/// The type parameter of a material for how its parameters are kept, if all of them are numbers.
+/// The type parameter of a material for how its parameters are kept, if it is nothing but numbers.
 fn value_parameter(declaration: &Declaration) -> Option<Ident> {
-    if declaration.has_functions() || declaration.parameters.is_empty() {
+    if !declaration.is_plain() || declaration.parameters.is_empty() {
         return None;
     }
     let is_free = |name: &Ident| !declaration.generics.contains(name) && declaration.name != *name;
@@ -133,14 +133,14 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
         Kind::Number => kept_as.clone(),
-        Kind::List(length) => {
-            let length = &declaration.lengths[*length];
+        Kind::List(length) if !declaration.is_vector(parameter) => {
+            let length = declaration.lengths[*length].of_self();
             quote!([#kept_as; #length])
         }
-        Kind::Function(ty) => quote!(#ty),
+        Kind::List(_) | Kind::Function(_) => declaration.parameter_type(parameter).into_token_stream(),
     });
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
-    let copy = (!declaration.has_functions()).then(|| quote!(#[derive(Copy)]));
+    let copy = declaration.is_plain().then(|| quote!(#[derive(Copy)]));
     quote! {
         #(#attributes)*
         #documentation

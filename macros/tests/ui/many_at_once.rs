@@ -11,7 +11,7 @@ pub fn Solid<const N: usize>(
     /// Bulk modulus, Pa.
     kapa: f64,
     /// Exponents.
-    alpha: Vec<f64>,
+    alpha: &[f64],
 ) -> f64 {
     let volume = (J - 1.0) ^ 2;
     let shape = sum(|p| mu[q] * alpha[p] * (I1 - 3.0));
@@ -23,7 +23,7 @@ fn stiffness<M: Declared + Varying + Copy + std::fmt::Debug>(material: M) -> f64
 }
 
 fn main() -> Result<(), piola::material::MaterialError> {
-    let solid: Solid<2> = Solid::new([1e6, 2e6], 1e7, vec![2.0, 4.0])?;
+    let solid: Solid<2> = Solid::new([1e6, 2e6], 1e7, &[2.0, 4.0])?;
     let solid = solid.with_inversion(Inversion::Extend { epsilon: 0.1 })?;
     assert!(solid.energy([1.0; 3]) < stiffness(solid) + solid.mu()[0] + solid.kapa());
     let again = Solid::<2>::from_values(&[], Inversion::Refuse)?;

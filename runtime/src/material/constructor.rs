@@ -26,6 +26,20 @@ pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), Materia
     }
 }
 
+/// Checks that a list has as many entries as the first of those that are read with it, each given by its name
+/// and its length.
+///
+/// # Errors
+/// [`MaterialError::Shape`].
+pub fn same_length(list: (&'static str, usize), first: (&'static str, usize)) -> Result<(), MaterialError> {
+    if list.1 == first.1 {
+        return Ok(());
+    }
+    let expected =
+        format!("`{}` must have as many entries as `{}`, {}, not {}", list.0, first.0, first.1, list.1);
+    Err(MaterialError::Shape { expected })
+}
+
 /// Name of a parameter, its place if it is an entry of a list, and its value: the fields of [`Argument`].
 type Named = (&'static str, Option<usize>, f64);
 

@@ -3,13 +3,13 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use syn::Expr;
+use syn::{Expr, Ident};
 
 use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
 use crate::read::literals::typed;
-use crate::read::parse::{Declaration, Parameter, identifiers, indexed_list};
+use crate::read::parse::{Declaration, Entries, Parameter, identifiers, indexed_list};
 
 /// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {
@@ -46,9 +46,12 @@ fn new(declaration: &Declaration) -> TokenStream {
     let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
     let documented =
         declaration.parameters.iter().map(|parameter| format!("* `{}`: {}", parameter.name, parameter.doc));
+    let lengths = declaration.parameters.iter().filter_map(|parameter| same_length(declaration, parameter));
+    let lengths: Vec<_> = lengths.collect();
     let new_doc = format!(
-        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible.",
-        documented.collect::<Vec<_>>().join("\n")
+        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible{}.",
+        documented.collect::<Vec<_>>().join("\n"),
+        if lengths.is_empty() { "" } else { ", or the lists of one sum are not equally long" },
     );
     let new_doc = doc(&new_doc);
     let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
@@ -75,6 +78,7 @@ fn new(declaration: &Declaration) -> TokenStream {
     quote! {
         #new_doc
         #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::MaterialError> {
+            #(#lengths)*
             #(#finite)*
             #(#admissible)*
             #checked
@@ -82,13 +86,27 @@ fn new(declaration: &Declaration) -> TokenStream {
     }
 }
 
+/// Returns an error unless a vector has as many entries as the first of those that are read with it.
+fn same_length(declaration: &Declaration, parameter: &Parameter) -> Option<TokenStream> {
+    let Entries::AtRunTime(first) = &declaration.lengths[parameter.length()?] else { return None };
+    let name = &parameter.name;
+    let texts = [name, first].map(Ident::to_string);
+    let [name_text, first_text] = &texts;
+    (name != first)
+        .then(|| quote!(__p::same_length((#name_text, #name.len()), (#first_text, #first.len()))?;))
+}
+
 /// The choice of an extension, which restores only under the given conditions.
 fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream {
     let visibility = &declaration.visibility;
     let read: Vec<_> =
         conditions.iter().flat_map(|condition| identifiers(condition.to_token_stream())).collect();
-    let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
-    let names: Vec<_> = names.into_iter().filter(|name| read.contains(name)).collect();
+    let parameters = declaration.parameters.iter().filter(|parameter| read.contains(&parameter.name));
+    let names = parameters.map(|parameter| {
+        let name = &parameter.name;
+        if declaration.is_vector(parameter) { quote!(ref #name) } else { quote!(#name) }
+    });
+    let names: Vec<_> = names.collect();
     let parameters = (!names.is_empty()).then(|| quote!(let Self { #(#names,)* .. } = self;));
     let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(restoring)));
     quote! {
@@ -141,6 +159,8 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
     let doc = (!is_documented).then(|| quote!(#[doc = "A parameter."]));
     let (ty, value) = if parameter.is_function() {
         (quote!(&#ty), quote!(&self.#name))
+    } else if declaration.is_vector(parameter) {
+        (quote!(&[f64]), quote!(&self.#name))
     } else {
         (quote!(#ty), quote!(self.#name))
     };

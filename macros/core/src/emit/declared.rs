@@ -45,6 +45,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
     let values = declaration.parameters.iter().map(|parameter| match &parameter.kind {
         Kind::Number => quote!(values.number()?),
+        Kind::List(_) if declaration.is_vector(parameter) => quote!(values.slice().to_vec()),
         Kind::List(_) => quote!(values.list()?),
         Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?),
     });

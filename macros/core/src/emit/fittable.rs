@@ -89,7 +89,7 @@ fn derivatives(declaration: &Declaration, model: &mut Model, by_parameters: &[Ve
     // A program reads entry q of a list outside its sums, and sums have an index of their own.
     let lists = (0..declaration.lengths.len()).map(|length| {
         let entries = program(Some(length));
-        let (index, length) = (&writer.index, &declaration.lengths[length]);
+        let (index, length) = (&writer.index, declaration.lengths[length].of_self());
         quote!(for #index in 0..#length { #entries })
     });
     let lists: Vec<_> = lists.collect();
@@ -135,7 +135,7 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
             quote!((#k, #entry, #slope))
         });
         let (limit, value) = (limit(declaration, constraint.limit), &outputs[0]);
-        let length = constraint.length.map(|length| &declaration.lengths[length]);
+        let length = constraint.length.map(|length| declaration.lengths[length].of_self());
         quote! {
             for #index in 0..#length {
                 #statements

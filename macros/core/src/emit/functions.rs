@@ -42,7 +42,7 @@ pub(super) fn defined(
     let all = free_name(declaration, &["all", "all_defined"]);
     let loops = (0..declaration.lengths.len()).filter_map(|k| {
         let (statements, entries) = of(calls.iter().filter(|call| length(call) == Some(k)).collect());
-        let (index, length) = (&writer.index, &declaration.lengths[k]);
+        let (index, length) = (&writer.index, declaration.lengths[k].of_self());
         entries.map(|entries| {
             quote! {
                 for #index in 0..#length {

@@ -19,7 +19,7 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     let naming = naming(declaration);
     let computed = computed(declaration, model);
     let constants = constants(declaration, model);
-    if declaration.has_functions() {
+    if !declaration.is_plain() {
         return quote! {
             #[allow(unused_variables, clippy::all)]
             #naming

@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::generics;
-use crate::read::parse::{Declaration, Kind};
+use crate::read::parse::{Declaration, Entries, Kind};
 
 /// `impl Serialize` and `impl Deserialize`, if the attribute asks for them.
 ///
@@ -34,8 +34,8 @@ pub(super) fn serde(declaration: &Declaration) -> TokenStream {
         }
     });
     let arrays = declaration.parameters.iter().filter_map(|parameter| {
-        let Kind::List(length) = &parameter.kind else { return None };
-        let (name, length) = (&parameter.name, &declaration.lengths[*length]);
+        let Entries::Known(length) = &declaration.lengths[parameter.length()?] else { return None };
+        let name = &parameter.name;
         let format = format!("`{name}` must have {{}} entries, not {{}}");
         Some(quote! {
             let #name = <[f64; #length]>::try_from(#name).map_err(|list| {

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
 
-use crate::read::parse::{Function, identifiers, is_f64, is_reserved, is_type, may_be_function};
+use crate::read::parse::{Function, identifiers, is_f64, is_reserved, is_type, is_vector, may_be_function};
 
 /// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
 #[must_use]
@@ -48,6 +48,7 @@ fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Iden
             && methods.iter().all(|(other, _)| *other != name.ident)
         {
             let result = match &*argument.ty {
+                ty if is_vector(ty) => syn::parse_quote!(&[f64]),
                 ty if is_sound && may_be_function(ty) => syn::parse_quote!(&#ty),
                 ty if is_sound => ty.clone(),
                 Type::Array(_) | Type::Slice(_) | Type::Reference(_) => syn::parse_quote!(&[f64]),

@@ -55,10 +55,10 @@ impl<'a> Writer<'a> {
 
     /// A field as a number of type `R`.
     fn field(&self, field: TokenStream) -> TokenStream {
-        if self.declaration.has_functions() {
-            quote!(R::splat(self.#field))
-        } else {
+        if self.declaration.is_plain() {
             quote!(__p::ParameterValue::on(&self.#field))
+        } else {
+            quote!(R::splat(self.#field))
         }
     }
 
@@ -69,7 +69,7 @@ impl<'a> Writer<'a> {
             match statement {
                 Statement::Let(value, op) => lines.push(*value, op),
                 Statement::Loop { length, body, totals } => {
-                    let length = &self.declaration.lengths[*length];
+                    let length = self.declaration.lengths[*length].of_self();
                     let index = &self.index;
                     let before = lines.take();
                     body.iter().for_each(|(value, op)| lines.push(*value, op));

@@ -8,6 +8,7 @@ use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::domain::Volume;
+use crate::read::parse::Entries;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
@@ -75,7 +76,7 @@ pub(crate) fn candidates(
         .lengths
         .iter()
         .map(|length| match length {
-            Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. }) => {
+            Entries::Known(Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. })) => {
                 literal.base10_parse().unwrap_or(3).min(LONGEST)
             }
             _ => 3,

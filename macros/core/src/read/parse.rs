@@ -16,12 +16,14 @@ use syn::{Attribute, Expr, Ident, Type, Visibility};
 use crate::algebra::expr::Length;
 use crate::read::diagnostics::Diagnostics;
 pub(crate) use function::Function;
+pub use lengths::Entries;
 pub use options::Options;
 use signature::{Lists, generics, named, parameters, plain, result, stretches};
-pub(crate) use signature::{is_f64, is_reserved, is_type, may_be_function};
+pub(crate) use signature::{is_f64, is_reserved, is_type, is_vector, may_be_function};
 pub use typical::{Typical, Values};
 
 mod function;
+mod lengths;
 mod nesting;
 mod options;
 mod signature;
@@ -41,8 +43,8 @@ pub struct Declaration {
     pub stretches: [Ident; 3],
     /// Parameters in the order of the declaration.
     pub parameters: Vec<Parameter>,
-    /// Lengths of lists: an integer literal or a constant generic.
-    pub lengths: Vec<Expr>,
+    /// Lengths of lists.
+    pub lengths: Vec<Entries>,
     /// Names whose own declaration is a mistake: their uses in the body are not reported again.
     pub mistaken: Vec<Ident>,
     /// The energy.
@@ -96,12 +98,25 @@ impl Declaration {
     pub fn parameter_type(&self, parameter: &Parameter) -> Type {
         match &parameter.kind {
             Kind::Number => syn::parse_quote!(f64),
-            Kind::List(length) => {
-                let length = &self.lengths[*length];
-                syn::parse_quote!([f64; #length])
-            }
+            Kind::List(length) => match &self.lengths[*length] {
+                Entries::Known(length) => syn::parse_quote!([f64; #length]),
+                Entries::AtRunTime(_) => syn::parse_quote!(::std::vec::Vec<f64>),
+            },
             Kind::Function(ty) => (**ty).clone(),
         }
+    }
+
+    /// Whether a parameter is a list whose length is known at run time alone.
+    #[must_use]
+    pub fn is_vector(&self, parameter: &Parameter) -> bool {
+        parameter.length().is_some_and(|length| self.lengths[length].are_known_at_run_time())
+    }
+
+    /// Whether a material is its numbers and nothing else, so that it can be copied, and keep a value for each
+    /// lane in the place of each number.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        !self.has_functions() && !self.lengths.iter().any(Entries::are_known_at_run_time)
     }
 
     /// Whether some parameter is a function, about which nothing is known here.
@@ -137,13 +152,15 @@ pub fn parse_declaration(
     plain(&signature, diagnostics);
     let generics = generics(&signature, diagnostics);
     let stretches = stretches(&signature, &generics, diagnostics);
-    let Lists { parameters, lengths, mistaken } =
+    let Lists { mut parameters, mut lengths, mistaken } =
         parameters(&signature, &generics, stretches.as_ref(), diagnostics);
     result(&signature, &generics, diagnostics);
     if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
         typical.check(&parameters, diagnostics);
     }
     let body = diagnostics.take(nesting::check(&body).and_then(|()| syn::parse2(body)));
+    let body: syn::Block = body?;
+    lengths::unite(&mut parameters, &mut lengths, &body, &options);
     Some(Declaration {
         attributes,
         visibility,
@@ -153,7 +170,7 @@ pub fn parse_declaration(
         parameters,
         lengths,
         mistaken,
-        body: body?,
+        body,
         options,
     })
 }

@@ -5,11 +5,10 @@
 //! differences. Literals, parameters and stretches cost nothing. A total over a list takes one addition for
 //! each entry.
 
-use quote::ToTokens;
 use syn::Expr;
 
 use crate::algebra::expr::Length;
-use crate::read::parse::Declaration;
+use crate::read::parse::{Declaration, Entries};
 use crate::schedule::program::{Op, Program, Statement};
 use crate::schedule::sorted::{Sorted, entry};
 
@@ -122,16 +121,19 @@ impl Count {
             }
         }
         let constant = (once > 0 || each.is_empty()).then(|| once.to_string());
-        let terms = each.into_iter().map(|(length, number)| term(number, &declaration.lengths[length]));
+        let terms = each.into_iter().map(|(length, number)| {
+            let length = &declaration.lengths[length];
+            term(number, length, &length.text(declaration))
+        });
         constant.into_iter().chain(terms).collect::<Vec<_>>().join(" + ")
     }
 }
 
-fn term(number: usize, length: &Expr) -> String {
+fn term(number: usize, length: &Entries, text: &str) -> String {
     match (number, length) {
-        (_, Expr::Lit(literal)) => format!("{number} · {}", literal.to_token_stream()),
-        (1, length) => length.to_token_stream().to_string(),
-        (_, length) => format!("{number} {}", length.to_token_stream()),
+        (_, Entries::Known(Expr::Lit(_))) => format!("{number} · {text}"),
+        (1, _) => text.to_owned(),
+        _ => format!("{number} {text}"),
     }
 }
 

@@ -135,7 +135,7 @@ fn one_mistake_gives_one_message() {
         }
         check_body(&format!("{binding} {GOOD}"), &[(tokens, expected)]);
     }
-    for ty in ["f32", "&[f64]", "Vec<f64>", "[f64; 0]", "f46"] {
+    for ty in ["f32", "&[f64]", "Vec<f32>", "[f64; 0]", "f46"] {
         let item = format!(
             "fn E([l1, l2, l3]: [f64; 3], m: {ty}) -> f64 {{ sum(|p| m[p]) * (I1 - 3.0) + m * m(l1) }}"
         );
@@ -475,8 +475,10 @@ fn signatures() {
     parameter("mu: f32", "f32", "a parameter is a number `mu: f64`");
     parameter("mu: (f64, f64)", "(f64, f64)", "a parameter is a number `mu: f64`");
     parameter("mut mu: f64", "mut mu", "a parameter is a number `mu: f64`");
-    parameter("mu: &[f64]", "&[f64]", "write `[f64; N]` with `const N: usize`");
-    parameter("mu: Vec<f64>", "Vec<f64>", "write `[f64; N]` with `const N: usize`");
+    parameter("mu: &[f64]", "&[f64]", "write `Vec<f64>`, or `[f64; N]` with `const N: usize`");
+    parameter("mu: Vec<f32>", "f32", "the entries of a list are `f64`");
+    parameter("mu: Vec", "Vec", "the entries of a list are `f64`");
+    parameter("mu: Vec<f64>", "mu", "`mu` is a list: write `sum(|p| … mu[p] …)`");
     parameter("mu: [f32; 3]", "f32", "the entries of a list are `f64`");
     parameter("mu: [f64; M]", "M", "or `N` with `const N: usize`");
     parameter("mu: [f64; 0]", "0", "the length of a list is a number such as `3`");
@@ -505,6 +507,9 @@ fn lists_of_a_sum_are_equally_long() {
         sum(|p| m[p] * n[p] * n[p]) * ((a - 1.0).powi(2) + (b - 1.0).powi(2) + (c - 1.0).powi(2))
     }";
     check("", item, &[("n", "`n` has another length than the lists before it")]);
+    let mixed = item.replace("[f64; 3]) ->", "Vec<f64>) ->");
+    check("", &mixed, &[("n", "`n` has another length than the lists before it")]);
+    check("", &mixed.replace("[f64; 2]", "Vec<f64>"), &[]);
 }
 
 #[test]

@@ -2,9 +2,12 @@
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
-use syn::{Expr, FnArg, GenericParam, Ident, Lit, Pat, ReturnType, Safety, Signature, Type};
+use syn::{
+    Expr, FnArg, GenericArgument, GenericParam, Ident, Lit, Pat, PathArguments, ReturnType, Safety,
+    Signature, Type,
+};
 
-use super::{Kind, Parameter, WORDS, documentation, identifiers};
+use super::{Entries, Kind, Parameter, WORDS, documentation, identifiers};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
@@ -51,7 +54,7 @@ const PATTERNS: [&str; 4] = ["Some", "None", "Ok", "Err"];
 #[derive(Default)]
 pub(super) struct Lists {
     pub(super) parameters: Vec<Parameter>,
-    pub(super) lengths: Vec<Expr>,
+    pub(super) lengths: Vec<Entries>,
     pub(super) mistaken: Vec<Ident>,
 }
 
@@ -221,7 +224,7 @@ impl Lists {
         stretches: Option<&[Ident; 3]>,
         diagnostics: &mut Diagnostics,
     ) {
-        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or a function `f: F`, with `F: piola::Univariate`";
+        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, or a function `f: F`, with `F: piola::Univariate`";
         let FnArg::Typed(argument) = input else {
             return diagnostics.error(input, MESSAGE);
         };
@@ -237,7 +240,7 @@ impl Lists {
             diagnostics.error(&name, taken(&name));
             return self.mistaken.push(name);
         }
-        match self.kind(&argument.ty, generics) {
+        match self.kind(&name, &argument.ty, generics) {
             Ok(kind) => {
                 let (doc, attributes) = (documentation(&argument.attrs), argument.attrs.clone());
                 self.parameters.push(Parameter { name, doc, attributes, kind });
@@ -249,14 +252,13 @@ impl Lists {
         }
     }
 
-    fn kind(&mut self, ty: &Type, generics: &Generics) -> Result<Kind, Mistake> {
-        const LIST: &str =
-            "a list has a length that the compiler knows: write `[f64; N]` with `const N: usize`";
+    fn kind(&mut self, name: &Ident, ty: &Type, generics: &Generics) -> Result<Kind, Mistake> {
+        const ENTRIES: &str = "the entries of a list are `f64`";
+        const OWNED: &str =
+            "a material owns its lists: write `Vec<f64>`, or `[f64; N]` with `const N: usize`";
         match ty {
             ty if generics.is_number(ty) => Ok(Kind::Number),
-            Type::Array(array) if !generics.is_number(&array.elem) => {
-                Err(Mistake::new(&array.elem, "the entries of a list are `f64`"))
-            }
+            Type::Array(array) if !generics.is_number(&array.elem) => Err(Mistake::new(&array.elem, ENTRIES)),
             Type::Array(array) => {
                 let is_known = match &array.len {
                     Expr::Lit(literal) => {
@@ -273,10 +275,15 @@ impl Lists {
                     Err(Mistake::new(&array.len, message))
                 }
             }
-            Type::Slice(_) | Type::Reference(_) => Err(Mistake::new(ty, LIST)),
-            Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Vec") => {
-                Err(Mistake::new(ty, LIST))
-            }
+            Type::Slice(_) | Type::Reference(_) => Err(Mistake::new(ty, OWNED)),
+            ty if is_vector(ty) => match entry(ty) {
+                Some(entry) if generics.is_number(entry) => {
+                    self.lengths.push(Entries::AtRunTime(name.clone()));
+                    Ok(Kind::List(self.lengths.len() - 1))
+                }
+                Some(entry) => Err(Mistake::new(entry, ENTRIES)),
+                None => Err(Mistake::new(ty, ENTRIES)),
+            },
             ty if may_be_function(ty) => Ok(Kind::Function(Box::new(ty.clone()))),
             ty => Err(Mistake { tokens: ty.to_token_stream(), message: None }),
         }
@@ -285,9 +292,9 @@ impl Lists {
     /// Equal lengths are one.
     fn length(&mut self, length: &Expr) -> usize {
         let text = length.to_token_stream().to_string();
-        let position = self.lengths.iter().position(|other| other.to_token_stream().to_string() == text);
-        position.unwrap_or_else(|| {
-            self.lengths.push(length.clone());
+        let is_equal = |other: &Entries| matches!(other, Entries::Known(other) if other.to_token_stream().to_string() == text);
+        self.lengths.iter().position(is_equal).unwrap_or_else(|| {
+            self.lengths.push(Entries::Known(length.clone()));
             self.lengths.len() - 1
         })
     }
@@ -320,6 +327,21 @@ pub(crate) fn may_be_function(ty: &Type) -> bool {
             .is_some_and(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
         !is_float && !NEVER.contains(&name.as_str())
     })
+}
+
+/// Whether it is the type of a list whose length is known at run time.
+pub(crate) fn is_vector(ty: &Type) -> bool {
+    matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Vec"))
+}
+
+/// The type of the entries of a vector.
+pub(crate) fn entry(ty: &Type) -> Option<&Type> {
+    let Type::Path(path) = ty else { return None };
+    let PathArguments::AngleBracketed(arguments) = &path.path.segments.last()?.arguments else { return None };
+    match arguments.args.first() {
+        Some(GenericArgument::Type(entry)) if arguments.args.len() == 1 => Some(entry),
+        _ => None,
+    }
 }
 
 /// Whether it is the type of a number.
