@@ -10,11 +10,13 @@ mod error_function;
 mod exponential;
 mod logarithm;
 mod trigonometric;
+mod whole_power;
 
 pub use error_function::erf_quotient;
 pub use exponential::{cosh_quotient, exp_m1_quotient, sigmoid_quotient, sinh_quotient, tanh_quotient};
 pub use logarithm::{asinh_quotient, ln_1p_quotient, softplus_quotient};
 pub use trigonometric::{atan_quotient, cos_quotient, sin_quotient};
+pub use whole_power::{whole_power, whole_power_quotient};
 
 use crate::lanes::{Mask, Real};
 

@@ -132,12 +132,12 @@ fn structure(declaration: &Declaration, documentation: &str) -> TokenStream {
     let value = value.map(|value| quote!(#value = f64));
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
-        Kind::Number => kept_as.clone(),
-        Kind::List(length) if !declaration.is_vector(parameter) => {
+        Kind::Number if !parameter.is_whole => kept_as.clone(),
+        Kind::List(length) if !parameter.is_whole && !declaration.is_vector(parameter) => {
             let length = declaration.lengths[*length].of_self();
             quote!([#kept_as; #length])
         }
-        Kind::List(_) | Kind::Function(_) => declaration.parameter_type(parameter).into_token_stream(),
+        _ => declaration.parameter_type(parameter).into_token_stream(),
     });
     let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: ::piola::Inversion,));
     let copy = declaration.is_plain().then(|| quote!(#[derive(Copy)]));

@@ -220,12 +220,15 @@ impl<'a> Printer<'a> {
             Node::Function(k, order, a) if is_formula || *order == 0 => {
                 format!("{}({})", self.derivative(*k, *order), self.print(*a, Context::Sum))
             }
+            Node::WholePower(base, n, order) if is_formula || *order == 0 => {
+                self.whole_power(*base, *n, *order, context)
+            }
             Node::Sum(_, body) if is_formula => {
                 parenthesise(format!("Σₚ {}", self.print(*body, Context::Product)), context == Context::Power)
             }
             Node::Sum(_, body) => format!("sum(|p| {})", self.print(*body, Context::Sum)),
             _ if !is_formula => "…".to_owned(),
-            Node::Function(..) => "…".to_owned(),
+            Node::Function(..) | Node::WholePower(..) => "…".to_owned(),
             Node::Strain(i) => format!("(λ{} − 1)", subscript(i + 1)),
             Node::ElementaryQuotient(function, a, b) => self.quotient(function.name(), *a, *b),
             Node::FunctionQuotient(k, order, a, b) => self.quotient(&self.derivative(*k, *order), *a, *b),
@@ -248,10 +251,31 @@ impl<'a> Printer<'a> {
             Node::LnQuotient(a, b) => self.quotient("ln", *a, *b),
             Node::ExpQuotient(a, b) => self.quotient("exp", *a, *b),
             Node::PowerQuotient(a, b, e) => self.quotient(&format!("pow{}", self.superscript(*e)), *a, *b),
+            Node::WholePowerQuotient(a, b, n, order) => {
+                let n = self.print(*n, Context::Sum);
+                self.quotient(&format!("pow^{n}{}", "′".repeat(usize::from(*order))), *a, *b)
+            }
             Node::PoleQuotient(a, b) => {
                 format!("{}/{}", self.print(*a, Context::Power), self.print(*b, Context::Power))
             }
         }
+    }
+
+    /// n (n − 1) x^(n − 2), the second derivative of x^n; for x = 0 that is 2 [n = 2], with a bracket that is 1
+    /// where it is true, else 0.
+    fn whole_power(&self, base_id: Id, n: Id, order: u8, context: Context) -> String {
+        let (base, n) = (self.print(base_id, Context::Power), self.print(n, Context::Sum));
+        if self.notation == Notation::Rust {
+            return format!("{base}.powi({n})");
+        }
+        if self.graph.is_zero(base_id) {
+            let factorial: u64 = (1..=u64::from(order)).product();
+            let factor = if factorial == 1 { String::new() } else { format!("{factorial} ") };
+            return format!("{factor}[{n} = {order}]");
+        }
+        let lowered = |k: u8| if k == 0 { n.clone() } else { format!("({n} − {k})") };
+        let factors = (0..order).map(|k| lowered(k) + " ").collect::<String>();
+        parenthesise(format!("{factors}{base}^{}", lowered(order)), context == Context::Power)
     }
 
     fn parameter(&self, k: usize) -> String {

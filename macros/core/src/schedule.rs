@@ -211,6 +211,10 @@ impl Scheduler<'_> {
             Node::FunctionQuotient(k, order, a, b) => {
                 Op::FunctionQuotient(k, order, self.value(a), self.value(b))
             }
+            Node::WholePower(base, n, order) => Op::WholePower(self.value(base), self.value(n), order),
+            Node::WholePowerQuotient(a, b, n, order) => {
+                Op::WholePowerQuotient([a, b].map(|id| self.value(id)), self.value(n), order)
+            }
             Node::Above(i) => Op::Max(self.push(Op::Stretch(i)), self.push(Op::Epsilon)),
             Node::Below(i) => Op::Below(self.push(Op::Stretch(i)), self.push(Op::Epsilon)),
             Node::ShareAbove(i, j) => {

@@ -26,6 +26,28 @@ pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), Materia
     }
 }
 
+/// The largest exponent that is a parameter: that of `.powi(…)` in a declaration.
+const LARGEST_WHOLE: u32 = 64;
+
+/// Checks that an exponent is not too large.
+///
+/// # Errors
+/// [`MaterialError::NotWhole`].
+pub fn whole(parameter: &'static str, value: u32) -> Result<(), MaterialError> {
+    whole_number(Argument::scalar(parameter, f64::from(value))).map(|_| ())
+}
+
+/// Checks that no exponent of a list is too large.
+///
+/// # Errors
+/// [`MaterialError::NotWhole`] with the first that is.
+pub fn all_whole(parameter: &'static str, values: &[u32]) -> Result<(), MaterialError> {
+    let mut values = values.iter().enumerate();
+    values.try_for_each(|(index, &value)| {
+        whole_number(Argument::entry(parameter, index, f64::from(value))).map(|_| ())
+    })
+}
+
 /// Checks that a list has as many entries as the first of those that are read with it, each given by its name
 /// and its length.
 ///
@@ -164,6 +186,45 @@ impl<'a> Values<'a> {
         Ok(number)
     }
 
+    /// The next parameter, one whole exponent.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
+    pub fn whole_number(&mut self) -> Result<u32, MaterialError> {
+        let name = self.name();
+        let value = self.number()?;
+        whole_number(Argument::scalar(name, value))
+    }
+
+    /// The next parameter, a list of N whole exponents.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
+    pub fn whole_list<const N: usize>(&mut self) -> Result<[u32; N], MaterialError> {
+        let name = self.name();
+        let values = self.list::<N>()?;
+        let mut list = [0; N];
+        for (index, (entry, value)) in list.iter_mut().zip(values).enumerate() {
+            *entry = whole_number(Argument::entry(name, index, value))?;
+        }
+        Ok(list)
+    }
+
+    /// The next parameter, whole exponents, however many.
+    ///
+    /// # Errors
+    /// [`MaterialError::NotWhole`].
+    pub fn whole_numbers(&mut self) -> Result<Vec<u32>, MaterialError> {
+        let name = self.name();
+        let values = self.slice().iter().enumerate();
+        values.map(|(index, &value)| whole_number(Argument::entry(name, index, value))).collect()
+    }
+
+    /// The name of the next parameter.
+    fn name(&self) -> &'static str {
+        self.0.clone().next().map_or("", |(name, _)| *name)
+    }
+
     /// The next parameter, a list of N numbers.
     ///
     /// # Errors
@@ -179,4 +240,13 @@ impl<'a> Values<'a> {
         let (name, values) = self.0.next().map_or(("", &[][..]), |(name, values)| (*name, *values));
         <[f64; N]>::try_from(values).map_err(|_| MaterialError::Shape { expected: expected(name, N) })
     }
+}
+
+/// A value as an exponent.
+fn whole_number(given: Argument) -> Result<u32, MaterialError> {
+    let value = given.value;
+    if value.fract() == 0.0 && (0.0..=f64::from(LARGEST_WHOLE)).contains(&value) {
+        return Ok(value as u32);
+    }
+    Err(MaterialError::NotWhole { given })
 }

@@ -14,6 +14,11 @@ pub enum MaterialError {
         /// The parameter with its value.
         given: Argument,
     },
+    /// An exponent that is a parameter is no whole number, negative or above 64.
+    NotWhole {
+        /// The exponent with its value.
+        given: Argument,
+    },
     /// A condition of the declaration does not hold.
     Violated {
         /// The condition as declared.
@@ -83,6 +88,10 @@ impl fmt::Display for MaterialError {
         match self {
             Self::NotFinite { given } => {
                 write!(f, "`{}` is {}; it must be a finite number", given.name(), number(given.value))
+            }
+            Self::NotWhole { given } => {
+                let (name, value) = (given.name(), number(given.value));
+                write!(f, "`{name}` is {value}; such an exponent must be a whole number from 0 to 64")
             }
             Self::Violated { condition, given } => {
                 write!(f, "`{condition}` must hold, but {}", listed(given))

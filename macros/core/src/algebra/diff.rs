@@ -89,6 +89,14 @@ impl Differentiator {
                 let outer = graph.leaf(Node::Function(f, order + 1, a));
                 graph.mul(outer, inner)
             }
+            Node::WholePower(base, n, order) => {
+                let inner = self.derivative(graph, base, v);
+                if graph.is_zero(inner) {
+                    return inner;
+                }
+                let outer = graph.whole_power(base, n, order + 1);
+                graph.mul(outer, inner)
+            }
             // An entry in the body differs from one outside.
             Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
             Node::Sum(length, body) => {
@@ -121,6 +129,7 @@ impl Differentiator {
             | Node::ExpQuotient(..)
             | Node::ElementaryQuotient(..)
             | Node::FunctionQuotient(..)
+            | Node::WholePowerQuotient(..)
             | Node::PowerQuotient(..)
             | Node::PoleQuotient(..) => graph.integer(0),
         }

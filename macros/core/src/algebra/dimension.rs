@@ -60,6 +60,10 @@ impl<'a> Dimensions<'a> {
             Node::Ln(argument) | Node::Exp(argument) | Node::Elementary(_, argument) => {
                 self.without(graph, *argument)
             }
+            Node::WholePower(base, exponent, _) => {
+                self.without(graph, *exponent)?;
+                self.without(graph, *base)
+            }
             // Zero, of any dimension.
             Node::Linear { constant, terms } if terms.is_empty() && constant.is_zero() => Ok(None),
             Node::Linear { constant, terms } => {

@@ -62,6 +62,9 @@ pub enum Node {
     Elementary(Elementary, Id),
     /// Derivative of the given order, 0 … 2, of a function that is a parameter.
     Function(ParameterIndex, u8, Id),
+    /// Derivative by x of the given order k of xⁿ, n (n − 1) … (n − k + 1) xⁿ⁻ᵏ, zero for k > n. The base x, and
+    /// the exponent n, a parameter or an entry that is a whole number and not negative.
+    WholePower(Id, Id, u8),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),
     /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
@@ -87,6 +90,8 @@ pub enum Node {
     ElementaryQuotient(Elementary, Id, Id),
     /// Divided difference of the derivative of the given order of a function that is a parameter.
     FunctionQuotient(ParameterIndex, u8, Id, Id),
+    /// Divided difference of a [`Node::WholePower`] between two bases; exponent and order.
+    WholePowerQuotient(Id, Id, Id, u8),
     /// (a^r − b^r) / (a − b) for a real exponent.
     PowerQuotient(Id, Id, Exponent),
     /// a / max(b, floor), where b may vanish and the quotient then has a pole.
@@ -140,6 +145,7 @@ impl Graph {
         | Node::ExpQuotient(a, b)
         | Node::ElementaryQuotient(_, a, b)
         | Node::FunctionQuotient(.., a, b)
+        | Node::WholePowerQuotient(a, b, ..)
         | Node::PowerQuotient(a, b, _) = &mut node
             && b < a
         {
@@ -216,6 +222,14 @@ impl Graph {
             Some(value) => self.integer(value),
             None => self.leaf(Node::Elementary(function, a)),
         }
+    }
+
+    /// The derivative of the given order of x^n for a whole n that is a parameter or an entry.
+    pub fn whole_power(&mut self, base: Id, exponent: Id, order: u8) -> Id {
+        if order == 0 && self.as_constant(base) == Some(Rational::ONE) {
+            return base;
+        }
+        self.leaf(Node::WholePower(base, exponent, order))
     }
 
     /// A sum over lists of the given length.

@@ -68,6 +68,8 @@ impl Increments {
             Node::Function(f, order, a) => {
                 self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
             }
+            Node::WholePower(base, n, order) => self
+                .chain_rule(graph, base, |graph, a, b| graph.leaf(Node::WholePowerQuotient(a, b, n, order))),
             Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
             // No other nodes arise from differentiation inside the domain; NaN would be noticed.
             _ => graph.leaf(Node::Float(f64::NAN.to_bits())),

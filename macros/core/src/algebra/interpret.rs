@@ -117,6 +117,24 @@ impl Interpreter<'_> {
                 let (a, b) = (self.value(*a).value, self.value(*b).value);
                 exact(stand_in_quotient(*k, *order, a, b))
             }
+            Node::WholePower(base, n, order) => {
+                let Estimate { value, magnitude } = self.value(*base);
+                let n = self.value(*n).value;
+                let factor = falling(n, *order);
+                let power = (n - f64::from(*order)).max(0.0) as i32;
+                Estimate { value: factor * value.powi(power), magnitude: factor * magnitude.powi(power) }
+            }
+            Node::WholePowerQuotient(a, b, n, order) => {
+                let (a, b, n) = (self.value(*a), self.value(*b), self.value(*n).value);
+                let terms = (n - f64::from(*order)).max(0.0) as i32;
+                let sum =
+                    |a: f64, b: f64| -> f64 { (0..terms).map(|k| a.powi(terms - 1 - k) * b.powi(k)).sum() };
+                let factor = falling(n, *order);
+                Estimate {
+                    value: factor * sum(a.value, b.value),
+                    magnitude: factor * sum(a.magnitude, b.magnitude),
+                }
+            }
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 for entry in 0..self.point.lengths[*length] {
@@ -210,10 +228,15 @@ impl Interpreter<'_> {
             },
             Extended::Power(exponent) => {
                 let r = self.exponent(*exponent);
-                (0..order).map(|k| r - f64::from(k)).product::<f64>() * x.powf(r - f64::from(order))
+                falling(r, order) * x.powf(r - f64::from(order))
             }
         }
     }
+}
+
+/// r (r − 1) … (r − order + 1).
+fn falling(r: f64, order: u8) -> f64 {
+    (0..order).map(|k| r - f64::from(k)).product()
 }
 
 /// Derivative of the function that stands for a parameter: neither even nor odd, and different for each

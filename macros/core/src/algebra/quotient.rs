@@ -154,6 +154,9 @@ impl<'a> Quotients<'a> {
             Node::Function(f, order, a) => self.chain_rule(graph, a, reflection, |graph, a, b| {
                 graph.leaf(Node::FunctionQuotient(f, order, a, b))
             }),
+            Node::WholePower(base, n, order) => self.chain_rule(graph, base, reflection, |graph, a, b| {
+                graph.leaf(Node::WholePowerQuotient(a, b, n, order))
+            }),
             Node::Extended(function, order, k) => {
                 let Reflection::Flip(i, j) = reflection else { return undefined(graph) };
                 let quotient = extended_quotient(graph, function, order, i, j);

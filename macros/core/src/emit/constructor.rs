@@ -58,6 +58,8 @@ fn new(declaration: &Declaration) -> TokenStream {
     let finite = numbers.map(|parameter| {
         let (name, text) = (&parameter.name, parameter.name.to_string());
         match parameter.length() {
+            None if parameter.is_whole => quote!(__p::whole(#text, #name)?;),
+            Some(_) if parameter.is_whole => quote!(__p::all_whole(#text, &#name)?;),
             None => quote!(__p::finite(#text, #name)?;),
             Some(_) => quote!(__p::all_finite(#text, &#name)?;),
         }
@@ -160,7 +162,8 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
     let (ty, value) = if parameter.is_function() {
         (quote!(&#ty), quote!(&self.#name))
     } else if declaration.is_vector(parameter) {
-        (quote!(&[f64]), quote!(&self.#name))
+        let number = parameter.number_type();
+        (quote!(&[#number]), quote!(&self.#name))
     } else {
         (quote!(#ty), quote!(self.#name))
     };

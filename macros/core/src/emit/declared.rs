@@ -19,7 +19,9 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let type_name = name.to_string();
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
-        let unit = option(parameter.unit().map(|unit| match unit {
+        // An exponent has no unit, whatever its documentation leaves out.
+        let unit = if parameter.is_whole { Some(Unit::Dimensionless) } else { parameter.unit() };
+        let unit = option(unit.map(|unit| match unit {
             Unit::Pascal => quote!(__p::Unit::Pascal),
             Unit::PerPascal => quote!(__p::Unit::PerPascal),
             Unit::Dimensionless => quote!(__p::Unit::Dimensionless),
@@ -44,6 +46,11 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
 
     let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
     let values = declaration.parameters.iter().map(|parameter| match &parameter.kind {
+        Kind::Number if parameter.is_whole => quote!(values.whole_number()?),
+        Kind::List(_) if parameter.is_whole && declaration.is_vector(parameter) => {
+            quote!(values.whole_numbers()?)
+        }
+        Kind::List(_) if parameter.is_whole => quote!(values.whole_list()?),
         Kind::Number => quote!(values.number()?),
         Kind::List(_) if declaration.is_vector(parameter) => quote!(values.slice().to_vec()),
         Kind::List(_) => quote!(values.list()?),

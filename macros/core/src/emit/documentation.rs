@@ -16,7 +16,7 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
         parameters(declaration),
         typical(declaration),
         format!("**Domain**: {}{}", domain(declaration, texts), outside(declaration)),
-        format!("**Small strain**: μ = {shear}, λ = {lame}."),
+        format!("**Small strain**: μ = {shear}, λ = {lame}{}.", brackets(&[shear, lame])),
         digits(declaration, model),
         derivatives(declaration, model),
         by_parameters(declaration),
@@ -24,6 +24,12 @@ pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts:
     ];
     let sections: Vec<_> = sections.into_iter().filter(|section| !section.is_empty()).collect();
     format!("\n{}", sections.join("\n\n"))
+}
+
+/// The meaning of [n = 1] in formulas of the moduli.
+fn brackets(moduli: &[&String]) -> &'static str {
+    let has_brackets = moduli.iter().any(|modulus| modulus.contains(" = "));
+    if has_brackets { ", where a bracket is 1 if it is true, else 0" } else { "" }
 }
 
 fn parameters(declaration: &Declaration) -> String {

@@ -21,9 +21,11 @@ pub(super) fn serde(declaration: &Declaration) -> TokenStream {
     let lengths = &declaration.generics;
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| match &parameter.kind {
-        Kind::Number => quote!(f64),
-        Kind::List(_) => quote!(::std::vec::Vec<f64>),
-        Kind::Function(ty) => quote!(#ty),
+        Kind::List(_) => {
+            let number = parameter.number_type();
+            syn::parse_quote!(::std::vec::Vec<#number>)
+        }
+        Kind::Number | Kind::Function(_) => declaration.parameter_type(parameter),
     });
     let plain = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
@@ -35,10 +37,10 @@ pub(super) fn serde(declaration: &Declaration) -> TokenStream {
     });
     let arrays = declaration.parameters.iter().filter_map(|parameter| {
         let Entries::Known(length) = &declaration.lengths[parameter.length()?] else { return None };
-        let name = &parameter.name;
+        let (name, number) = (&parameter.name, parameter.number_type());
         let format = format!("`{name}` must have {{}} entries, not {{}}");
         Some(quote! {
-            let #name = <[f64; #length]>::try_from(#name).map_err(|list| {
+            let #name = <[#number; #length]>::try_from(#name).map_err(|list| {
                 <__D::Error as __p::serde::de::Error>::custom(::std::format!(#format, #length, list.len()))
             })?;
         })

@@ -6,7 +6,9 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, FnArg, GenericParam, Ident, Item, Lit, Pat, Signature, Type};
 
-use crate::read::parse::{Function, identifiers, is_f64, is_reserved, is_type, is_vector, may_be_function};
+use crate::read::parse::{
+    Function, entry, identifiers, is_f64, is_reserved, is_type, is_u32, is_vector, may_be_function,
+};
 
 /// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
 #[must_use]
@@ -48,7 +50,10 @@ fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Iden
             && methods.iter().all(|(other, _)| *other != name.ident)
         {
             let result = match &*argument.ty {
-                ty if is_vector(ty) => syn::parse_quote!(&[f64]),
+                ty if is_vector(ty) => {
+                    let number = if entry(ty).is_some_and(is_u32) { quote!(u32) } else { quote!(f64) };
+                    syn::parse_quote!(&[#number])
+                }
                 ty if is_sound && may_be_function(ty) => syn::parse_quote!(&#ty),
                 ty if is_sound => ty.clone(),
                 Type::Array(_) | Type::Slice(_) | Type::Reference(_) => syn::parse_quote!(&[f64]),
@@ -69,7 +74,7 @@ fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
                 Expr::Path(path) => lengths.iter().any(|length| path.path.is_ident(length)),
                 _ => false,
             };
-            is_length && is_f64(&array.elem)
+            is_length && (is_f64(&array.elem) || is_u32(&array.elem))
         }
         ty if may_be_function(ty) => {
             let names = identifiers(ty.to_token_stream());
@@ -79,7 +84,7 @@ fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
                 GenericParam::Const(_) => false,
             })
         }
-        ty => is_f64(ty),
+        ty => is_f64(ty) || is_u32(ty),
     }
 }
 

@@ -174,6 +174,15 @@ impl<'a> Writer<'a> {
                 let name = ["quotient", "derivative_quotient"].get(usize::from(order));
                 self.function(k, name, &[n(a), n(b)])
             }
+            Op::WholePower(base, exponent, order) => {
+                let (base, exponent, order) = (n(base), n(exponent), Literal::u8_unsuffixed(order));
+                self.call("whole_power", &[quote!(#base, #exponent, #order)])
+            }
+            Op::WholePowerQuotient(bases, exponent, order) => {
+                let (bases, exponent) = (self.two(bases, names), n(exponent));
+                let order = Literal::u8_unsuffixed(order);
+                self.call("whole_power_quotient", &[quote!(#bases, #exponent, #order)])
+            }
             Op::WhereNegative(condition, a, b) => {
                 let (condition, a, b) = (o(condition), n(a), n(b));
                 quote!(R::select(#condition.less(R::splat(0.0)), #a, #b))
@@ -274,6 +283,8 @@ impl<'a> Lines<'a> {
     fn push(&mut self, value: Value, op: &Op) {
         let writer = self.writer;
         let parameter = |k: usize| &writer.declaration.parameters[k].name;
+        // A whole exponent is no value of type `R`: it is read from `self` where it is needed.
+        let is_whole = |k: usize| writer.declaration.parameters[k].is_whole;
         match *op {
             Op::Literal(bits) => self.names.set(value, literal(f64::from_bits(bits))),
             Op::Stretch(i) => self.names.set(value, &writer.variables[i]),
@@ -282,6 +293,14 @@ impl<'a> Lines<'a> {
                 self.names.set(value, quote!(#strains[#i]));
             }
             Op::Epsilon => self.names.set(value, &writer.threshold),
+            Op::Parameter(k) if is_whole(k) => {
+                let name = parameter(k);
+                self.names.set(value, quote!(self.#name));
+            }
+            Op::Entry(k) if is_whole(k) => {
+                let (name, index) = (parameter(k), &writer.index);
+                self.names.set(value, quote!(self.#name[#index]));
+            }
             Op::Parameter(k) => self.field(value, parameter(k), TokenStream::new()),
             Op::Entry(k) => {
                 let index = &writer.index;

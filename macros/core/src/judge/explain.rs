@@ -72,12 +72,17 @@ impl Explainer<'_, '_> {
             Violation::UnitsClash(clash) => self.units_clash(**clash),
             Violation::PowerAtRest { power } => format!(
                 "the base of `{}` vanishes at rest and is negative nearby, where only whole powers have a value: {}, or a \
-                 whole power, such as `.powi(2)`, or the power of a base that stays positive, such as \
+                 whole power, such as {}, or the power of a base that stays positive, such as \
                  `(1.0 + b * (I1b - 3.0)).powf(n)`",
                 self.print(*power),
                 match &self.source.invariants()[..] {
                     [] => "write a power of `I1b - 3.0`, which is never negative".to_owned(),
                     names => format!("write {}, since `I1b - 3.0` is never negative", in_place(names)),
+                },
+                if self.has_real_exponent(*power) {
+                    "`.powi(2)` or `.powi(n)` with `n: u32`"
+                } else {
+                    "`.powi(2)`"
                 },
             ),
             Violation::Rough { power } => {
@@ -148,6 +153,11 @@ impl Explainer<'_, '_> {
             }
             Violation::ExtendWithoutDomain => {
                 "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`"
+                    .into()
+            }
+            Violation::FitOfExponents => {
+                "`fit` differentiates the stress by parameters that are real numbers, not whole exponents: \
+                remove `fit`, or write the terms out, each with a parameter of its own"
                     .into()
             }
             Violation::FitOfFunctions => {
@@ -306,6 +316,12 @@ impl Explainer<'_, '_> {
         let conditions: Vec<_> =
             std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limit).collect();
         format!("`domain({})`", conditions.join(", "))
+    }
+
+    /// Whether parameters enter the exponent of a power.
+    fn has_real_exponent(&self, power: Id) -> bool {
+        matches!(self.graph.node(power), Node::Product(factors)
+            if factors.iter().any(|(_, exponent)| exponent.real.is_some()))
     }
 
     /// The remedy that an exponent is at least 1, or above.

@@ -13,6 +13,12 @@ use crate::read::parse::Entries;
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
 
+/// The same with whole exponents, which decide on the parity of a power: all of them even would be bad luck.
+const SAMPLES_OF_EXPONENTS: usize = 24;
+
+/// Whole exponents that are drawn are below this.
+const EXPONENTS: f64 = 5.0;
+
 /// Candidates tried for [`SAMPLES`] admissible points: enough for parameters that must be in order, and for
 /// decades of them up to 10⁹. Most are refused by the conditions alone, in microseconds.
 pub(crate) const CANDIDATES: usize = 20_000;
@@ -38,6 +44,7 @@ pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Poin
     let gradient = Differentiator::default().by_stretch(graph, energy, 0);
     let mut found = Vec::new();
     let mut excludes_rest = None;
+    let wanted = if declaration.has_whole_exponents() { SAMPLES_OF_EXPONENTS } else { SAMPLES };
     for point in candidates(source, 0x9E37_79B9_7F4A_7C15, 0..CANDIDATES) {
         let holds = |id: Id, point: &Point| evaluate(graph, id, point).value > 0.0;
         if !source.admissible.iter().all(|&id| holds(id, &point)) {
@@ -52,7 +59,7 @@ pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Poin
         if source.is_inside(graph, &point) && is_finite(energy) && is_finite(gradient) {
             found.push(point);
         }
-        if found.len() == SAMPLES {
+        if found.len() == wanted {
             return Ok(found);
         }
     }
@@ -82,17 +89,24 @@ pub(crate) fn candidates(
             _ => 3,
         })
         .collect();
-    let entries = declaration.parameters.iter().map(|parameter| parameter.length().map_or(1, |k| lengths[k]));
+    let entries = declaration.parameters.iter().map(|parameter| {
+        let number = parameter.length().map_or(1, |k| lengths[k]);
+        (number, parameter.is_whole)
+    });
     let entries: Vec<_> = entries.collect();
     let has_negative = source.volume != Volume::Positive;
     let mut random = Random(seed);
     attempts.map(move |attempt| {
         let decades = 1.0 + 15.0 * attempt as f64 / CANDIDATES as f64;
-        let mut value = || {
+        let mut value = |is_whole| {
+            if is_whole {
+                return (EXPONENTS * random.unit()).floor();
+            }
             let magnitude = 10f64.powf(decades * (random.unit() - 0.4));
             if attempt > POSITIVE && random.unit() < 0.3 { -magnitude } else { magnitude }
         };
-        let parameters = entries.iter().map(|&number| (0..number).map(|_| value()).collect()).collect();
+        let mut list = |&(number, is_whole): &(usize, bool)| (0..number).map(|_| value(is_whole)).collect();
+        let parameters = entries.iter().map(&mut list).collect();
         let mut stretches = [0, 1, 2].map(|_| 0.6 + 0.9 * random.unit());
         if has_negative && attempt % 2 == 1 {
             stretches[2] = -stretches[2];

@@ -19,7 +19,7 @@ pub(crate) use function::Function;
 pub use lengths::Entries;
 pub use options::Options;
 use signature::{Lists, generics, named, parameters, plain, result, stretches};
-pub(crate) use signature::{is_f64, is_reserved, is_type, is_vector, may_be_function};
+pub(crate) use signature::{entry, is_f64, is_reserved, is_type, is_u32, is_vector, may_be_function};
 pub use typical::{Typical, Values};
 
 mod function;
@@ -63,6 +63,8 @@ pub struct Parameter {
     pub attributes: Vec<Attribute>,
     /// A number, a list or a function.
     pub kind: Kind,
+    /// Whether its numbers are whole, `u32`: exponents and nothing else.
+    pub is_whole: bool,
 }
 
 /// The kind of a parameter.
@@ -85,6 +87,12 @@ impl Parameter {
         }
     }
 
+    /// The Rust type of its numbers.
+    #[must_use]
+    pub fn number_type(&self) -> Type {
+        if self.is_whole { syn::parse_quote!(u32) } else { syn::parse_quote!(f64) }
+    }
+
     /// Whether the parameter is a function.
     #[must_use]
     pub fn is_function(&self) -> bool {
@@ -96,11 +104,12 @@ impl Declaration {
     /// The Rust type of a parameter.
     #[must_use]
     pub fn parameter_type(&self, parameter: &Parameter) -> Type {
+        let number = parameter.number_type();
         match &parameter.kind {
-            Kind::Number => syn::parse_quote!(f64),
+            Kind::Number => number,
             Kind::List(length) => match &self.lengths[*length] {
-                Entries::Known(length) => syn::parse_quote!([f64; #length]),
-                Entries::AtRunTime(_) => syn::parse_quote!(::std::vec::Vec<f64>),
+                Entries::Known(length) => syn::parse_quote!([#number; #length]),
+                Entries::AtRunTime(_) => syn::parse_quote!(::std::vec::Vec<#number>),
             },
             Kind::Function(ty) => (**ty).clone(),
         }
@@ -112,11 +121,19 @@ impl Declaration {
         parameter.length().is_some_and(|length| self.lengths[length].are_known_at_run_time())
     }
 
-    /// Whether a material is its numbers and nothing else, so that it can be copied, and keep a value for each
-    /// lane in the place of each number.
+    /// Whether a material is its real numbers and nothing else, so that it can be copied, and keep a value for
+    /// each lane in the place of each number.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        !self.has_functions() && !self.lengths.iter().any(Entries::are_known_at_run_time)
+        !self.has_functions()
+            && !self.has_whole_exponents()
+            && !self.lengths.iter().any(Entries::are_known_at_run_time)
+    }
+
+    /// Whether some parameter is a whole exponent, or a list of such.
+    #[must_use]
+    pub fn has_whole_exponents(&self) -> bool {
+        self.parameters.iter().any(|parameter| parameter.is_whole)
     }
 
     /// Whether some parameter is a function, about which nothing is known here.

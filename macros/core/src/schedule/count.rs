@@ -37,7 +37,7 @@ pub enum OperationKind {
     Exponential,
     /// Another elementary function, such as the hyperbolic tangent.
     Elementary,
-    /// Power with a real exponent.
+    /// Power with a real exponent, or with a whole one that is a parameter.
     Power,
     /// Divided difference, or the common part of those of two values.
     Quotient,
@@ -160,10 +160,11 @@ fn kinds(op: &Op) -> &'static [OperationKind] {
         Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[OperationKind::Logarithm],
         Op::Exp(_) => &[OperationKind::Exponential],
         Op::Elementary(..) => &[OperationKind::Elementary],
-        Op::Power(..) => &[OperationKind::Power],
+        Op::Power(..) | Op::WholePower(..) => &[OperationKind::Power],
         Op::Pair { .. }
         | Op::LnQuotient(_)
         | Op::PowerQuotient { .. }
+        | Op::WholePowerQuotient(..)
         | Op::ExpQuotient { .. }
         | Op::ElementaryQuotient(..)
         | Op::FunctionQuotient(..)

@@ -49,6 +49,12 @@ impl Degrees {
                 let [a, b] = [*a, *b].map(|id| self.of(graph, id));
                 [a[0] - b[0], a[1] - b[1]]
             }
+            Node::WholePower(base, _, order) => {
+                power(self.of(graph, *base), Exponent::integer(-i64::from(*order)))
+            }
+            Node::WholePowerQuotient(base, _, _, order) => {
+                power(self.of(graph, *base), Exponent::integer(-1 - i64::from(*order)))
+            }
             // max(λ, ε) and powers of it.
             Node::Above(_) => [0.0, 1.0],
             // Logarithms, exponentials, parameters, and bounded functions of a stretch.
@@ -57,7 +63,7 @@ impl Degrees {
     }
 }
 
-/// The degree of a power. A real exponent is unknown here and counts by its rational part.
+/// The degree of a power. An exponent that is a parameter is unknown here, and counts by its rational part.
 pub(super) fn power(degrees: Degree, exponent: Exponent) -> Degree {
     degrees.map(|degree| degree * exponent.rational.to_f64())
 }

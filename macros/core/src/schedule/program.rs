@@ -61,6 +61,10 @@ pub enum Op {
     Function(ParameterIndex, u8, Value),
     /// Divided difference of such a derivative.
     FunctionQuotient(ParameterIndex, u8, Value, Value),
+    /// Derivative of the given order of a power: the base, and the whole exponent, which is read as such.
+    WholePower(Value, Value, u8),
+    /// Divided difference of such a derivative.
+    WholePowerQuotient([Value; 2], Value, u8),
     /// The larger of two values.
     Max(Value, Value),
     /// The value, or the smallest positive number if that is larger.
@@ -138,12 +142,14 @@ impl Op {
             | Self::Power(a, b)
             | Self::Max(a, b)
             | Self::Below(a, b)
+            | Self::WholePower(a, b, _)
             | Self::ElementaryQuotient(_, a, b)
             | Self::FunctionQuotient(.., a, b) => {
                 show(a);
                 show(b);
             }
-            Self::LnProduct([a, b, c])
+            Self::WholePowerQuotient([a, b], c, _)
+            | Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
             | Self::NegMulAdd(a, b, c)
             | Self::MulSub(a, b, c)

@@ -513,6 +513,38 @@ fn lists_of_a_sum_are_equally_long() {
 }
 
 #[test]
+fn whole_exponents_are_exponents_alone() {
+    let good = "m * ((a - 1.0).powi(2) + (b - 1.0).powi(2) + (c - 1.0).powi(2))";
+    let says = |arguments: &str, term: &str, tokens: &str, expected: &str| {
+        let item = format!(
+            "fn E([a, b, c]: [f64; 3], m: f64, n: u32, d: [f64; 2], k: [u32; 2]) -> f64 {{ {good} + {term} }}"
+        );
+        check(arguments, &item, &[(tokens, expected)]);
+    };
+    let used = "sum(|p| d[p] * (I1 - 3.0).powi(k[p])) * (J - 1.0).powi(n)";
+    says("prestressed, fit", used, "fit", "not whole exponents: remove `fit`");
+    says("prestressed, admissible(n > 1)", used, "n", "at most 64: remove this condition");
+    says("prestressed, admissible(k[p] > 1)", used, "k", "at most 64: remove this condition");
+    let with = |term: &str| format!("{used} + {term}");
+    says("prestressed", &with("n * m"), "n", "`n` is a whole exponent and nothing else: write `x.powi(n)`");
+    says("prestressed", &with("J.powf(n)"), "n", "write `x.powi(n)`");
+    says("prestressed", &with("sum(|p| k[p] * d[p])"), "k", "write `x.powi(k[p])`");
+    says("prestressed", &with("sum(|p| d[p] * J.powf(k[p]))"), "k", "write `x.powi(k[p])`");
+    says("prestressed", &with("J.powi(k)"), "k", "`k` is a list");
+    says("prestressed", &with("J.powi(m)"), "m", "write `.powf(m)`, or declare `m: u32`");
+    says(
+        "prestressed",
+        &with("sum(|p| J.powi(d[p]))"),
+        "d[p]",
+        "write `.powf(d[p])`, or declare `d: [u32; N]`",
+    );
+    says("prestressed", &with("J.powi(k[p])"), "k[p]", "entries are only read inside a sum");
+    // What is raised has no unit.
+    let item = "fn E([a, b, c]: [f64; 3], /** Modulus, Pa. */ m: f64, n: u32) -> f64 { (m * J).powi(n) }";
+    check("prestressed", item, &[("(m * J).powi(n)", "Pa")]);
+}
+
+#[test]
 fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * }", &[("}", "expected an expression")]);
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);

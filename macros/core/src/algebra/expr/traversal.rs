@@ -20,7 +20,9 @@ impl Graph {
             | Node::ExpQuotient(a, b)
             | Node::ElementaryQuotient(_, a, b)
             | Node::FunctionQuotient(.., a, b)
+            | Node::WholePower(a, b, _)
             | Node::PoleQuotient(a, b) => vec![*a, *b],
+            Node::WholePowerQuotient(a, b, n, _) => vec![*a, *b, *n],
             Node::PowerQuotient(a, b, exponent) => [*a, *b].into_iter().chain(exponent.real).collect(),
             Node::Extended(Extended::Power(exponent), ..) => exponent.real.into_iter().collect(),
             _ => Vec::new(),
@@ -76,6 +78,13 @@ impl Graph {
             Node::Sum(length, body) => {
                 let body = map(self, body);
                 return self.sum(length, body);
+            }
+            Node::WholePower(base, n, order) => {
+                let (base, n) = (map(self, base), map(self, n));
+                return self.whole_power(base, n, order);
+            }
+            Node::WholePowerQuotient(a, b, n, order) => {
+                Node::WholePowerQuotient(map(self, a), map(self, b), map(self, n), order)
             }
             Node::Function(f, order, a) => Node::Function(f, order, map(self, a)),
             Node::FunctionQuotient(f, order, a, b) => {

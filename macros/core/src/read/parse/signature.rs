@@ -224,7 +224,7 @@ impl Lists {
         stretches: Option<&[Ident; 3]>,
         diagnostics: &mut Diagnostics,
     ) {
-        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, or a function `f: F`, with `F: piola::Univariate`";
+        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
         let FnArg::Typed(argument) = input else {
             return diagnostics.error(input, MESSAGE);
         };
@@ -243,7 +243,8 @@ impl Lists {
         match self.kind(&name, &argument.ty, generics) {
             Ok(kind) => {
                 let (doc, attributes) = (documentation(&argument.attrs), argument.attrs.clone());
-                self.parameters.push(Parameter { name, doc, attributes, kind });
+                let is_whole = is_whole(&argument.ty);
+                self.parameters.push(Parameter { name, doc, attributes, kind, is_whole });
             }
             Err(mistake) => {
                 diagnostics.error(mistake.tokens, mistake.message.unwrap_or(MESSAGE));
@@ -253,12 +254,13 @@ impl Lists {
     }
 
     fn kind(&mut self, name: &Ident, ty: &Type, generics: &Generics) -> Result<Kind, Mistake> {
-        const ENTRIES: &str = "the entries of a list are `f64`";
+        const ENTRIES: &str = "the entries of a list are `f64`, or `u32` if they are exponents";
         const OWNED: &str =
             "a material owns its lists: write `Vec<f64>`, or `[f64; N]` with `const N: usize`";
+        let is_number = |ty: &Type| generics.is_number(ty) || is_u32(ty);
         match ty {
-            ty if generics.is_number(ty) => Ok(Kind::Number),
-            Type::Array(array) if !generics.is_number(&array.elem) => Err(Mistake::new(&array.elem, ENTRIES)),
+            ty if is_number(ty) => Ok(Kind::Number),
+            Type::Array(array) if !is_number(&array.elem) => Err(Mistake::new(&array.elem, ENTRIES)),
             Type::Array(array) => {
                 let is_known = match &array.len {
                     Expr::Lit(literal) => {
@@ -277,7 +279,7 @@ impl Lists {
             }
             Type::Slice(_) | Type::Reference(_) => Err(Mistake::new(ty, OWNED)),
             ty if is_vector(ty) => match entry(ty) {
-                Some(entry) if generics.is_number(entry) => {
+                Some(entry) if is_number(entry) => {
                     self.lengths.push(Entries::AtRunTime(name.clone()));
                     Ok(Kind::List(self.lengths.len() - 1))
                 }
@@ -341,6 +343,20 @@ pub(crate) fn entry(ty: &Type) -> Option<&Type> {
     match arguments.args.first() {
         Some(GenericArgument::Type(entry)) if arguments.args.len() == 1 => Some(entry),
         _ => None,
+    }
+}
+
+/// Whether it is the type of a whole exponent.
+pub(crate) fn is_u32(ty: &Type) -> bool {
+    matches!(ty, Type::Path(path) if path.path.is_ident("u32"))
+}
+
+/// Whether it is the type of a whole exponent, or of a list of such.
+fn is_whole(ty: &Type) -> bool {
+    match ty {
+        Type::Array(array) => is_u32(&array.elem),
+        ty if is_vector(ty) => entry(ty).is_some_and(is_u32),
+        ty => is_u32(ty),
     }
 }
 

@@ -8,7 +8,7 @@ use super::{Resolver, Scope, paper_notation};
 use crate::algebra::expr::{Elementary, Exponent, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::literals::is_number;
-use crate::read::parse::identifiers;
+use crate::read::parse::{Kind, identifiers};
 use crate::read::spelling::{list, nearest};
 
 /// Methods of numbers, each with an example of a call.
@@ -156,6 +156,9 @@ impl Resolver<'_> {
     }
 
     fn whole_power(&mut self, base: Id, argument: &Expr) -> Id {
+        if let Some(exponent) = self.whole_exponent(argument) {
+            return if self.is_unknown(base) { base } else { self.graph.whole_power(base, exponent, 0) };
+        }
         let exponent = self.expression(argument);
         if self.is_unknown(exponent) {
             return exponent;
@@ -163,7 +166,18 @@ impl Resolver<'_> {
         let Some(exponent) = self.graph.as_constant(exponent).filter(|exponent| exponent.denominator() == 1)
         else {
             let exponent = argument.to_token_stream().to_string().replace(" [", "[");
-            let message = format!("`powi` takes a whole number: for this one write `.powf({exponent})`");
+            let name = exponent.split('[').next().unwrap_or_default();
+            let parameter = self.declaration.parameters.iter().find(|parameter| parameter.name == name);
+            let ty = match parameter.map(|parameter| (&parameter.kind, self.declaration.is_vector(parameter)))
+            {
+                Some((Kind::Number, _)) => ": u32",
+                Some((Kind::List(_), false)) => ": [u32; N]",
+                Some((Kind::List(_), true)) => ": Vec<u32>",
+                _ => "",
+            };
+            let whole = if ty.is_empty() { String::new() } else { format!(", or declare `{name}{ty}`") };
+            let message =
+                format!("`powi` takes a whole number: for this one write `.powf({exponent})`{whole}");
             return self.mistake(argument, &message);
         };
         if self.scope == Scope::Parameters && !is_number(argument) {

@@ -43,6 +43,7 @@ impl Resolver<'_> {
         }
         if let Some(k) = self.declaration.parameters.iter().position(|parameter| parameter.name == *name) {
             return match &self.declaration.parameters[k].kind {
+                Kind::Number if self.declaration.parameters[k].is_whole => self.whole_as_number(name, &text),
                 Kind::Number => self.graph.leaf(Node::Parameter(k)),
                 Kind::List(_) if self.scope == Scope::Parameters => self
                     .mistake(name, &format!("`{text}` is a list: write `{text}[p]` for each of its entries")),
@@ -102,6 +103,18 @@ impl Resolver<'_> {
         self.mistake(name, &format!("unknown name `{text}`: {hint}"))
     }
 
+    /// The mistake of a whole exponent in the place of a number.
+    pub(super) fn whole_as_number(&mut self, name: &Ident, text: &str) -> Id {
+        let message = if self.scope == Scope::Parameters {
+            "the constructor checks that exponents are at most 64: remove this condition".to_owned()
+        } else {
+            format!(
+                "`{text}` is a whole exponent and nothing else: write `x.powi({text})`, or declare it with `f64`"
+            )
+        };
+        self.mistake(name, &message)
+    }
+
     /// The first list among the parameters.
     pub(super) fn first_list(&self) -> Option<&Ident> {
         let mut parameters = self.declaration.parameters.iter();
@@ -111,10 +124,11 @@ impl Resolver<'_> {
     /// The message about the index of a sum in place of a number.
     fn index_as_number(&self, index: &str) -> String {
         let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
+        let exponents = if index == "n" { "k" } else { "n" };
         format!(
             "the index `{index}` only selects entries, as in `{list}[{index}]`, and is not a number: write the terms out, each with \
              a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \
-             parameters too, which a fit changes"
+             parameters too, which a fit changes; whole exponents alone can be data, `x.powi({exponents}[{index}])` with `{exponents}: [u32; 2]`"
         )
     }
 

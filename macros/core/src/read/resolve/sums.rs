@@ -6,7 +6,7 @@ use syn::{Expr, ExprCall, ExprIndex, Ident};
 use super::stretches::Summand;
 use super::{Resolver, Scope};
 use crate::algebra::expr::{Id, Length, Node};
-use crate::read::parse::indexed_lists;
+use crate::read::parse::{Kind, indexed_lists};
 
 /// The message about a sum of another form.
 const FORMS: &str = "a sum is written `sum(|p| mu[p] * …)` over lists, `sum(|l| l.powi(2))` over the three stretches, \
@@ -85,7 +85,40 @@ impl Resolver<'_> {
         }
     }
 
+    /// The parameter, or the entry of a list, that is the whole exponent of a power.
+    pub(super) fn whole_exponent(&mut self, argument: &Expr) -> Option<Id> {
+        let name = match argument {
+            Expr::Index(entry) => plain_name(&entry.expr)?,
+            argument => plain_name(argument)?,
+        };
+        let k = self.declaration.parameters.iter().position(|parameter| parameter.name == *name)?;
+        let is_number = matches!(self.declaration.parameters[k].kind, Kind::Number);
+        if !self.declaration.parameters[k].is_whole || self.scope == Scope::Parameters {
+            return None;
+        }
+        match argument {
+            Expr::Index(entry) => Some(self.any_entry(entry)),
+            _ if is_number => {
+                self.used.insert(name.to_string());
+                Some(self.graph.leaf(Node::Parameter(k)))
+            }
+            _ => None,
+        }
+    }
+
+    /// An entry of a list in the place of a number.
     pub(super) fn entry(&mut self, expression: &ExprIndex) -> Id {
+        let entry = self.any_entry(expression);
+        match (self.graph.node(entry), plain_name(&expression.expr)) {
+            (&Node::Entry(k), Some(list)) if self.declaration.parameters[k].is_whole => {
+                self.excuse();
+                self.whole_as_number(list, &expression.to_token_stream().to_string().replace(" [", "["))
+            }
+            _ => entry,
+        }
+    }
+
+    fn any_entry(&mut self, expression: &ExprIndex) -> Id {
         let Some(list) = plain_name(&expression.expr) else {
             self.excuse();
             return self.mistake(expression, "an entry is written `mu[p]`, inside `sum(|p| …)`");
