@@ -183,9 +183,9 @@ pub fn fit_parameters(
     Ok(report::report(&numbers, &held, &minima, best, agreement, analysis))
 }
 
-/// Which numbers are not to change.
+/// Which numbers are not to change: those of the names, and whole exponents.
 fn held(numbers: &Numbers, names: &[String]) -> Result<Vec<Option<Standing>>, FitError> {
-    let mut held = vec![None; numbers.values.len()];
+    let mut held: Vec<_> = numbers.are_whole.iter().map(|whole| whole.then_some(Standing::Held)).collect();
     for name in names {
         let mut is_known = false;
         for (number, standing) in held.iter_mut().enumerate() {

@@ -16,6 +16,12 @@ fn Gao([l1, l2, l3]: [f64; 3], a: f64, n: f64) -> f64 {
     a * (I1.powf(n) + (I2 / J.powi(2)).powf(n))
 }
 
+/// Rivlin's series of terms that are found at run time.
+#[piola::material(domain(J > 0.0), fit)]
+fn Rivlin([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, K: f64) -> f64 {
+    sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p])) + K / 2.0 * (J - 1.0).powi(2)
+}
+
 fn treloar() -> Measurements {
     Measurements::read(TRELOAR_1944).expect("a table")
 }
@@ -46,6 +52,21 @@ fn recovers(wanted: &dyn Candidate, start: &dyn Candidate, volume: Volume, modes
         let tolerance = 1e-9 * found.condition * wanted.abs();
         assert!((value - wanted).abs() <= tolerance, "{name}: {value} for {wanted} in {found:?}");
     }
+}
+
+#[test]
+fn whole_exponents_are_held() -> Outcome {
+    let rivlin = |c: [f64; 3], bulk| Rivlin::new(c.to_vec(), vec![1, 0, 2], vec![0, 1, 0], bulk);
+    let (wanted, start) = (rivlin([2e5, 3e4, 1e3], 2e6)?, rivlin([1e5, 1e4, 1e2], 1e6)?);
+    let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
+    let settings = FitSettings::default().with_volume(Volume::Free).with_restarts(2);
+    let found = fit_parameters(&start, &data, &settings)?;
+    assert!(found.difference <= 1e-9, "{found:?}");
+    let standings: Vec<_> = found.numbers.iter().map(|number| number.standing).collect();
+    let (free, held) = (Standing::Free, Standing::Held);
+    assert_eq!(standings, [free, free, free, held, held, held, held, held, held, free]);
+    assert_eq!(found.values[1..3], [[1.0, 0.0, 2.0], [0.0, 1.0, 0.0]]);
+    Ok(())
 }
 
 #[test]

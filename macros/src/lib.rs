@@ -6,14 +6,17 @@ use proc_macro::TokenStream;
 ///
 /// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`,
 /// with a checked constructor `new(parameters…)`. Its first argument names the three stretches, the others
-/// are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, or functions, whose types implement
-/// `piola::Univariate`, such as `piola::Spline`. The body is ordinary Rust:
+/// are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, whole exponents `u32`, `[u32; N]` or
+/// `Vec<u32>`, or functions, whose types implement `piola::Univariate`, such as `piola::Spline`. The body is
+/// ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
 /// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`, `x.exp_m1()`,
 ///   `x.ln_1p()`, `x.log10()`, `x.log2()`, `x.log(base)`, `x.sinh()`, `x.cosh()`, `x.tanh()`, `x.asinh()`,
 ///   `x.sin()`, `x.cos()`, `x.atan()`, `x.erf()`, `x.softplus()` for ln(1 + eˣ) and `x.sigmoid()` for 1/(1 +
 ///   e⁻ˣ);
+/// * `x.powi(n)` and `x.powi(n[p])` of whole exponents, from 0 to 64, which are data: Rivlin's series is
+///   `sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p]))`;
 /// * `f(l1)` of a parameter that is a function; the energy is defined where each of its functions is
 ///   (`Univariate::admits`);
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`; `sum(|l| …)`, where `l` is read
@@ -23,8 +26,8 @@ use proc_macro::TokenStream;
 ///   `I2b` = J^(−4/3) I2.
 ///
 /// The lists of one sum have one length: a number, `N` with `const N: usize`, or, of vectors, a length known
-/// at run time, which `new` checks. A material with a vector or a function is `Clone`, others are `Copy` and
-/// can have parameters for each point of a batch.
+/// at run time, which `new` checks. A material with a vector, a whole exponent or a function is `Clone`, others
+/// are `Copy` and can have parameters for each point of a batch.
 ///
 /// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
 /// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's

@@ -1,7 +1,7 @@
 //! Rivlin's series with its exponents as data, beside the same series with its nine terms written out.
 #![cfg(feature = "batch")]
 
-use piola::material::{Argument, Blocks, Declared, Form, MaterialError, Unit};
+use piola::material::{Argument, Blocks, Declared, Fittable, Form, MaterialError, Unit};
 use piola::{Inversion, Material, material};
 
 /// Rivlin's series.
@@ -9,6 +9,7 @@ use piola::{Inversion, Material, material};
     domain(J > 0.0),
     admissible(c[p] >= 0.0),
     extend,
+    fit,
     typical("a soft rubber", c = [1.8e5, 2e3], i = [1, 2], j = [0, 0], K = 1e7)
 )]
 fn Series(
@@ -26,7 +27,7 @@ fn Series(
 }
 
 /// Rivlin's series up to the third order.
-#[material(domain(J > 0.0), extend)]
+#[material(domain(J > 0.0), extend, fit)]
 fn Written(
     [l1, l2, l3]: [f64; 3],
     c10: f64,
@@ -193,5 +194,29 @@ fn a_description_tells_exponents() {
     let parameters = Series::DESCRIPTION.parameters;
     let forms: Vec<_> = parameters.iter().map(|parameter| (parameter.form, parameter.unit)).collect();
     let [pascal, none] = [Unit::Pascal, Unit::Dimensionless].map(Some);
-    assert_eq!(forms, [(Form::List, pascal), (Form::List, none), (Form::List, none), (Form::Number, pascal)]);
+    let exponents = (Form::Exponents, none);
+    assert_eq!(forms, [(Form::List, pascal), exponents, exponents, (Form::Number, pascal)]);
+    assert_eq!(
+        Springs::DESCRIPTION.parameters.last().map(|m| (m.form, m.is_list())),
+        Some((Form::Exponent, false))
+    );
+}
+
+#[test]
+fn coefficients_have_derivatives_and_exponents_zeros() -> Result<(), MaterialError> {
+    let (series, written) = (series()?, written()?);
+    for stretches in stretches() {
+        let found = series.gradient_by_parameters(stretches);
+        let expected = written.gradient_by_parameters(stretches);
+        let (coefficients, others) = found.split_at(9);
+        let (exponents, bulk) = others.split_at(18);
+        assert!(exponents.iter().all(|derivative| *derivative == [0.0; 3]));
+        for (found, expected) in coefficients.iter().chain(bulk).zip(&expected) {
+            check(found, expected, 3.0, &format!("{stretches:?}"));
+        }
+    }
+    let values = series.values();
+    let lists: Vec<&[f64]> = values.iter().map(|list| &**list).collect();
+    assert_eq!(Series::from_values(&lists, Inversion::Refuse)?, series);
+    Ok(())
 }

@@ -63,6 +63,8 @@ pub(super) struct Numbers {
     /// Such as `kappa`, or `mu_1` for the first entry of a list.
     pub(super) names: Vec<String>,
     pub(super) values: Vec<f64>,
+    /// Whether each is an exponent that is whole, and so cannot change by little.
+    pub(super) are_whole: Vec<bool>,
     /// The parameter that each belongs to: its name and the number of its entries.
     parameters: Vec<(&'static str, usize)>,
 }
@@ -77,9 +79,12 @@ impl Numbers {
                 false => parameter.name.to_owned(),
             })
         });
+        let each = parameters.iter().zip(&lists);
+        let are_whole = each.flat_map(|(parameter, list)| vec![parameter.is_whole(); list.len()]);
         Self {
             names: names.collect(),
             values: lists.concat(),
+            are_whole: are_whole.collect(),
             parameters: parameters.iter().zip(&lists).map(|(p, list)| (p.name, list.len())).collect(),
         }
     }

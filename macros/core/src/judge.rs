@@ -101,9 +101,6 @@ pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding>
     if options.fit && source.declaration.has_functions() {
         findings.push(Finding::new(word("fit"), Violation::FitOfFunctions));
     }
-    if options.fit && source.declaration.has_whole_exponents() {
-        findings.push(Finding::new(word("fit"), Violation::FitOfExponents));
-    }
     findings
 }
 

@@ -43,7 +43,13 @@ impl Parameter {
     /// Whether it takes a list of values: one for each term of a sum, or those that a function is built from.
     #[must_use]
     pub fn is_list(&self) -> bool {
-        self.form != Form::Number
+        !matches!(self.form, Form::Number | Form::Exponent)
+    }
+
+    /// Whether its values are whole numbers, exponents from 0 to 64, by which nothing is differentiated.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        matches!(self.form, Form::Exponent | Form::Exponents)
     }
 
     /// Multiplies by powers of a factor what is in powers of Pa among the values of this parameter, so that
@@ -64,7 +70,7 @@ impl Parameter {
             return true;
         }
         let (first, step) = match self.form {
-            Form::Number | Form::List => (0, 1),
+            Form::Number | Form::List | Form::Exponent | Form::Exponents => (0, 1),
             Form::Points => (1, 2),
             Form::Function => return false,
         };
@@ -102,12 +108,49 @@ impl Unit {
 }
 
 /// The form of a parameter as values at run time.
+///
+/// ```
+/// use piola::material::{Declared, Form};
+/// use piola::{Inversion, material};
+///
+/// /// Rivlin's series.
+/// #[material(domain(J > 0.0))]
+/// fn Rivlin(
+///     [l1, l2, l3]: [f64; 3],
+///     /// Coefficients, Pa.
+///     c: Vec<f64>,
+///     /// Exponents of I1b − 3.
+///     i: Vec<u32>,
+///     /// Exponents of I2b − 3.
+///     j: Vec<u32>,
+///     /// Bulk modulus, Pa.
+///     K: f64,
+/// ) -> f64 {
+///     sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p])) + K / 2.0 * (J - 1.0).powi(2)
+/// }
+///
+/// # fn main() -> Result<(), piola::material::MaterialError> {
+/// let forms = Rivlin::DESCRIPTION.parameters.iter().map(|parameter| parameter.form);
+/// assert!(forms.eq([Form::List, Form::Exponents, Form::Exponents, Form::Number]));
+/// // C10, C01 and C20.
+/// let terms: [&[f64]; 4] = [&[1.6e5, 2e4, 1e3], &[1.0, 0.0, 2.0], &[0.0, 1.0, 0.0], &[1e7]];
+/// let rubber = Rivlin::from_values(&terms, Inversion::Refuse)?;
+/// assert_eq!(rubber.i(), [1, 0, 2]);
+/// // The shear modulus is 2 (C10 + C01).
+/// assert!((rubber.moduli().mu / 3.6e5 - 1.0).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// One number.
     Number,
     /// One number for each term of a sum.
     List,
+    /// One whole number, an exponent.
+    Exponent,
+    /// One whole number for each term of a sum, its exponent.
+    Exponents,
     /// Points of a function or of one of its derivatives: x1, y1, x2, y2, ….
     Points,
     /// Numbers from which a function is built in a way of its own, if it can be built from numbers.

@@ -47,7 +47,8 @@ pub trait Fittable: Declared {
     fn values(&self) -> Vec<Vec<f64>>;
 
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
-    /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p.
+    /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p. Whole exponents do not
+    /// change, and have zeros.
     ///
     /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
     /// meaningless and may be NaN.

@@ -168,8 +168,13 @@ impl<R: Real> Machine<'_, R> {
             Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
                 exp_quotient([n(a), n(a_exp)], [n(b), n(b_exp)])
             }
-            Op::Logarithm(_) | Op::Pair { .. } | Op::Function(..) | Op::FunctionQuotient(..) => {
-                unreachable!("{op:?} is no number, or of a function that is a parameter")
+            Op::Logarithm(_)
+            | Op::Pair { .. }
+            | Op::Function(..)
+            | Op::FunctionQuotient(..)
+            | Op::WholePower(..)
+            | Op::WholePowerQuotient(..) => {
+                unreachable!("{op:?} is no number, or of a function or an exponent that is a parameter")
             }
         }
     }

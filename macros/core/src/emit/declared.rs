@@ -27,6 +27,8 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
             Unit::Dimensionless => quote!(__p::Unit::Dimensionless),
         }));
         let form = match &parameter.kind {
+            Kind::Number if parameter.is_whole => quote!(__p::Form::Exponent),
+            Kind::List(_) if parameter.is_whole => quote!(__p::Form::Exponents),
             Kind::Number => quote!(__p::Form::Number),
             Kind::List(_) => quote!(__p::Form::List),
             Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::FORM),

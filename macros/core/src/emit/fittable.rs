@@ -19,6 +19,10 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
     let values = declaration.parameters.iter().map(|parameter| {
         let name = &parameter.name;
         match parameter.kind {
+            Kind::List(_) if parameter.is_whole => {
+                quote!(self.#name.iter().map(|&value| f64::from(value)).collect())
+            }
+            _ if parameter.is_whole => quote!(::std::vec![f64::from(self.#name)]),
             Kind::List(_) => quote!(self.#name.to_vec()),
             Kind::Number | Kind::Function(_) => quote!(::std::vec![self.#name]),
         }

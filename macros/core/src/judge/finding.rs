@@ -57,8 +57,6 @@ pub(crate) enum Violation {
     ExtendWithoutDomain,
     /// `fit` of an energy with functions among its parameters.
     FitOfFunctions,
-    /// `fit` of an energy with whole exponents among its parameters.
-    FitOfExponents,
 }
 
 /// Stress at rest, with what decides how it can be removed.

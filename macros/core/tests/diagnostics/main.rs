@@ -522,7 +522,6 @@ fn whole_exponents_are_exponents_alone() {
         check(arguments, &item, &[(tokens, expected)]);
     };
     let used = "sum(|p| d[p] * (I1 - 3.0).powi(k[p])) * (J - 1.0).powi(n)";
-    says("prestressed, fit", used, "fit", "not whole exponents: remove `fit`");
     says("prestressed, admissible(n > 1)", used, "n", "at most 64: remove this condition");
     says("prestressed, admissible(k[p] > 1)", used, "k", "at most 64: remove this condition");
     let with = |term: &str| format!("{used} + {term}");
