@@ -67,6 +67,12 @@ fn Springs(
     sum(|p| c[p] * sum(|l| (l - 1.0).powi(n[p]))) + sum(|l| (l * l - 1.0).powi(m))
 }
 
+/// Powers alone, which may be small at rest without being zero by their form.
+#[material(prestressed)]
+fn Products([l1, l2, l3]: [f64; 3], c: Vec<f64>, n: Vec<u32>, m: Vec<u32>) -> f64 {
+    sum(|p| c[p] * sum(|l| (l - 1.0).powi(n[p]) * (l * l - 1.0).powi(m[p])))
+}
+
 const ORDERS: [[u32; 2]; 9] = [[1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [3, 0], [2, 1], [1, 2], [0, 3]];
 const COEFFICIENTS: [f64; 9] = [1.8e5, 2.1e4, 3e3, 1.1e3, 5e2, 7e2, 1.3e2, 2.2e1, 4e1];
 const BULK: f64 = 1e6;
@@ -145,6 +151,23 @@ fn small_strains_keep_their_digits() -> Result<(), MaterialError> {
         let strains = [1.0, 0.3, -0.7].map(|part| 10f64.powi(-digits) * part);
         let [a, b] = [series.gradient_at_strains(strains), written.gradient_at_strains(strains)];
         check(&a, &b, 0.0, &format!("{strains:?}"));
+    }
+    Ok(())
+}
+
+/// ψ1 = n sⁿ⁻¹ tᵐ + m sⁿ tᵐ⁻¹ 2 (1 + s) with t = 2 s + s², to a few u of each term.
+#[test]
+fn powers_that_are_small_at_rest_keep_their_digits() -> Result<(), MaterialError> {
+    for (n, m) in [(2u32, 0u32), (3, 0), (0, 2), (0, 4), (2, 1), (1, 2), (3, 3)] {
+        let products = Products::new(vec![1.0], vec![n], vec![m])?;
+        for digits in 1..=14 {
+            let s = 10f64.powi(-digits);
+            let of = |x: f64, n: u32| (x.powi(n as i32), f64::from(n) * x.powi(n as i32 - 1));
+            let (of_s, of_t) = (of(s, n), of(s * (2.0 + s), m));
+            let expected = of_s.1 * of_t.0 + of_s.0 * of_t.1 * 2.0 * (1.0 + s);
+            let [found, ..] = products.gradient_at_strains([s, 0.0, 0.0]);
+            check(&[found], &[expected], 0.0, &format!("s^{n} t^{m} at {s}"));
+        }
     }
     Ok(())
 }

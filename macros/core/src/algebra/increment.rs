@@ -68,8 +68,12 @@ impl Increments {
             Node::Function(f, order, a) => {
                 self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
             }
-            Node::WholePower(base, n, order) => self
-                .chain_rule(graph, base, |graph, a, b| graph.leaf(Node::WholePowerQuotient(a, b, n, order))),
+            Node::WholePower(base, n, order) => {
+                let accurate = self.accurate(graph, base);
+                self.chain_rule(graph, base, |graph, _, b| {
+                    graph.leaf(Node::WholePowerQuotient(accurate, b, n, order))
+                })
+            }
             Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
             // No other nodes arise from differentiation inside the domain; NaN would be noticed.
             _ => graph.leaf(Node::Float(f64::NAN.to_bits())),
@@ -95,6 +99,8 @@ impl Increments {
                 let (f, g) = (graph.power(base, exponent), graph.product(others));
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
                 let f_at_rest = substitute_rest(graph, f);
+                // Whether a whole power vanishes at rest, only its exponent tells.
+                let g = if has_whole_powers(graph, g) { self.accurate(graph, g) } else { g };
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)
             }
@@ -123,6 +129,11 @@ impl Increments {
         let outer = outer(graph, a, b);
         graph.mul(outer, inner)
     }
+}
+
+/// Whether an expression has powers whose exponents are parameters.
+fn has_whole_powers(graph: &Graph, e: Id) -> bool {
+    graph.reachable(&[e]).into_iter().any(|id| matches!(graph.node(id), Node::WholePower(..)))
 }
 
 /// Whether an expression that depends on the stretches is zero at rest by its form.
