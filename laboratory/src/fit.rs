@@ -65,8 +65,12 @@ pub struct FitSettings {
     pub volume: Volume,
     /// The measure of differences, relative by default.
     pub difference: Difference,
-    /// Parameters that keep their values: names as declared, a list with all its entries, or an entry as
-    /// `alpha_1`, counted from 1.
+    /// Parameters that keep their values: names as declared, a list with all its entries or a function with
+    /// all its values, or one of these as `alpha_1` or `f_1`, counted from 1.
+    ///
+    /// A function has the values that its type gives a fit
+    /// ([`Univariate::values`](piola::Univariate::values)), without any none to be sought. Hold those that
+    /// keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself where x is 1.
     pub held: Vec<String>,
     /// Number of further starts from parameters at random about the given ones, default 20, at most 10 000.
     pub restarts: usize,

@@ -1,6 +1,7 @@
 //! Fits whose answer is known.
 
 use nalgebra_34::{DMatrix, DVector};
+use piola::{Real, Spline, Univariate};
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
 use piola_laboratory::fit::{
@@ -90,6 +91,72 @@ fn parameters_are_recovered_from_what_they_make() -> Outcome {
     let (ogden, start) =
         (Ogden::new([6e5, -2e4], [1.5, -2.5], 2e6)?, Ogden::new([4e5, -4e4], [1.8, -2.0], 1e6)?);
     recovers(&ogden, &start, free, &[Uniaxial, Equibiaxial]);
+    Ok(())
+}
+
+/// Valanis and Landel's energy with a curve for the stretches.
+#[piola::material(fit)]
+fn Drawn([l1, l2, l3]: [f64; 3], f: Spline, kappa: f64) -> f64 {
+    f(l1) + f(l2) + f(l3) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+#[test]
+fn ordinates_of_a_curve_are_recovered_from_what_they_make() -> Outcome {
+    let drawn = |[a, b, c, d]: [f64; 4], kappa: f64| {
+        let f = Spline::through(&[[0.3, a], [0.7, b], [1.0, 0.0], [1.7, c], [2.6, d]]);
+        Drawn::new(f?, kappa)
+    };
+    let wanted = drawn([-9e5, -3e5, 4e5, 1.2e6], 2e6)?;
+    let start = drawn([-6e5, -2e5, 3e5, 6e5], 1e6)?;
+    recovers(&wanted, &start, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
+
+    let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
+    let settings = FitSettings::default().with_volume(Volume::Free).with_restarts(0);
+    let found = fit_parameters(&start, &data, &settings.clone().with_held(["f_2"]))?;
+    let names: Vec<_> = found.numbers.iter().map(|number| number.name.as_str()).collect();
+    assert_eq!(names, ["f_1", "f_2", "f_3", "f_4", "kappa"]);
+    assert_eq!((found.numbers[1].standing, found.numbers[1].value), (Standing::Held, -2e5));
+    assert!(found.difference > 1e-3, "{found:?}");
+    // The curve as a whole.
+    let found = fit_parameters(&start, &data, &settings.with_held(["f"]))?;
+    assert!(found.numbers[..4].iter().all(|number| number.standing == Standing::Held), "{found:?}");
+    Ok(())
+}
+
+/// φ(s) = −limit ln(1 − s/limit), a curve without values for a fit.
+#[derive(Clone, Debug, PartialEq)]
+struct Locking(f64);
+
+impl Univariate for Locking {
+    fn admits<R: Real>(&self, s: R) -> R::Mask {
+        s.less(R::splat(self.0))
+    }
+    fn value<R: Real>(&self, s: R) -> R {
+        R::splat(-self.0) * (-(s / R::splat(self.0))).ln_1p()
+    }
+    fn derivative<R: Real>(&self, s: R) -> R {
+        R::splat(self.0) / (R::splat(self.0) - s)
+    }
+    fn second_derivative<R: Real>(&self, s: R) -> R {
+        let left = R::splat(self.0) - s;
+        R::splat(self.0) / (left * left)
+    }
+}
+
+/// Gent's rubber, whose chains lock in a way of their own.
+#[piola::material(domain(J > 0.0), fit)]
+fn Locked([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64, f: Locking) -> f64 {
+    mu / 2.0 * f(I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+}
+
+#[test]
+fn a_curve_without_values_is_held() -> Outcome {
+    let (wanted, start) = (Locked::new(4e5, 1e6, Locking(9.0))?, Locked::new(1e5, 3e5, Locking(9.0))?);
+    recovers(&wanted, &start, Volume::Free, &[Mode::Uniaxial]);
+    let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial]);
+    let found = fit_parameters(&start, &data, &FitSettings::default().with_volume(Volume::Free))?;
+    assert_eq!(found.numbers.len(), 2);
+    assert_eq!(found.values.last(), Some(&Vec::new()));
     Ok(())
 }
 

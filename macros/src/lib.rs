@@ -27,7 +27,7 @@ use proc_macro::TokenStream;
 ///
 /// The lists of one sum have one length: a number, `N` with `const N: usize`, or, of vectors, a length known
 /// at run time, which `new` checks. A material with a vector, a whole exponent or a function is `Clone`, others
-/// are `Copy` and can have parameters for each point of a batch.
+/// are `Copy`.
 ///
 /// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
 /// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's
@@ -60,7 +60,8 @@ use proc_macro::TokenStream;
 ///   documentation and programs;
 /// * `prestressed`: stress at rest is intended;
 /// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all
-///   conditions on its parameters with respect to these.
+///   conditions on its parameters with respect to these; of a function with respect to its
+///   `Univariate::values`;
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
 ///   as its parameters, which are checked when they are read; functions among them must implement both as
 ///   well.

@@ -104,7 +104,7 @@ macro_rules! catalogue {
             ///
             /// # Errors
             /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`];
-            /// [`NotFittable`](piola::material::MaterialError::NotFittable) if a parameter is a function.
+            /// [`NotFittable`](piola::material::MaterialError::NotFittable) if it is not declared with `fit`.
             pub fn visit_fittable<V: FittableVisitor>(
                 &self,
                 values: &[&[f64]],

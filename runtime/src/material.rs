@@ -21,6 +21,7 @@ use crate::lanes::{Mask, Real};
 mod combine;
 pub(crate) mod constructor;
 mod description;
+pub(crate) mod differences;
 mod error;
 mod fittable;
 mod mixed;

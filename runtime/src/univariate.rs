@@ -188,6 +188,45 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
             expected: format!("a {type_name} cannot be given by numbers, only in Rust"),
         })
     }
+
+    /// The values that a fit may change, such as ordinates or coefficients; see
+    /// [`Fittable`](crate::material::Fittable).
+    ///
+    /// None by default: then a fit holds the function as it is.
+    fn values(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// The function with other [`values`](Univariate::values), all else being equal.
+    ///
+    /// φ should depend smoothly on each value, at least within 3 % of it.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`] if there are more or fewer values; whatever else makes them inadmissible. By
+    /// default there must be none.
+    ///
+    /// ```
+    /// use piola::material::MaterialError;
+    /// use piola::{Spline, Univariate};
+    ///
+    /// # fn main() -> Result<(), MaterialError> {
+    /// // The ordinate at x = 1, which keeps the rest state free of stress, is not to be changed.
+    /// let force = Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5]])?;
+    /// assert_eq!(force.values(), [-2e5, 1e5]);
+    /// let softer = force.with_values(&[-1e5, 5e4])?;
+    /// assert!(softer.points().eq([[0.5, -1e5], [1.0, 0.0], [2.0, 5e4]]));
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
+        if values.is_empty() {
+            return Ok(self.clone());
+        }
+        let type_name = std::any::type_name::<Self>();
+        Err(MaterialError::Shape {
+            expected: format!("a {type_name} has no values to be changed, but {} are given", values.len()),
+        })
+    }
 }
 
 /// The derivative of order N of a function, 0 … 2.
@@ -397,5 +436,9 @@ mod tests {
     fn a_function_without_numbers_says_so() {
         let error = Logarithm::from_values(&[1.0]).unwrap_err().to_string();
         assert!(error.contains("only in Rust"), "{error}");
+        assert!(Logarithm.values().is_empty());
+        assert_eq!(Logarithm.with_values(&[]), Ok(Logarithm));
+        let error = Logarithm.with_values(&[1.0, 2.0]).unwrap_err().to_string();
+        assert!(error.contains("no values to be changed, but 2 are given"), "{error}");
     }
 }

@@ -1,6 +1,6 @@
 //! Functions as parameters: they may end, and a material ends with them.
 
-use piola::material::{Declared, MaterialError};
+use piola::material::{Declared, Fittable, Limit, MaterialError};
 use piola::{Inversion, Material, Real, Univariate, material};
 
 /// φ(s) = −limit/2 ln(1 − s/limit) for s < limit.
@@ -219,4 +219,140 @@ fn every_point_has_the_end_of_its_own_function() -> Result<(), Box<dyn std::erro
 fn the_domain_names_the_functions() {
     assert_eq!(ByInvariants::DESCRIPTION.domain, "J > 0 where f is defined");
     assert_eq!(OfStretches::DESCRIPTION.domain, "every deformation where f is defined");
+}
+
+/// φ(x) = c xⁿ, c in Pa.
+#[derive(Clone, Debug, PartialEq)]
+struct Power {
+    c: f64,
+    n: f64,
+}
+
+impl Univariate for Power {
+    #[inline(always)]
+    fn value<R: Real>(&self, x: R) -> R {
+        R::splat(self.c) * x.powf(R::splat(self.n))
+    }
+    #[inline(always)]
+    fn derivative<R: Real>(&self, x: R) -> R {
+        R::splat(self.c * self.n) * x.powf(R::splat(self.n - 1.0))
+    }
+    #[inline(always)]
+    fn second_derivative<R: Real>(&self, x: R) -> R {
+        R::splat(self.c * self.n * (self.n - 1.0)) * x.powf(R::splat(self.n - 2.0))
+    }
+    fn values(&self) -> Vec<f64> {
+        vec![self.c, self.n]
+    }
+    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
+        match *values {
+            [c, n] if n > 0.0 => Ok(Self { c, n }),
+            _ => Err(MaterialError::Shape { expected: "c and n > 0".into() }),
+        }
+    }
+}
+
+/// A power of the mean square of the stretches beside a neo-Hookean solid, and a function that is held.
+#[material(domain(J > 0.0, f(I1b / 3.0) < 20.0 * mu), admissible(mu < 10.0), extend, fit)]
+pub fn Fitted([l1, l2, l3]: [f64; 3], mu: f64, f: Power, g: Locking) -> f64 {
+    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + f(I1b / 3.0) + g(I1b - 3.0)
+}
+
+/// Springs, of which as many stiffnesses as wanted stand in the arguments of a function.
+#[material(domain(J > 0.0), fit)]
+pub fn Sprung<const N: usize>([l1, l2, l3]: [f64; 3], a: f64, b: [f64; N], k: f64, f: Power) -> f64 {
+    f(a * l1) + f(a * l2) + f(a * l3) + sum(|p| f(b[p] * l1) + f(b[p] * l2) + f(b[p] * l3)) - k * J.ln()
+}
+
+fn fitted() -> Fitted {
+    let (f, g) = (Power { c: 1.5, n: 2.5 }, Locking { limit: 40.0 });
+    Fitted::new(2.0, f, g).expect("a material")
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, scale: f64) {
+    // 470 u of what is differenced, and a few roundings of it, by values near 1.
+    assert!((found - expected).abs() <= 2000.0 * f64::EPSILON * scale, "{found} for {expected}");
+}
+
+#[test]
+fn values_of_functions_have_derivatives() {
+    let solid = fitted();
+    assert_eq!(solid.values(), [vec![2.0], vec![1.5, 2.5], vec![]]);
+    let stretches: [f64; 3] = [1.7, 1.1, 0.6];
+    let [by_mu, by_c, by_n] = solid.gradient_by_parameters(stretches)[..] else { panic!("three numbers") };
+    let j: f64 = stretches.iter().product();
+    let i1b = j.powf(-2.0 / 3.0) * stretches.iter().map(|l| l * l).sum::<f64>();
+    let (x, n, c) = (i1b / 3.0, 2.5, 1.5);
+    for (i, l) in stretches.into_iter().enumerate() {
+        // dx/dλ = 2/3 (J^(−2/3) λ − I1b/(3 λ)).
+        let dx = 2.0 / 3.0 * (j.powf(-2.0 / 3.0) * l - i1b / (3.0 * l));
+        close(by_mu[i], l - 1.0 / l, 1.0);
+        close(by_c[i], n * x.powf(n - 1.0) * dx, 10.0);
+        close(by_n[i], c * x.powf(n - 1.0) * (1.0 + n * x.ln()) * dx, 10.0);
+    }
+    let extended = solid.clone().with_inversion(Inversion::Extend { epsilon: 0.9 }).expect("restoring");
+    assert_eq!(extended.gradient_by_parameters(stretches), solid.gradient_by_parameters(stretches));
+}
+
+#[test]
+fn constraints_have_derivatives_by_values_of_functions() {
+    let solid = fitted();
+    let [upper, shear, bulk] = <[_; 3]>::try_from(solid.constraints()).expect("three");
+    assert_eq!((upper.value, upper.gradient), (8.0, vec![-1.0, 0.0, 0.0]));
+    // μ + 2/3 f′(1) + 2 g′(0) with f′(1) = c n and g′(0) = 1/2; the bulk modulus is 2/3 μ.
+    assert_eq!(shear.limit, Limit::ShearModulus);
+    for (found, expected) in
+        [shear.value].iter().chain(&shear.gradient).zip([2.0 + 2.5 + 1.0, 1.0, 5.0 / 3.0, 1.0])
+    {
+        close(*found, expected, 10.0);
+    }
+    assert_eq!(bulk.limit, Limit::BulkModulus);
+    for (found, expected) in [bulk.value].iter().chain(&bulk.gradient).zip([4.0 / 3.0, 2.0 / 3.0, 0.0, 0.0]) {
+        close(*found, expected, 10.0);
+    }
+    // 20 μ − f(x) with x = I1b/3 = 1.6.
+    let [domain] = <[_; 1]>::try_from(solid.domain_constraints(tension())).expect("one");
+    let x: f64 = (4.0 + 2.0 / 2.0) / 3.0;
+    let power = x.powf(2.5);
+    let expected = [40.0 - 1.5 * power, 20.0, -power, -1.5 * power * x.ln()];
+    for (found, expected) in [domain.value].iter().chain(&domain.gradient).zip(expected) {
+        close(*found, expected, 50.0);
+    }
+}
+
+/// At constant volume, twice as long.
+fn tension() -> [f64; 3] {
+    [2.0, 0.5f64.sqrt(), 0.5f64.sqrt()]
+}
+
+#[test]
+fn conditions_beyond_the_second_derivative_of_a_function_are_differenced() {
+    // f = c x², so that k = 2 c (a² + Σ b²) leaves no stress; μ = c (a² + Σ b²) + k/2 and λ = 0.
+    let f = Power { c: 1.5, n: 2.0 };
+    let solid = Sprung::new(2.0, [0.5, 1.5], 2.0 * 1.5 * 6.5, f).expect("a material");
+    let [shear, _] = <[_; 2]>::try_from(solid.constraints()).expect("two");
+    close(shear.value, 2.0 * 1.5 * 6.5, 20.0);
+    // By a: 2 c a; by k: ½; by c: 6.5. By n, of ½ c Σ n (n − 1) bⁿ: ½ c Σ (2 n − 1 + n (n − 1) ln b) bⁿ.
+    let by_n = |b: f64| 0.75 * (3.0 + 2.0 * b.ln()) * b * b;
+    let expected = [6.0, 1.5, 4.5, 0.5, 6.5, by_n(2.0) + by_n(0.5) + by_n(1.5)];
+    assert_eq!(shear.gradient.len(), expected.len());
+    for (found, expected) in shear.gradient.iter().zip(expected) {
+        close(*found, expected, 40.0);
+    }
+}
+
+#[test]
+fn a_material_is_made_anew_with_other_values() {
+    let solid = fitted().with_inversion(Inversion::Extend { epsilon: 0.2 }).expect("restoring");
+    let other = Fittable::with_values(&solid, &[&[3.0], &[2.0, 4.0], &[]]).expect("admissible");
+    assert_eq!(
+        other,
+        Fitted::new(3.0, Power { c: 2.0, n: 4.0 }, Locking { limit: 40.0 }).expect("admissible")
+    );
+    let error = |values: &[&[f64]]| Fittable::with_values(&solid, values).expect_err("refused").to_string();
+    assert!(error(&[&[3.0], &[2.0, 4.0], &[1.0]]).contains("no values to be changed, but 1 are given"));
+    assert!(error(&[&[3.0], &[2.0, -4.0], &[]]).contains("n > 0"));
+    assert!(error(&[&[30.0], &[2.0, 4.0], &[]]).contains("mu < 10"));
+    assert!(error(&[&[3.0]]).contains("3 parameters"));
 }

@@ -1,8 +1,7 @@
 //! An energy whose parameters are sought, with its type out of sight, and its parameters as one row of
 //! numbers.
 
-use piola::Inversion;
-use piola::material::{Constraint, Description, Fittable, MaterialError};
+use piola::material::{Constraint, Description, Fittable, Form, MaterialError};
 
 use crate::specimen::Specimen;
 
@@ -11,7 +10,7 @@ pub trait Candidate: Specimen {
     /// Names, formula and domain of the declaration.
     fn description(&self) -> Description;
 
-    /// The parameters, one list for each of the description.
+    /// The parameters, one list for each of the description: [`Fittable::values`].
     fn values(&self) -> Vec<Vec<f64>>;
 
     /// The energy with these parameters and without extension.
@@ -41,7 +40,7 @@ impl<M: Fittable + 'static> Candidate for M {
 
     fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, MaterialError> {
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        Ok(Box::new(M::from_values(&values, Inversion::Refuse)?))
+        Ok(Box::new(Fittable::with_values(self, &values)?))
     }
 
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]> {
@@ -57,16 +56,16 @@ impl<M: Fittable + 'static> Candidate for M {
     }
 }
 
-/// The parameters of an energy, lists entry by entry.
+/// The parameters of an energy, lists and functions value by value.
 #[derive(Clone, Debug)]
 pub(super) struct Numbers {
-    /// Such as `kappa`, or `mu_1` for the first entry of a list.
+    /// Such as `kappa`, or `mu_1` for the first entry of a list, `f_1` for the first value of a function.
     pub(super) names: Vec<String>,
     pub(super) values: Vec<f64>,
     /// Whether each is an exponent that is whole, and so cannot change by little.
     pub(super) are_whole: Vec<bool>,
-    /// The parameter that each belongs to: its name and the number of its entries.
-    parameters: Vec<(&'static str, usize)>,
+    /// The parameter that each belongs to: its name, the number of its entries, and its form.
+    parameters: Vec<(&'static str, usize, Form)>,
 }
 
 impl Numbers {
@@ -85,13 +84,14 @@ impl Numbers {
             names: names.collect(),
             values: lists.concat(),
             are_whole: are_whole.collect(),
-            parameters: parameters.iter().zip(&lists).map(|(p, list)| (p.name, list.len())).collect(),
+            parameters: parameters.iter().zip(&lists).map(|(p, list)| (p.name, list.len(), p.form)).collect(),
         }
     }
 
     /// Whether a number goes by that name, or is an entry of the list of that name.
     pub(super) fn is_named(&self, number: usize, name: &str) -> bool {
-        let owners = self.parameters.iter().flat_map(|&(owner, length)| std::iter::repeat_n(owner, length));
+        let owners =
+            self.parameters.iter().flat_map(|&(owner, length, _)| std::iter::repeat_n(owner, length));
         self.names[number] == name || owners.into_iter().nth(number) == Some(name)
     }
 
@@ -103,11 +103,12 @@ impl Numbers {
             rest = after;
             list.to_vec()
         };
-        self.parameters.iter().map(|&(_, length)| next(length)).collect()
+        self.parameters.iter().map(|&(_, length, _)| next(length)).collect()
     }
 
     /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of
-    /// a sum that change places are the same energy, those of each sum by themselves.
+    /// a sum that change places are the same energy, those of each sum by themselves. Values of a function are
+    /// compared in their order.
     pub(super) fn differing(
         &self,
         one: &[f64],
@@ -116,11 +117,13 @@ impl Numbers {
     ) -> Vec<usize> {
         let mut begin = 0;
         let mut differing = Vec::new();
-        for &(_, length) in &self.parameters {
+        for &(_, length, form) in &self.parameters {
             let list = begin..begin + length;
             let [one, other] = [one, other].map(|values| {
                 let mut sorted = values[list.clone()].to_vec();
-                sorted.sort_by(f64::total_cmp);
+                if form == Form::List {
+                    sorted.sort_by(f64::total_cmp);
+                }
                 sorted
             });
             let mut pairs = list.clone().zip(one.into_iter().zip(other));

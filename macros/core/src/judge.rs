@@ -98,9 +98,6 @@ pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding>
     if is_well_formed && options.extend.is_some() && source.volume == Volume::Any {
         findings.push(Finding::new(word("extend"), Violation::ExtendWithoutDomain));
     }
-    if options.fit && source.declaration.has_functions() {
-        findings.push(Finding::new(word("fit"), Violation::FitOfFunctions));
-    }
     findings
 }
 

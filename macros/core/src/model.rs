@@ -237,15 +237,13 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         findings.extend(judge::fractions(&graph, &source));
     }
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
-    // Moduli of a stressed rest state determine no response; those with functions are known to the
-    // constructor alone.
-    let are_known = !options.prestressed && !declaration.has_functions();
     let constraints = if options.fit {
         let admissible = constrained.into_iter().enumerate();
         let admissible = admissible.filter_map(|(k, value)| Some((Limit::Admissible(k), value?)));
         let bulk = bulk(&mut graph, moduli);
         let moduli = [(Limit::ShearModulus, moduli[0]), (Limit::BulkModulus, bulk)];
-        let moduli = moduli.into_iter().filter(|_| are_known);
+        // Moduli of a stressed rest state determine no response.
+        let moduli = moduli.into_iter().filter(|_| !options.prestressed);
         let domain = bounds.iter().enumerate().map(|(k, &bound)| (Limit::Domain(k), bound));
         let all: Vec<_> = admissible.chain(moduli).chain(domain).collect();
         all.into_iter().map(|(limit, value)| constraint(&mut graph, &variables, limit, value)).collect()
@@ -256,6 +254,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         findings.extend(judge::fractions(&graph, &source));
     }
     judge::report(&mut graph, &source, findings, diagnostics);
+    // Those with functions are known to the constructor alone.
+    let are_known = !options.prestressed && !declaration.has_functions();
     let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     Some(Model {
         graph,

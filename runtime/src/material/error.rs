@@ -143,7 +143,7 @@ impl fmt::Display for MaterialError {
             }
             Self::NotFittable { material } => write!(
                 f,
-                "{material} has no derivatives of its stress by its parameters; declare it with `fit` and numbers as parameters"
+                "{material} has no derivatives of its stress by its parameters; declare it with `fit`"
             ),
             Self::DoesNotRestore { condition, given } => write!(
                 f,

@@ -1,6 +1,8 @@
 //! Derivatives with respect to the parameters, for fits to measurements.
 
-use super::Declared;
+use super::{Declared, Inversion, MaterialError};
+#[cfg(doc)]
+use crate::univariate::Univariate;
 
 /// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
 ///
@@ -43,12 +45,25 @@ use super::Declared;
 )]
 pub trait Fittable: Declared {
     /// The values of the parameters, one list for each parameter of the description in its order, as
-    /// [`Declared::from_values`] takes them.
+    /// [`with_values`](Fittable::with_values) takes them: those of a number or a list as
+    /// [`Declared::from_values`] does, those of a function as [`Univariate::values`] has them.
     fn values(&self) -> Vec<Vec<f64>>;
+
+    /// The material with other values, as [`values`](Fittable::values) lists them, without extension.
+    ///
+    /// A function without values stays what it is.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type, and
+    /// those of [`Univariate::with_values`].
+    fn with_values(&self, values: &[&[f64]]) -> Result<Self, MaterialError> {
+        Self::from_values(values, Inversion::Refuse)
+    }
 
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
     /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p. Whole exponents do not
-    /// change, and have zeros.
+    /// change, and have zeros. Those by the values of a function are central differences of sixth order, with
+    /// steps of about 1/128 of each value; NaN where the function refuses such values.
     ///
     /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
     /// meaningless and may be NaN.

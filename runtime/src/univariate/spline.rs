@@ -231,7 +231,33 @@ impl Univariate for Spline {
         }
         Self::through(points)
     }
+
+    /// The ordinates φ′ of the control points, Pa, apart from one at x = 1: it is kept, and with it a rest
+    /// state without stress.
+    fn values(&self) -> Vec<f64> {
+        self.points().filter(|&[x, _]| x != REST).map(|[_, force]| force).collect()
+    }
+
+    /// Replaces the ordinates of the control points, apart from one at x = 1.
+    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
+        let mut rest = values.iter();
+        let mut next = || rest.next().copied();
+        let points = self.points().map(|[x, force]| Some([x, if x == REST { force } else { next()? }]));
+        match points.collect::<Option<Vec<_>>>() {
+            Some(points) if rest.as_slice().is_empty() => Self::through(&points),
+            _ => Err(MaterialError::Shape {
+                expected: format!(
+                    "this spline has {} ordinates to be changed, but {} are given",
+                    self.values().len(),
+                    values.len()
+                ),
+            }),
+        }
+    }
 }
+
+/// The stretch of a length, an area or a volume at rest.
+const REST: f64 = 1.0;
 
 /// The quotients of φ, piece by piece.
 struct Energies<'a>(&'a Spline);
@@ -326,6 +352,22 @@ mod tests {
             let error = spline.derivative_quotient(x, x * (1.0 + 1e-15)) - spline.second_derivative(x);
             assert!(error.abs() <= 1e-13 * spline.second_derivative(x).abs(), "beside {x}");
         }
+    }
+
+    #[test]
+    fn ordinates_are_replaced_and_the_rest_stays() {
+        let spline = Spline::through(&POINTS).unwrap();
+        assert_eq!(spline.values(), [-3.0, -1.5, 1.0, 4.0]);
+        assert_eq!(spline.with_values(&spline.values()), Ok(spline.clone()));
+        // Where x is 1 alone decides: an ordinate that comes to be 0 is a value still.
+        let other = spline.with_values(&[-3.0, 0.0, 1.0, 4.0]).unwrap();
+        assert_eq!(other.values(), [-3.0, 0.0, 1.0, 4.0]);
+        assert!(other.derivative(0.5).abs() <= 1e-14 && other.derivative(1.0) == 0.0);
+        for values in [&[1.0; 3][..], &[1.0; 5]] {
+            let error = spline.with_values(values).unwrap_err().to_string();
+            assert!(error.contains("4 ordinates to be changed"), "{error}");
+        }
+        assert!(spline.with_values(&[f64::NAN; 4]).is_err());
     }
 
     #[test]

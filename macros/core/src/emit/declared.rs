@@ -3,6 +3,7 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
 use crate::read::parse::{Declaration, Kind, Typical};
@@ -47,17 +48,8 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let admissible = declaration.options.admissible.iter().map(condition_text);
 
     let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
-    let values = declaration.parameters.iter().map(|parameter| match &parameter.kind {
-        Kind::Number if parameter.is_whole => quote!(values.whole_number()?),
-        Kind::List(_) if parameter.is_whole && declaration.is_vector(parameter) => {
-            quote!(values.whole_numbers()?)
-        }
-        Kind::List(_) if parameter.is_whole => quote!(values.whole_list()?),
-        Kind::Number => quote!(values.number()?),
-        Kind::List(_) if declaration.is_vector(parameter) => quote!(values.slice().to_vec()),
-        Kind::List(_) => quote!(values.list()?),
-        Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?),
-    });
+    let values =
+        read(declaration, &|_, ty| quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?));
     let binding = (!declaration.parameters.is_empty()).then(|| quote!(let mut values =));
     let material = quote!(Self::new(#(#values),*)?);
     let material = if extends {
@@ -91,6 +83,26 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
             }
         }
     }
+}
+
+/// Each parameter as `values` give it; `function` writes those that are functions, from their names and types.
+pub(super) fn read(
+    declaration: &Declaration,
+    function: &dyn Fn(&Ident, &Type) -> TokenStream,
+) -> Vec<TokenStream> {
+    let values = declaration.parameters.iter().map(|parameter| {
+        let is_vector = declaration.is_vector(parameter);
+        match &parameter.kind {
+            Kind::Number if parameter.is_whole => quote!(values.whole_number()?),
+            Kind::Number => quote!(values.number()?),
+            Kind::List(_) if parameter.is_whole && is_vector => quote!(values.whole_numbers()?),
+            Kind::List(_) if parameter.is_whole => quote!(values.whole_list()?),
+            Kind::List(_) if is_vector => quote!(values.slice().to_vec()),
+            Kind::List(_) => quote!(values.list()?),
+            Kind::Function(ty) => function(&parameter.name, ty),
+        }
+    });
+    values.collect()
 }
 
 /// Parameters of some real material.

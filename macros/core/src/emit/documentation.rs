@@ -125,8 +125,17 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
 
 /// The effect of the word `fit`.
 fn by_parameters(declaration: &Declaration) -> String {
-    let text = "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.";
-    if declaration.options.fit { text.to_owned() } else { String::new() }
+    let text = match declaration.has_functions() {
+        _ if !declaration.options.fit => "",
+        false => {
+            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each."
+        }
+        true => {
+            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each, and by \
+             each value of a function."
+        }
+    };
+    text.to_owned()
 }
 
 /// Formulas, their shared parts first.

@@ -3,12 +3,14 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use syn::Ident;
 
+use super::declared::read;
 use super::writer::{Writer, free_name};
 use super::{condition_text, generics, naming};
-use crate::algebra::expr::{Id, Length};
+use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::model::{Constraint, Limit, Model};
-use crate::read::parse::{Declaration, Kind};
+use crate::read::parse::{Declaration, Kind, Parameter};
 
 /// `impl Fittable`, where it is asked for.
 pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStream {
@@ -24,17 +26,24 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
             }
             _ if parameter.is_whole => quote!(::std::vec![f64::from(self.#name)]),
             Kind::List(_) => quote!(self.#name.to_vec()),
-            Kind::Number | Kind::Function(_) => quote!(::std::vec![self.#name]),
+            Kind::Number => quote!(::std::vec![self.#name]),
+            Kind::Function(_) => quote!(::piola::Univariate::values(&self.#name)),
         }
     });
+    let with_values = declaration.has_functions().then(|| with_values(declaration));
 
     let by_parameters: Vec<_> = by_parameters.iter().map(|triple| triple.to_vec()).collect();
-    let derivatives = derivatives(declaration, model, &by_parameters);
+    let [l1, l2, l3] = &declaration.stretches;
+    let derivatives = derivatives(
+        declaration,
+        model,
+        &by_parameters,
+        &|material| quote!(::piola::Material::gradient(#material, [#l1, #l2, #l3])),
+    );
     let is_of_domain = |constraint: &Constraint| matches!(constraint.limit, Limit::Domain(_));
     let (of_domain, of_parameters): (Vec<_>, Vec<_>) =
         model.constraints.clone().into_iter().partition(is_of_domain);
     let of_parameters = constraints(declaration, model, &of_parameters);
-    let [l1, l2, l3] = &declaration.stretches;
     let of_domain = (!of_domain.is_empty()).then(|| {
         let constraints = constraints(declaration, model, &of_domain);
         quote! {
@@ -54,6 +63,8 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
                 ::std::vec![#(#values),*]
             }
 
+            #with_values
+
             #[allow(unused_imports, unused_mut, unused_variables, clippy::all)]
             fn gradient_by_parameters(&self, [#l1, #l2, #l3]: [f64; 3]) -> __p::Vec<[f64; 3]> {
                 use ::piola::Real;
@@ -71,15 +82,42 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
     }
 }
 
+/// The method that makes the material anew around functions with other values.
+fn with_values(declaration: &Declaration) -> TokenStream {
+    let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
+    let values =
+        read(declaration, &|name, _| quote!(::piola::Univariate::with_values(&self.#name, values.slice())?));
+    quote! {
+        fn with_values(&self, values: &[&[f64]]) -> __p::Result<Self, __p::MaterialError> {
+            let mut values = __p::Values::new(values, &[#(#names),*])?;
+            Self::new(#(#values),*)
+        }
+    }
+}
+
 /// For each number among the parameters, the array of the expressions that belong to its parameter.
-fn derivatives(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> TokenStream {
+///
+/// `of` writes the values whose derivatives these are, for a material. By the values of functions, and where
+/// a formula would need φ‴, they are differences of such values.
+fn derivatives(
+    declaration: &Declaration,
+    model: &mut Model,
+    by_parameters: &[Vec<Id>],
+    of: &dyn Fn(&Ident) -> TokenStream,
+) -> TokenStream {
     let width = Literal::usize_unsuffixed(by_parameters.first().map_or(0, Vec::len));
     let writer = Writer::new(declaration);
     let derivatives = free_name(declaration, &["derivatives", "by_parameters"]);
+    let is_difference: Vec<bool> = (0..by_parameters.len())
+        .map(|k| {
+            declaration.parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
+        })
+        .collect();
     // Numbers together, and lists of one length together: each has a program of its own.
     let mut program = |length: Option<Length>| {
-        let members: Vec<usize> =
-            (0..by_parameters.len()).filter(|&k| declaration.parameters[k].length() == length).collect();
+        let members: Vec<usize> = (0..by_parameters.len())
+            .filter(|&k| declaration.parameters[k].length() == length && !is_difference[k])
+            .collect();
         let roots: Vec<_> = members.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
         let (statements, outputs) = writer.program(&model.program(&roots));
         let arrays = outputs.chunks((outputs.len() / members.len().max(1)).max(1));
@@ -97,13 +135,57 @@ fn derivatives(declaration: &Declaration, model: &mut Model, by_parameters: &[Ve
         quote!(for #index in 0..#length { #entries })
     });
     let lists: Vec<_> = lists.collect();
+    let differences = (0..by_parameters.len()).filter(|&k| is_difference[k]).map(|k| {
+        let array = differences(declaration, &declaration.parameters[k], of);
+        let k = Literal::usize_unsuffixed(k);
+        quote!(#derivatives[#k] = #array;)
+    });
+    let differences: Vec<_> = differences.collect();
     let count = Literal::usize_unsuffixed(by_parameters.len());
     quote! {
         let mut #derivatives: [__p::Vec<[f64; #width]>; #count] = [const { __p::Vec::new() }; #count];
         #numbers
         #(#lists)*
+        #(#differences)*
         #derivatives.concat()
     }
+}
+
+/// The derivatives by each value of a parameter as differences.
+fn differences(
+    declaration: &Declaration,
+    parameter: &Parameter,
+    of: &dyn Fn(&Ident) -> TokenStream,
+) -> TokenStream {
+    let Parameter { name, kind, .. } = parameter;
+    let values = free_name(declaration, &["values", "moved_values"]);
+    let (begin, moved) = match kind {
+        Kind::Number => (quote!(&[self.#name]), quote!(#values[0])),
+        Kind::List(_) if declaration.is_vector(parameter) => (quote!(&self.#name), quote!(#values.to_vec())),
+        Kind::List(_) => (quote!(&self.#name), quote!(::core::array::from_fn(|entry| #values[entry]))),
+        Kind::Function(_) => (
+            quote!(&::piola::Univariate::values(&self.#name)),
+            quote!(::piola::Univariate::with_values(&self.#name, #values).ok()?),
+        ),
+    };
+    let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
+    let material = free_name(declaration, &["material", "moved_material"]);
+    let results = of(&material);
+    quote! {
+        __p::by_values(#begin, |#values| {
+            let #material = &Self { #name: #moved, #inversion ..::core::clone::Clone::clone(self) };
+            Some(#results)
+        })
+    }
+}
+
+/// Whether a derivative of a function occurs that functions do not give.
+fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
+    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
+        Node::Function(_, order, _) => order > 2,
+        Node::FunctionQuotient(_, order, ..) => order > 1,
+        _ => false,
+    })
 }
 
 /// The constraints, one for each entry where they are on entries.
@@ -119,8 +201,12 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
         let by_parameters = (0..declaration.parameters.len())
             .map(|k| of_numbers.iter().map(|constraint| constraint.by_parameters[k]).collect());
         let by_parameters: Vec<_> = by_parameters.collect();
-        let derivatives = derivatives(declaration, model, &by_parameters);
-        let (statements, outputs) = writer.program(&model.program(&roots));
+        let program = model.program(&roots);
+        let derivatives = derivatives(declaration, model, &by_parameters, &|material| {
+            let (statements, outputs) = writer.with_material(material.clone()).program(&program);
+            quote!({ #statements [#(#outputs),*] })
+        });
+        let (statements, outputs) = writer.program(&program);
         quote! {
             __p::Constraint::all([#(#limits),*], { #statements [#(#outputs),*] }, { #derivatives })
         }

@@ -14,6 +14,8 @@ pub(super) struct Writer<'a> {
     declaration: &'a Declaration,
     /// Names of the three stretches of the graph.
     variables: [Ident; 3],
+    /// The material whose parameters are read.
+    material: Ident,
     /// Before the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
     /// The index of sums.
@@ -45,7 +47,13 @@ impl<'a> Writer<'a> {
         let (index, threshold) = (free(&["p", "k", "entry"]), free(&["epsilon", "threshold"]));
         let strains = free(&["strains", "principal_strains"]);
         let variables = declaration.stretches.clone();
-        Self { declaration, variables, prefix, index, threshold, strains }
+        let material = format_ident!("self");
+        Self { declaration, variables, material, prefix, index, threshold, strains }
+    }
+
+    /// A writer for programs that read the parameters of another material than `self`.
+    pub(super) fn with_material(&self, material: Ident) -> Self {
+        Self { material, ..self.clone() }
     }
 
     /// A writer for programs in which stretches stand for other variables.
@@ -55,10 +63,11 @@ impl<'a> Writer<'a> {
 
     /// A field as a number of type `R`.
     fn field(&self, field: TokenStream) -> TokenStream {
+        let material = &self.material;
         if self.declaration.is_plain() {
-            quote!(__p::ParameterValue::on(&self.#field))
+            quote!(__p::ParameterValue::on(&#material.#field))
         } else {
-            quote!(R::splat(self.#field))
+            quote!(R::splat(#material.#field))
         }
     }
 
@@ -219,7 +228,8 @@ impl<'a> Writer<'a> {
     fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[impl ToTokens]) -> TokenStream {
         let Some(method) = method else { return literal(f64::NAN) };
         let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));
-        quote!(::piola::Univariate::#method(&self.#name, #(#arguments),*))
+        let material = &self.material;
+        quote!(::piola::Univariate::#method(&#material.#name, #(#arguments),*))
     }
 
     fn two(&self, values: [Value; 2], names: &Names) -> TokenStream {

@@ -155,11 +155,6 @@ impl Explainer<'_, '_> {
                 "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`"
                     .into()
             }
-            Violation::FitOfFunctions => {
-                "`fit` differentiates the stress by parameters that are numbers, not functions: \
-                remove `fit`, or declare numbers in place of the function"
-                    .into()
-            }
         }
     }
 

@@ -55,8 +55,6 @@ pub(crate) enum Violation {
     Overflow,
     /// `extend` without `domain(J > 0.0)`.
     ExtendWithoutDomain,
-    /// `fit` of an energy with functions among its parameters.
-    FitOfFunctions,
 }
 
 /// Stress at rest, with what decides how it can be removed.

@@ -403,11 +403,6 @@ fn arguments() {
     check_arguments("domain(J > 0.0), fitt", &[("fitt", "did you mean `fit`?")]);
     check_arguments("domain(J > 0.0), fit, fit", &[("fit", "`fit` is given twice")]);
     check_arguments("domain(J > 0.0), serd", &[("serd", "did you mean `serde`?")]);
-    check(
-        "fit",
-        "fn E([l1, l2, l3]: [f64; 3], f: Spline) -> f64 { f(l1) + f(l2) + f(l3) }",
-        &[("fit", "remove `fit`")],
-    );
     check_arguments("domain(J != 0.0), extend, refuse(\"no\")", &[("refuse", "either `extend` or `refuse`")]);
     check_arguments("domain(J > 0.0), refuse(no)", &[("no", "say in a string why")]);
     check_arguments("domain(J > 0.0), domein(mu > 0.0)", &[("domein", "did you mean `domain(J > 0.0)`?")]);

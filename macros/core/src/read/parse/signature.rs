@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 27] = [
+const MEMBERS: [&str; 28] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -40,6 +40,7 @@ const MEMBERS: [&str; 27] = [
     "normalised_to",
     // Of `Fittable`.
     "values",
+    "with_values",
     "gradient_by_parameters",
     "constraints",
     "domain_constraints",
