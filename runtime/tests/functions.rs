@@ -356,3 +356,38 @@ fn a_material_is_made_anew_with_other_values() {
     assert!(error(&[&[30.0], &[2.0, 4.0], &[]]).contains("mu < 10"));
     assert!(error(&[&[3.0]]).contains("3 parameters"));
 }
+
+/// Lists whose length is known at run time, whole exponents and a function in one energy.
+#[material(domain(J > 0.0), fit)]
+pub fn Data([l1, l2, l3]: [f64; 3], c: Vec<f64>, n: Vec<u32>, f: Locking) -> f64 {
+    sum(|p| c[p] * (f(I1b - 3.0).powi(n[p]) + J.ln().powi(2)))
+}
+
+#[test]
+fn data_of_every_kind_go_through_a_fit_and_differ_from_point_to_point()
+-> Result<(), Box<dyn std::error::Error>> {
+    use piola::material::{Graded, PerPoint};
+    let stretches = [1.3, 1.1, 0.8];
+    let short = Data::new(vec![2.0], vec![1], Locking { limit: 9.0 })?;
+    let long = Data::new(vec![2.0, 0.5, 0.25], vec![1, 2, 3], Locking { limit: 8.0 })?;
+    for data in [&short, &long] {
+        let values = data.values();
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        assert_eq!(data.with_values(&values)?, *data);
+        // Energies are linear in the coefficients, and exponents do not change.
+        let derivatives = data.gradient_by_parameters(stretches);
+        let coefficients = derivatives.iter().zip(data.c());
+        let [first, _, _] = data.gradient(stretches);
+        let sum: f64 = coefficients.map(|(by_coefficient, c)| by_coefficient[0] * c).sum();
+        close(sum, first, first.abs());
+        assert!(derivatives[data.c().len()..].iter().all(|by_exponent| *by_exponent == [0.0; 3]));
+    }
+    let materials = [short, long];
+    PerPoint::new(&materials)?;
+    // A scalar is lane 0.
+    for material in &materials {
+        let on_lanes = Data::on_lanes(|_| material);
+        assert_eq!(on_lanes.blocks(stretches), material.blocks(stretches));
+    }
+    Ok(())
+}
