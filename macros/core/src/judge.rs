@@ -109,6 +109,34 @@ pub(crate) fn continued(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
         .then(|| Finding::new(word, Violation::ExtendedPower))
 }
 
+/// Checks that the continuation of an energy has a value where elements are nearly flat, flat and inverted.
+pub(crate) fn continuation(
+    graph: &Graph,
+    source: &Source<'_>,
+    continued: Id,
+    samples: &[Point],
+) -> Option<Finding> {
+    /// λ3 where the continuation begins at 0.1.
+    const THIRD: [f64; 7] = [0.05, 0.01, 1e-3, 0.0, -0.01, -0.3, -1.0];
+    // The domain of functions is not known here.
+    if source.declaration.has_functions() {
+        return None;
+    }
+    let without_value = |sample: &Point| {
+        let [l1, l2, _] = sample.stretches.map(f64::abs);
+        THIRD.map(|l3| [l1, l2, l3]).into_iter().find(|&stretches| {
+            let point = Point { stretches, epsilon: 0.1, ..sample.clone() };
+            let energy = evaluate(graph, continued, &point).value;
+            energy.is_nan() || energy == f64::NEG_INFINITY
+        })
+    };
+    let found: Vec<_> = samples.iter().filter_map(without_value).collect();
+    // Some parameters may be beyond what any element has.
+    let &stretches = found.first().filter(|_| 2 * found.len() > samples.len())?;
+    let word = source.declaration.options.words.iter().find(|word| *word == "extend");
+    Some(Finding::new(word, Violation::NoContinuation { stretches }))
+}
+
 /// Elements so flat that whatever grows without bound where the volume vanishes exceeds every limit.
 const FLAT: [[f64; 3]; 2] = [[1.0, 1.0, 1e-30], [0.7, 1.0, 1e-30]];
 

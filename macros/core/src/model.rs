@@ -219,6 +219,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         let extended = extension::extend(&mut graph, energy);
         derive(&mut graph, extended, &samples, false)
     });
+    if let Some(extended) = extended.as_ref().filter(|_| findings.is_empty()) {
+        findings.extend(judge::continuation(&graph, &source, extended.energy, &samples));
+    }
     let moduli = moduli(&mut graph, &plain);
     // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
     if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {

@@ -67,10 +67,22 @@ impl Differentiator {
                 }
                 graph.sum_of(&terms)
             }
-            Node::Ln(a) => {
-                let inner = self.derivative(graph, a, v);
-                graph.div(inner, a)
-            }
+            // (ln Π bᵢ^eᵢ)′ = Σ (ln bᵢ^eᵢ)′: a product may leave the range of numbers where its parts do not.
+            Node::Ln(a) => match graph.node(a).clone() {
+                Node::Product(factors) if factors.len() > 1 => {
+                    let terms = factors.into_iter().map(|(base, exponent)| {
+                        let factor = graph.power(base, exponent);
+                        let inner = self.derivative(graph, factor, v);
+                        graph.div(inner, factor)
+                    });
+                    let terms: Vec<_> = terms.collect();
+                    graph.sum_of(&terms)
+                }
+                _ => {
+                    let inner = self.derivative(graph, a, v);
+                    graph.div(inner, a)
+                }
+            },
             Node::Exp(a) => {
                 let inner = self.derivative(graph, a, v);
                 graph.mul(e, inner)

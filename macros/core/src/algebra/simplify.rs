@@ -8,17 +8,19 @@
 //! w s + c w = w (s + c)
 //! Σₚ a + c Σₚ b = Σₚ (a + c b)
 //! (p s + p t)/p = s + t
+//! cosh x/sinh x = 1/tanh x
 //! ```
 //!
-//! the last for a parameter p.
+//! the last but one for a parameter p.
 //!
 //! The first two remove cancellation: each left side subtracts nearly equal terms where s is small or large.
 //! They arise from the logarithm of a shifted sum: μ(1 − 1/(I1 + 1)) is the stiffness of a stable neo-Hookean
-//! solid near collapse, where I1 is tiny and the left side has no correct digit. The others save operations.
+//! solid near collapse, where I1 is tiny and the left side has no correct digit. The last one keeps the
+//! quotient, near 1, where both functions overflow. The others save operations.
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// The expression with the rules applied everywhere.
@@ -35,6 +37,7 @@ fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
         .or_else(|| collect_into_factor(graph, result))
         .or_else(|| join_two_sums(graph, result))
         .or_else(|| cancel_parameter(graph, result))
+        .or_else(|| join_hyperbolic(graph, result))
     {
         result = simpler;
     }
@@ -147,6 +150,25 @@ fn cancel_parameter(graph: &mut Graph, e: Id) -> Option<Id> {
     None
 }
 
+/// cosh x/sinh x = 1/tanh x, and its inverse
+fn join_hyperbolic(graph: &mut Graph, e: Id) -> Option<Id> {
+    let Node::Product(factors) = graph.node(e).clone() else { return None };
+    for &(cosh, exponent) in &factors {
+        let Node::Elementary(Elementary::Cosh, a) = *graph.node(cosh) else { continue };
+        let sinh = graph.elementary(Elementary::Sinh, a);
+        let Some(n) = exponent.as_integer() else { continue };
+        if !factors.contains(&(sinh, Exponent::integer(-n))) {
+            continue;
+        }
+        let others = factors.iter().copied().filter(|(base, _)| ![cosh, sinh].contains(base));
+        let others: Vec<_> = others.collect();
+        let tanh = graph.elementary(Elementary::Tanh, a);
+        let (others, power) = (graph.product(&others), graph.powi(tanh, -n));
+        return Some(graph.mul(others, power));
+    }
+    None
+}
+
 /// The sum with two of its terms replaced by one.
 fn replace(
     graph: &mut Graph,
@@ -163,6 +185,7 @@ fn replace(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::diff::Differentiator;
 
     #[test]
     fn differences_against_a_denominator_are_carried_out() {
@@ -180,5 +203,24 @@ mod tests {
         // x − x³/(2 + x²) = 2x/(2 + x²)
         let difference = g.sub(x, expected);
         assert_eq!(simplify(&mut g, difference), twice);
+    }
+
+    #[test]
+    fn hyperbolic_functions_do_not_overflow_where_their_quotient_is_near_one() {
+        let mut g = Graph::default();
+        let x = g.stretch(0);
+        let [sinh, cosh, tanh] =
+            [Elementary::Sinh, Elementary::Cosh, Elementary::Tanh].map(|function| g.elementary(function, x));
+        let quotient = g.div(x, sinh);
+        let logarithm = g.ln(quotient);
+        // (ln(x/sinh x))′ = 1/x − 1/tanh x
+        let slope = Differentiator::default().by_stretch(&mut g, logarithm, 0);
+        let [over_x, over_tanh] = [x, tanh].map(|base| g.powi(base, -1));
+        let expected = g.sub(over_x, over_tanh);
+        assert_eq!(simplify(&mut g, slope), expected);
+        let square =
+            g.product(&[(cosh, Exponent::integer(-2)), (sinh, Exponent::integer(2)), (x, Exponent::ONE)]);
+        let expected = g.product(&[(tanh, Exponent::integer(2)), (x, Exponent::ONE)]);
+        assert_eq!(simplify(&mut g, square), expected);
     }
 }

@@ -5,7 +5,7 @@ use quote::ToTokens;
 use super::finding::{Finding, Remedy, Stressed, Vanishing, Violation};
 use super::source::Source;
 use crate::algebra::dimension::Clash;
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::printer::{rust, rust_factor};
 use crate::read::diagnostics::Diagnostics;
@@ -99,6 +99,11 @@ impl Explainer<'_, '_> {
                 "the energy has a real power of what vanishes at rest, which is not continued beyond J > 0: remove `extend`"
                     .into()
             }
+            Violation::NoContinuation { stretches: [l1, l2, l3] } => format!(
+                "`extend` continues logarithms and powers of stretches below J = 0, but where they make up an argument of \
+                 another logarithm, root or real power, this may turn negative, as at the stretches {l1:.3}, {l2:.3} and \
+                 {l3}: remove `extend`"
+            ),
             Violation::StressNotFinite => {
                 "the stress of this is not finite at rest, where λ1 = λ2 = λ3 = 1: divide by \
                 nothing that vanishes there, and take no logarithm of it"
@@ -296,7 +301,12 @@ impl Explainer<'_, '_> {
             Remedy::Positive => '>',
             Remedy::Negative => '<',
         };
-        Some(format!("{} {side} 0.0", self.print(of)))
+        // Beyond their first zero, these are positive again.
+        Some(match *self.graph.node(of) {
+            Node::Elementary(Elementary::Sin, a) if side == '>' => format!("{} < PI", self.print(a)),
+            Node::Elementary(Elementary::Cos, a) if side == '>' => format!("{} < PI / 2.0", self.print(a)),
+            _ => format!("{} {side} 0.0", self.print(of)),
+        })
     }
 
     /// The declared domain where J > 0, with a further condition.

@@ -53,6 +53,8 @@ pub(crate) enum Violation {
     NoShearModulus,
     /// The exact fractions leave 128 bits.
     Overflow,
+    /// A continuation without a value at these stretches.
+    NoContinuation { stretches: [f64; 3] },
     /// `extend` without `domain(J > 0.0)`.
     ExtendWithoutDomain,
 }

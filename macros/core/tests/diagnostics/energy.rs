@@ -492,3 +492,20 @@ fn typical_parameters_are_those_of_the_declaration() {
     of("typical(mu = 4e5)", &[("mu", "the material first")]);
     of("typical", &[("typical", "is written `typical(\"natural rubber\", mu = 4e5)`")]);
 }
+
+/// A sine is positive on every second branch: its condition is that its argument stays on the first.
+#[test]
+fn a_sine_is_kept_from_its_first_zero() {
+    let energy = "fn E([l1, l2, l3]: [f64; 3], mu: f64, k: f64) -> f64 { mu * (k * sum(|l| l.powi(2)) / I1 * I1b / 3.0).sin().recip() + mu * (J - 1).powi(2) }";
+    let found = mistakes("domain(J > 0.0), admissible(k > 0.0, k < 3.0), prestressed", energy);
+    let text = format!("{found:?}");
+    assert!(text.contains(" < PI)`"), "{text}");
+}
+
+/// Continued powers of stretches turn negative, which a logarithm of them has no value for.
+#[test]
+fn a_continuation_has_a_value() {
+    let energy = "fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - sum(|l| l.powf(4.0 / 3.0).ln_1p()) - 2 * J.ln()) + mu * sum(|l| (l.powf(4.0 / 3.0) + 0.01 * l.cbrt()).ln()) }";
+    check("domain(J > 0.0), prestressed", energy, &[]);
+    check("domain(J > 0.0), prestressed, extend", energy, &[("extend", "remove `extend`")]);
+}
