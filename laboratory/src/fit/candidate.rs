@@ -107,8 +107,8 @@ impl Numbers {
     }
 
     /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of
-    /// a sum that change places are the same energy, those of each sum by themselves. Values of a function are
-    /// compared in their order.
+    /// a sum that change places are the same energy, those of each sum by themselves. Values of a function
+    /// are compared in their order.
     pub(super) fn differing(
         &self,
         one: &[f64],

@@ -1,8 +1,6 @@
 //! Derivatives with respect to the parameters, for fits to measurements.
 
 use super::{Declared, Inversion, MaterialError};
-#[cfg(doc)]
-use crate::univariate::Univariate;
 
 /// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
 ///
@@ -46,7 +44,7 @@ use crate::univariate::Univariate;
 pub trait Fittable: Declared {
     /// The values of the parameters, one list for each parameter of the description in its order, as
     /// [`with_values`](Fittable::with_values) takes them: those of a number or a list as
-    /// [`Declared::from_values`] does, those of a function as [`Univariate::values`] has them.
+    /// [`Declared::from_values`] does, those of a function as its `Univariate::values` has them.
     fn values(&self) -> Vec<Vec<f64>>;
 
     /// The material with other values, as [`values`](Fittable::values) lists them, without extension.
@@ -55,7 +53,7 @@ pub trait Fittable: Declared {
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type, and
-    /// those of [`Univariate::with_values`].
+    /// those of `Univariate::with_values`.
     fn with_values(&self, values: &[&[f64]]) -> Result<Self, MaterialError> {
         Self::from_values(values, Inversion::Refuse)
     }

@@ -7,9 +7,9 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::Material;
 #[cfg(doc)]
-use super::{Inversion, Mixed};
+use super::Inversion;
+use super::Material;
 use crate::lanes::Real;
 
 /// How a declared material keeps a parameter.
@@ -50,7 +50,7 @@ impl ParameterValue for PerLane {
 /// A material whose parameters may differ from point to point: every declared one.
 ///
 /// Parameters that are numbers have a value for each lane. Those that are not, such as functions, do not: a
-/// point with a material that its neighbours do not have costs one more evaluation ([`Mixed`]).
+/// point with a material that its neighbours do not have costs one more evaluation (`Mixed`).
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
     type OnLanes<'a>: Material
