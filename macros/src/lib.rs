@@ -26,8 +26,8 @@ use proc_macro::TokenStream;
 ///   `I2b` = J^(−4/3) I2.
 ///
 /// The lists of one sum have one length: a number, `N` with `const N: usize`, or, of vectors, a length known
-/// at run time, which `new` checks. A material with a vector, a whole exponent or a function is `Clone`, others
-/// are `Copy`.
+/// at run time, which `new` checks. A material with a vector, a whole exponent or a function is `Clone`,
+/// others are `Copy`.
 ///
 /// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
 /// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's

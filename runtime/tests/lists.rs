@@ -8,7 +8,7 @@ use piola::random::Random;
 use piola::{Inversion, Material, material};
 
 /// Ogden's sum.
-#[material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] > kappa - kappa), fit)]
+#[material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0), fit)]
 fn Ogden<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /** Moduli, Pa. */
@@ -23,7 +23,7 @@ fn Ogden<const N: usize>(
 }
 
 /// Ogden's sum of any number of terms.
-#[material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] > kappa - kappa), fit)]
+#[material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0), fit)]
 fn Terms(
     [l1, l2, l3]: [f64; 3],
     /** Moduli, Pa. */

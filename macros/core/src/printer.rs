@@ -261,8 +261,8 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// n (n − 1) x^(n − 2), the second derivative of x^n; for x = 0 that is 2 [n = 2], with a bracket that is 1
-    /// where it is true, else 0.
+    /// n (n − 1) x^(n − 2), the second derivative of x^n; for x = 0 that is 2 [n = 2], with a bracket that is
+    /// 1 where it is true, else 0.
     fn whole_power(&self, base_id: Id, n: Id, order: u8, context: Context) -> String {
         let (base, n) = (self.print(base_id, Context::Power), self.print(n, Context::Sum));
         if self.notation == Notation::Rust {

@@ -62,8 +62,8 @@ pub enum Node {
     Elementary(Elementary, Id),
     /// Derivative of the given order, 0 … 2, of a function that is a parameter.
     Function(ParameterIndex, u8, Id),
-    /// Derivative by x of the given order k of xⁿ, n (n − 1) … (n − k + 1) xⁿ⁻ᵏ, zero for k > n. The base x, and
-    /// the exponent n, a parameter or an entry that is a whole number and not negative.
+    /// Derivative by x of the given order k of xⁿ, n (n − 1) … (n − k + 1) xⁿ⁻ᵏ, zero for k > n. The base x,
+    /// and the exponent n, a parameter or an entry that is a whole number and not negative.
     WholePower(Id, Id, u8),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),

@@ -13,7 +13,8 @@ use crate::read::parse::Entries;
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
 
-/// The same with whole exponents, which decide on the parity of a power: all of them even would be bad luck.
+/// Number of points where exponents are drawn, which decide on the parity of a power: all of them even would
+/// be bad luck.
 const SAMPLES_OF_EXPONENTS: usize = 24;
 
 /// Whole exponents that are drawn are below this.

@@ -121,8 +121,8 @@ impl Declaration {
         parameter.length().is_some_and(|length| self.lengths[length].are_known_at_run_time())
     }
 
-    /// Whether a material is its real numbers and nothing else, so that it can be copied, and keep a value for
-    /// each lane in the place of each number.
+    /// Whether a material is its real numbers and nothing else, so that it can be copied, and keep a value
+    /// for each lane in the place of each number.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         !self.has_functions()
