@@ -7,8 +7,8 @@ use proc_macro::TokenStream;
 /// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`,
 /// with a checked constructor `new(parameters…)`. Its first argument names the three stretches, the others
 /// are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, whole exponents `u32`, `[u32; N]` or
-/// `Vec<u32>`, or functions, whose types implement `piola::Univariate`, such as `piola::Spline`. The body is
-/// ordinary Rust:
+/// `Vec<u32>`, or functions, whose types implement `piola::Univariate`: types of your own, or
+/// `piola::Spline`, which approximates by control points. The body is ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
 /// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`, `x.exp_m1()`,

@@ -3,7 +3,8 @@
 //! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A
 //! parameter whose type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. The
 //! type supplies φ′ and φ″, mostly φ as well, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which
-//! have defaults. [`Spline`] is such a type.
+//! have defaults; where φ is defined; and the values of φ that a fit may change. [`Spline`] is such a type,
+//! which approximates by control points.
 //!
 //! \[XSZB15\] Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, 2015.
 

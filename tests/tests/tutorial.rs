@@ -30,7 +30,10 @@ fn it_shows_the_files_of_its_crate() {
         assert_eq!(code, read(&format!("docs/biderman/{file}")), "{file} and the tutorial differ");
         shown.push(file);
     }
-    assert_eq!(shown, ["src/lib.rs", "tests/contract.rs", "examples/fit.rs", "examples/horse.rs"]);
+    assert_eq!(
+        shown,
+        ["src/lib.rs", "tests/contract.rs", "examples/fit.rs", "examples/horse.rs", "examples/curve.rs"]
+    );
 }
 
 #[test]

@@ -1,0 +1,76 @@
+//! Rubber with a curve in place of a formula: where it ends, fitted, and another one at each point.
+
+use piola::batch::Batch;
+use piola::material::{MaterialError, PerPoint};
+use piola::{Real, Univariate, material};
+use piola_laboratory::data::{Measurements, TRELOAR_1944};
+use piola_laboratory::fit::{FitSettings, fit_parameters};
+
+/// Chains that lock: φ′(x) = μ/2 · limit/(limit − x) for x = I1b − 3 below the limit.
+#[derive(Clone, Debug, PartialEq)]
+struct Chains {
+    mu: f64,
+    limit: f64,
+}
+
+impl Univariate for Chains {
+    #[inline(always)]
+    fn admits<R: Real>(&self, x: R) -> R::Mask {
+        x.less(R::splat(self.limit))
+    }
+    #[inline(always)]
+    fn value<R: Real>(&self, x: R) -> R {
+        R::splat(-0.5 * self.mu * self.limit) * (-(x / R::splat(self.limit))).ln_1p()
+    }
+    #[inline(always)]
+    fn derivative<R: Real>(&self, x: R) -> R {
+        R::splat(0.5 * self.mu * self.limit) / (R::splat(self.limit) - x)
+    }
+    #[inline(always)]
+    fn second_derivative<R: Real>(&self, x: R) -> R {
+        let left = R::splat(self.limit) - x;
+        R::splat(0.5 * self.mu * self.limit) / (left * left)
+    }
+
+    // What a fit may change.
+    fn values(&self) -> Vec<f64> {
+        vec![self.mu, self.limit]
+    }
+    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
+        match *values {
+            [mu, limit] => Ok(Self { mu, limit }),
+            _ => Err(MaterialError::Shape { expected: "mu and limit are two values".into() }),
+        }
+    }
+}
+
+/// Rubber of chains.
+#[material(domain(J > 0.0), fit)]
+fn Rubber(
+    [l1, l2, l3]: [f64; 3],
+    /// Energy of the chains, Pa.
+    f: Chains,
+    /// Volumetric modulus κ, Pa.
+    kappa: f64,
+) -> f64 {
+    f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let start = Rubber::new(Chains { mu: 3e5, limit: 100.0 }, 2e7)?;
+    let data = Measurements::read(TRELOAR_1944)?;
+    let fitted = fit_parameters(&start, &data, &FitSettings::default())?;
+    for number in &fitted.numbers {
+        println!("{:6} {:>10.3e}", number.name, number.value);
+    }
+
+    // Two points at a stretch of 3, where I1b − 3 is 6.7: one rubber admits it, the other one ends before.
+    let (long, short) = (start.clone(), start.with_f(Chains { mu: 3e5, limit: 5.0 })?);
+    let thin = 1.0 / 3f64.sqrt();
+    let stretch = [3.0, 0.0, 0.0, 0.0, thin, 0.0, 0.0, 0.0, thin];
+    let mut energies = [0.0; 2];
+    let survey =
+        Batch::new(&PerPoint::new(&[long, short])?).energies(&[stretch, stretch].concat(), &mut energies)?;
+    println!("{:.3e} J/m³, and {} refused", energies[0], survey.refused);
+    Ok(())
+}
