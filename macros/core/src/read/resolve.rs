@@ -298,7 +298,8 @@ impl<'a> Resolver<'a> {
         self.excuse_names(expression);
         self.mistake(
             word,
-            "an energy has no branches, at which its derivatives would jump: a domain is declared by `domain(…)`",
+            "an energy has no branches, at which its derivatives would jump: a domain is declared by `domain(…)`, and a function with \
+             branches is a parameter whose type implements `piola::Univariate`",
         )
     }
 

@@ -146,6 +146,10 @@ pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> 
                 }
                 names.push(name.clone());
             }
+            GenericParam::Type(function) if !function.bounds.is_empty() => diagnostics.error(
+                generic,
+                "a function has a type of its own: write `f: Curve` with `impl piola::Univariate for Curve`, and no type parameter",
+            ),
             _ => {
                 diagnostics.error(
                     generic,

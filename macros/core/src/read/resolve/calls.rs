@@ -135,7 +135,8 @@ impl Resolver<'_> {
         let name = method.to_string();
         if KINKED.contains(&name.as_str()) {
             let message = format!(
-                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power"
+                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power, or \
+                 a parameter whose type implements `piola::Univariate`"
             );
             return self.mistake(method, &message);
         }
