@@ -533,6 +533,10 @@ fn whole_exponents_are_exponents_alone() {
         "write `.powf(d[p])`, or declare `d: [u32; N]`",
     );
     says("prestressed", &with("J.powi(k[p])"), "k[p]", "entries are only read inside a sum");
+    let typical =
+        |n: &str| format!("prestressed, typical(\"rubber\", m = 1, n = {n}, d = [1, 2], k = [0, 3])");
+    says(&typical("1.5"), used, "n", "exponents `n` are whole numbers from 0 to 64");
+    says(&typical("65"), used, "n", "whole numbers from 0 to 64");
     // What is raised has no unit.
     let item = "fn E([a, b, c]: [f64; 3], /** Modulus, Pa. */ m: f64, n: u32) -> f64 { (m * J).powi(n) }";
     check("prestressed", item, &[("(m * J).powi(n)", "Pa")]);

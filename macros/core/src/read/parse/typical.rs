@@ -75,6 +75,10 @@ impl Typical {
                 };
                 diagnostics.error(&name, format!("the typical value of `{name}` is {form}"));
             }
+            let is_exponent = |value: &f64| value.fract() == 0.0 && (0.0..=64.0).contains(value);
+            if parameter.is_whole && !values.numbers.iter().all(is_exponent) {
+                diagnostics.error(&name, format!("exponents `{name}` are whole numbers from 0 to 64"));
+            }
             self.values.push((name, values));
         }
         for (name, _) in given {
