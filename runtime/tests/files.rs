@@ -123,6 +123,12 @@ fn Terms([l1, l2, l3]: [f64; 3], mu: Vec<f64>, alpha: Vec<f64>, K: f64) -> f64 {
         + K / 2.0 * (J - 1.0).powi(2)
 }
 
+/// A polynomial with its exponents as data.
+#[material(prestressed, serde)]
+fn Polynomial([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, k: [u32; 2], d: [f64; 2], n: u32) -> f64 {
+    sum(|p| c[p] * (I1 - 3.0).powi(i[p])) + sum(|p| d[p] * (I2 - 3.0).powi(k[p])) + (J - 1.0).powi(n)
+}
+
 /// Forces in each stretch.
 #[material(serde)]
 fn Drawn(
@@ -157,6 +163,16 @@ fn declared_materials_come_back_checked() -> Result<(), Box<dyn std::error::Erro
     let error = serde_json::from_str::<Terms>(r#"{"mu": [1e5, 2e5], "alpha": [2], "K": 1e6}"#);
     let error = error.expect_err("two and one").to_string();
     assert!(error.starts_with("`alpha` must have as many entries as `mu`, 2, not 1"), "{error}");
+    let text = check(&Polynomial::new(vec![1.5, 2.0], vec![1, 2], [0, 3], [1.0, 2.5], 2)?);
+    assert_eq!(text, r#"{"c":[1.5,2.0],"i":[1,2],"k":[0,3],"d":[1.0,2.5],"n":2}"#);
+    for (old, new, complaint) in [
+        ("[1,2]", "[1,65]", "`i[1]` is 65"),
+        ("[1,2]", "[1,-1]", "u32"),
+        ("[0,3]", "[0]", "`k` must have 2 entries, not 1"),
+    ] {
+        let error = serde_json::from_str::<Polynomial>(&text.replace(old, new)).expect_err(complaint);
+        assert!(error.to_string().contains(complaint), "{error}");
+    }
     check(&Drawn::new(Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5 / 3.0]])?)?);
     Ok(())
 }
