@@ -123,10 +123,10 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     ///
     /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give
     /// derivatives alone: by Gauss's rule with eight points on each of 16 parts. Their ends are equally far
-    /// apart, or, for x beyond a factor of 2 from a positive origin, have equal ratios, so that φ′ may grow as
-    /// a power of x towards 0. The error is within rounding if φ′ is analytic for x > 0 and changes by a few
-    /// orders of magnitude; for x = 1e-8 of the origin it is below 1e-8 of φ. It matters to ψ alone where φ
-    /// stands alone in the energy.
+    /// apart, or, for x beyond a factor of 2 from a positive origin, have equal ratios, so that φ′ may grow
+    /// as a power of x towards 0. The error is within rounding if φ′ is analytic for x > 0 and changes by a
+    /// few orders of magnitude; for x = 1e-8 of the origin it is below 1e-8 of φ. It matters to ψ alone where
+    /// φ stands alone in the energy.
     #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         const PARTS: u8 = 16;

@@ -89,8 +89,8 @@ fn energies_as_printed_keep_the_contract() {
     check(&Sums::new(1e6, 0.7, 1e7).unwrap(), &settings).unwrap();
 }
 
-/// Flory, Erman, *Theory of elasticity of polymer networks. 3*, 1982, as printed: 1 + B and 1 + D cancel on flat
-/// elements.
+/// Flory, Erman, *Theory of elasticity of polymer networks. 3*, 1982, as printed: 1 + B and 1 + D cancel on
+/// flat elements.
 #[piola::material(domain(J > 0.0), admissible(k > 0.0))]
 fn FloryErman(
     [l1, l2, l3]: [f64; 3],

@@ -1,5 +1,5 @@
-//! The contract for every material of the catalogue with its typical parameters, unextended and extended. What
-//! they compute on lanes is judged by `reference.rs` and `bits.rs`.
+//! The contract for every material of the catalogue with its typical parameters, unextended and extended.
+//! What they compute on lanes is judged by `reference.rs` and `bits.rs`.
 
 use piola::Inversion;
 use piola::contract::{Settings, Violations, check_without_lanes};

@@ -1,4 +1,5 @@
-//! The rule on formats: `f32` against `f64`, at stretches that both know. It shows where a formula loses digits.
+//! The rule on formats: `f32` against `f64`, at stretches that both know. It shows where a formula loses
+//! digits.
 
 use super::results::name;
 use super::samples::{at_samples, together};
@@ -32,8 +33,8 @@ enum Range {
 
 /// The stretches of flat elements, of lines, of huge and tiny elements, beside one of moderate stretches.
 ///
-/// What a formula loses there, it loses in `f32` first: 1 + B with B near −1 has lost half of its 24 bits where
-/// λ3 = 0.01, and half of the 53 of `f64` only where λ3 = 1e-4.
+/// What a formula loses there, it loses in `f32` first: 1 + B with B near −1 has lost half of its 24 bits
+/// where λ3 = 0.01, and half of the 53 of `f64` only where λ3 = 1e-4.
 fn far_from_rest([l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     let thin = [1e-2, 1e-3, 1e-4].into_iter().flat_map(move |factor| {
         let line = [l1, l2 * factor, l3 * factor];

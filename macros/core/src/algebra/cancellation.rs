@@ -1,9 +1,9 @@
 //! Sums that cancel far from rest: where an element is flat, a line, or huge.
 //!
 //! Near rest every energy cancels, and rounding of the deformation gradient alone explains what is lost. Far
-//! from there nothing does. Papers write 1 + B with B = κ² (s − 1)/(s + κ)², which for s → 0 is s (2/κ + 1), as
-//! the difference of two numbers near 1: at s = 1e-16 it has no digit. Over one denominator the numbers that
-//! cancel do so as exact fractions,
+//! from there nothing does. Papers write 1 + B with B = κ² (s − 1)/(s + κ)², which for s → 0 is s (2/κ + 1),
+//! as the difference of two numbers near 1: at s = 1e-16 it has no digit. Over one denominator the numbers
+//! that cancel do so as exact fractions,
 //!
 //! ```text
 //! 1 + B = (s² + κ² s + 2 κ s)/(s + κ)²
@@ -53,7 +53,7 @@ impl Ways {
         Self(shrinking.chain(growing).filter(|way| way.iter().all(&is_inside)).collect())
     }
 
-    /// The same points for energies in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
+    /// The ways by invariants, for energies in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
     #[must_use]
     pub fn by_invariants(&self) -> Self {
         let moved = |point: &Point| {
@@ -64,7 +64,8 @@ impl Ways {
         Self(self.0.iter().map(|way| way.each_ref().map(moved)).collect())
     }
 
-    /// The ways on which the cancellation of a sum grows beyond what is bearable, with its size at their ends.
+    /// The ways on which the cancellation of a sum grows beyond what is bearable, each with its size at the
+    /// end.
     fn cancelling<'a>(&'a self, graph: &'a Graph, sum: Id) -> impl Iterator<Item = (f64, &'a [Point; 2])> {
         self.0.iter().filter_map(move |way| {
             let [near, far] = [0, 1].map(|k| ratio(graph, sum, &way[k]));

@@ -100,9 +100,10 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
     };
     // A function may end where a stretch is 0.
     let is_certain = is_positive && model.extended.is_none();
-    let ends = match declaration.has_functions() && !is_certain {
+    let ends = match is_positive {
+        _ if is_certain || !declaration.has_functions() => ends,
         true => quote!(#ends || __p::sign_decides(self)),
-        false => ends,
+        false => quote!(__p::sign_decides(self)),
     };
     let inversion = declaration.options.extend.as_ref().map(|_| {
         quote! {
