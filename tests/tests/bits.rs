@@ -3,7 +3,12 @@
 //!
 //! 3·10⁴ patterns for each energy and precision, shared by its ways of inversion. `PIOLA_BITS` asks for
 //! another number, and with `PIOLA_BITS_ALONE` each precision is only judged by itself, without the slower
-//! comparison of the two: `PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture`
+//! comparison of the two:
+//!
+//! ```text
+//! PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture
+//! ```
+//!
 //! prints what was found at 10⁸ patterns of each and the time.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
