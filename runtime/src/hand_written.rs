@@ -174,7 +174,7 @@ impl ExtendedNeoHookean {
         let gap = x - y;
         let share =
             R::select(R::splat(0.0).less(gap), (a - b) / gap, R::select(y.less(epsilon), R::splat(0.0), one));
-        below + share * (above - below)
+        share * above + (one - share) * below
     }
 }
 
