@@ -55,7 +55,7 @@ test("the body comes to rest after the pull of its scene", async () => {
   await until(isAtRest);
   await page.click("#real-time");
   assert.equal(await page.textContent("#scene"), "dinosaur");
-  assert.equal(await page.locator("#material option").count(), 32);
+  assert.ok((await page.locator("#material option").count()) >= 55, "the whole catalogue can be chosen");
   assert.notEqual(await page.textContent("#speed"), "–");
   await shoot("rest");
 });
