@@ -43,7 +43,15 @@ pub enum Purpose {
 /// The expression with real powers and logarithms of products of stretches separated.
 pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
     rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
-        Node::Ln(a) => logarithm(graph, &monomial(graph, a)?, purpose),
+        Node::Ln(a) => match monomial(graph, a) {
+            Some(factors) => logarithm(graph, &factors, purpose),
+            // Such as that of an isochoric stretch, whose continued powers may be negative.
+            None if purpose == Purpose::Extension => {
+                let separated = separate(graph, a, purpose);
+                logarithm(graph, &monomial(graph, separated)?, purpose)
+            }
+            None => None,
+        },
         Node::Product(factors) => {
             let mut separated = Vec::new();
             for (base, exponent) in factors {
@@ -212,5 +220,11 @@ mod tests {
         assert_eq!(separate(&mut g, ln_square, Purpose::Evaluation), twice);
         let lns = [x, y, z].map(|stretch| g.ln(stretch));
         assert_eq!(separate(&mut g, ln, Purpose::Extension), g.sum_of(&lns));
+        let cube_root = g.power(volume, Exponent::rational(third));
+        let isochoric = g.div(x, cube_root);
+        let ln_isochoric = g.ln(isochoric);
+        let terms = [(lns[0], 2), (lns[1], -1), (lns[2], -1)];
+        let terms = terms.map(|(ln, n)| (ln, Rational::new(n, 3).unwrap()));
+        assert_eq!(separate(&mut g, ln_isochoric, Purpose::Extension), g.linear(Rational::ZERO, &terms));
     }
 }
