@@ -68,9 +68,10 @@ pub struct FitSettings {
     /// Parameters that keep their values: names as declared, a list with all its entries or a function with
     /// all its values, or one of these as `alpha_1` or `f_1`, counted from 1.
     ///
-    /// A function has the values that its type gives a fit
-    /// ([`Univariate::values`](piola::Univariate::values)), without any none to be sought. Hold those that
-    /// keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself where x is 1.
+    /// A fit seeks the values of a function that its type gives
+    /// ([`Univariate::values`](piola::Univariate::values)); a function without such values stays as it is.
+    /// Hold those that keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself where
+    /// x is 1.
     pub held: Vec<String>,
     /// Number of further starts from parameters at random about the given ones, default 20, at most 10 000.
     pub restarts: usize,

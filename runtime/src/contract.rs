@@ -178,8 +178,8 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
 
 /// Checks every rule that applies to the material, but for [`Rule::Lanes`].
 ///
-/// What a material computes on lanes is compiled for each back end. That takes two thirds of the time that a
-/// test of the contract takes to compile, which is wasted on materials whose lanes are judged elsewhere.
+/// What a material computes on lanes is compiled for each back end, which is wasted on materials whose lanes
+/// are judged elsewhere.
 ///
 /// # Errors
 /// [`Violations`]: the first violation of each rule that is broken.

@@ -158,7 +158,8 @@ fn fractions_that_cancel_on_flat_elements_keep_their_digits() -> Result<(), Box<
                 let largest = expected.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
                 for (found, expected) in found.iter().zip(&expected) {
                     let error = (found - expected).abs() / (largest * f64::EPSILON / 2.0);
-                    assert!(error <= 60.0, "{found} for {expected} at {stretches:?}: {error} u");
+                    // Either formula errs by a few u; 5.2 u have been seen.
+                    assert!(error <= 16.0, "{found} for {expected} at {stretches:?}: {error} u");
                 }
             }
         }

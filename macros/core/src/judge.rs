@@ -101,8 +101,8 @@ pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding>
     findings
 }
 
-/// Checks that the energy can be continued.
-pub(crate) fn continued(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
+/// Checks that no real power of what vanishes at rest is to be continued.
+pub(crate) fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
     let options = &source.declaration.options;
     let word = options.words.iter().find(|word| *word == "extend");
     (options.extend.is_some() && has_squares(graph, source.energy))
@@ -110,7 +110,7 @@ pub(crate) fn continued(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
 }
 
 /// Checks that the continuation of an energy has a value where elements are nearly flat, flat and inverted.
-pub(crate) fn continuation(
+pub(crate) fn continued_value(
     graph: &Graph,
     source: &Source<'_>,
     continued: Id,

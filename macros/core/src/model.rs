@@ -204,7 +204,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         findings = judge::values(&mut graph, &source, (plain.gradient[0], &plain.hessian), &samples);
     }
     findings.extend(judge::flat(&graph, &source, &samples));
-    findings.extend(judge::continued(&graph, &source));
+    findings.extend(judge::continued_powers(&graph, &source));
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
@@ -220,7 +220,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         derive(&mut graph, extended, &samples, false)
     });
     if let Some(extended) = extended.as_ref().filter(|_| findings.is_empty()) {
-        findings.extend(judge::continuation(&graph, &source, extended.energy, &samples));
+        findings.extend(judge::continued_value(&graph, &source, extended.energy, &samples));
     }
     let moduli = moduli(&mut graph, &plain);
     // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.

@@ -52,7 +52,8 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
 fn remedy(material: &dyn Subject, [_, _, l3]: [f64; 3], found: f64) -> String {
     const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
                         something negative?): add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; \
-                        let a function that is a parameter say by `admits` where it is defined; or, where I1 − 3 may not be negative, write `I1b` for `I1`, which is 3 or more wherever J > 0";
+                        let a function that is a parameter say by `admits` where it is defined; or, where I1 − 3 may not be \
+                        negative, write `I1b` for `I1`, which is 3 or more wherever J > 0";
     const BEYOND: &str = "the domain admits these stretches, but the number overflows there: where a denominator or the argument of \
                           a logarithm vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters \
                           alone; else choose smaller parameters, or narrow the stretches of the test, as in `range: (0.7, 1.4)`";

@@ -11,24 +11,26 @@ use crate::lanes::Real;
 /// [`Rule::SinglePrecision`].
 pub(super) fn single_precision(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
-        compare(judge, material, stretches, Range::Kept)?;
+        compare(judge, material, stretches, Overflow::Mistaken)?;
         for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
             for close in together(stretches, gap) {
-                compare(judge, material, close, Range::Kept)?;
+                compare(judge, material, close, Overflow::Mistaken)?;
             }
         }
         for far in far_from_rest(stretches) {
-            compare(judge, material, far, Range::Left)?;
+            compare(judge, material, far, Overflow::Expected)?;
         }
         Ok(())
     })
 }
 
-/// Whether what is finite in `f64` must be so in `f32`.
+/// The meaning of a result that is finite in `f64` and not in `f32`.
 #[derive(Clone, Copy, PartialEq)]
-enum Range {
-    Kept,
-    Left,
+enum Overflow {
+    /// A mistake: moderate stretches are well inside the range of `f32`.
+    Mistaken,
+    /// The end of that range: the point is not judged.
+    Expected,
 }
 
 /// The stretches of flat elements, of lines, of huge and tiny elements, beside one of moderate stretches.
@@ -47,7 +49,7 @@ fn compare(
     judge: &mut Judge,
     material: &dyn Subject,
     stretches: [f64; 3],
-    range: Range,
+    overflow: Overflow,
 ) -> Result<(), Violation> {
     let single = stretches.map(|l| l as f32);
     let stretches = single.map(f64::from);
@@ -56,7 +58,7 @@ fn compare(
     }
     let Some(found) = material.in_single_precision(single) else { return Ok(()) };
     let Some((expected, tolerances)) = known(material, stretches) else { return Ok(()) };
-    if range == Range::Left && !found.iter().all(|found| found.is_finite()) {
+    if overflow == Overflow::Expected && !found.iter().all(|found| found.is_finite()) {
         return Ok(());
     }
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {

@@ -14,7 +14,7 @@ pub enum MaterialError {
         /// The parameter with its value.
         given: Argument,
     },
-    /// An exponent that is a parameter is no whole number, negative or above 64.
+    /// An exponent that is a parameter is not a whole number from 0 to 64.
     NotWhole {
         /// The exponent with its value.
         given: Argument,

@@ -22,10 +22,11 @@ use crate::algebra::rational::Rational;
 /// Factors of a stretch, from near to far.
 const FAR: [f64; 2] = [1e-3, 1e-6];
 
-/// Terms may exceed their sum by this much.
+/// Terms may exceed their sum by this much, at 1e-6 of a stretch: three of sixteen digits.
 const BEARABLE: f64 = 1e3;
 
-/// The least growth of a cancellation, from the first factor to the second, that is no chance.
+/// The least growth of a cancellation, from the first factor to the second, that is no chance: a root of the
+/// stretch grows by so much, a chance crossing of zero by nothing.
 const GROWTH: f64 = 30.0;
 
 /// Points at which cancellation shows: two for each way out, the first one nearer to rest.

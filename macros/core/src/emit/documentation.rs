@@ -77,20 +77,27 @@ fn outside(declaration: &Declaration) -> String {
 
 /// The sums that lose digits, those alone that are not the same by isotropy.
 fn digits(declaration: &Declaration, model: &mut Model) -> String {
-    let mut sums: Vec<String> = Vec::new();
+    let mut sums: Vec<(Vec<String>, String)> = Vec::new();
     for sum in model.lossy.clone() {
-        let sum = formula(&mut model.graph, declaration, sum).replace(['₂', '₃'], "₁");
-        if !sums.contains(&sum) {
-            sums.push(sum);
+        let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+        let mut alike = permutations.map(|order| {
+            let stretches = order.map(|k| model.graph.stretch(k));
+            let exchanged = model.graph.substitute(sum, stretches);
+            formula(&mut model.graph, declaration, exchanged)
+        });
+        let text = alike[0].clone();
+        alike.sort_unstable();
+        if !sums.iter().any(|(known, _)| *known == alike) {
+            sums.push((alike.to_vec(), format!("`{text}`")));
         }
     }
     if sums.is_empty() {
         return String::new();
     }
-    let sums: Vec<_> = sums.iter().map(|sum| format!("`{sum}`")).collect();
+    let sums: Vec<_> = sums.into_iter().map(|(_, text)| text).collect();
     format!(
-        "**Digits**: the terms of {} cancel on elements that are flat, or lines, or huge, and stress and tangent lose digits \
-         there; written as a product, or as a sum of terms of one sign, it would keep them.",
+        "**Digits**: on elements that are flat, or lines, or huge, the terms of {} cancel, and stress and tangent lose digits. \
+         Written as products, or as sums of terms of one sign, such expressions keep them.",
         sums.join(", and of ")
     )
 }
@@ -186,5 +193,20 @@ mod tests {
         ] {
             assert!(lines.contains(&line), "{line}\n{documentation}");
         }
+    }
+
+    #[test]
+    fn sums_that_lose_digits_are_named_once() {
+        let item = quote! {
+            /// Rubber.
+            fn E([l1, l2, l3]: [f64; 3], mu: f64, mu_2: f64) -> f64 {
+                mu * I1 - mu * sum(|l| ((l.powi(2) + mu_2.powi(2)).sqrt() - mu_2).ln())
+            }
+        };
+        let arguments = quote!(domain(J > 0.0), admissible(mu_2 > 0.0), prestressed);
+        let (declaration, mut model) = crate::analyse(arguments, item).unwrap();
+        let digits = super::digits(&declaration, &mut model);
+        assert!(digits.starts_with("**Digits**") && digits.matches('`').count() == 2, "{digits}");
+        assert!(digits.contains("− μ_2`"), "{digits}");
     }
 }
