@@ -70,8 +70,8 @@ pub struct FitSettings {
     ///
     /// A fit seeks the values of a function that its type gives
     /// ([`Univariate::values`](piola::Univariate::values)); a function without such values stays as it is.
-    /// Hold those that keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself where
-    /// x is 1.
+    /// Hold those that keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself
+    /// where x is 1.
     pub held: Vec<String>,
     /// Number of further starts from parameters at random about the given ones, default 20, at most 10 000.
     pub restarts: usize,
