@@ -22,7 +22,7 @@
 
 use super::Matrix3;
 use super::matrix::{column, dot, three, transpose};
-use crate::lanes::Real;
+use crate::lanes::{Mask, Real};
 use crate::material::PAIRS;
 
 #[cfg(test)]
@@ -54,8 +54,9 @@ pub struct Svd<R> {
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let (F, back) = scaled(F);
-    let (U, stretches, V) = jacobi(&F);
-    Svd { U, stretches: three!(k => stretches[k] * back), V }
+    let svd = jacobi(&F);
+    let svd = if has_axis(&F) { along_axes(&F, svd) } else { svd };
+    Svd { stretches: three!(k => svd.stretches[k] * back), ..svd }
 }
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
@@ -68,12 +69,60 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let (F, back) = scaled(F);
-    let (U, [s1, s2, s3], V) = jacobi(&F);
+    let svd = jacobi(&F);
+    let [s1, s2, s3] = svd.stretches;
     let area = s1 * s2;
     let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
     // λ2 and the quotient are rounded independently, which must not disturb their order.
     let s3 = s3.abs().min(s2).copysign(s3);
-    Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
+    let svd = Svd { stretches: [s1, s2, s3], ..svd };
+    let svd = if has_axis(&F) { along_axes(&F, svd) } else { svd };
+    Svd { stretches: three!(k => svd.stretches[k] * back), ..svd }
+}
+
+/// Whether an axis k is a principal direction at rest and after the deformation on some lane: F has no other
+/// entry than Fkk in its row and column k.
+#[inline(always)]
+fn has_axis<R: Real>(F: &Matrix3<R>) -> bool {
+    let [a, b, c] = three!(pair => {
+        let (i, j) = PAIRS[pair];
+        F[i][j].mul_add(F[i][j], F[j][i] * F[j][i])
+    });
+    // Two of the three vanish if the second smallest does.
+    a.min(b).max(a.max(b).min(c)).less(R::splat(R::MIN_POSITIVE)).any()
+}
+
+/// The decomposition with every axis that is a principal direction exactly in the frames, and its stretch
+/// exact: zeros of F that a plane of symmetry makes are then zeros of P and dP/dF too.
+///
+/// Jacobi's rotations never mix the column of such an axis with the others, so that the frames are that
+/// exact already but for the rounding of a quaternion that exchanges columns. Where nothing but the axis
+/// tells two directions apart, at rank one or zero, U need not contain it, and is left as it is.
+#[inline(always)]
+fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
+    let Svd { mut U, mut stretches, mut V } = svd;
+    let (zero, one, nearly_one) = (R::splat(0.0), R::splat(1.0), R::splat(0.999));
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let others =
+            F[k][i].mul_add(F[k][i], F[i][k] * F[i][k]) + F[k][j].mul_add(F[k][j], F[j][k] * F[j][k]);
+        let is_axis = others.less(R::splat(R::MIN_POSITIVE));
+        for column in 0..3 {
+            let (u, v) = (one.copysign(U[k][column]), one.copysign(V[k][column]));
+            let is_here = is_axis & nearly_one.less(U[k][column].abs().min(V[k][column].abs()));
+            for other in 0..3 {
+                U[k][other] = R::select(is_here, zero, U[k][other]);
+                V[k][other] = R::select(is_here, zero, V[k][other]);
+                U[other][column] = R::select(is_here, zero, U[other][column]);
+                V[other][column] = R::select(is_here, zero, V[other][column]);
+            }
+            U[k][column] = R::select(is_here, u, U[k][column]);
+            V[k][column] = R::select(is_here, v, V[k][column]);
+            stretches[column] = R::select(is_here, F[k][k] * u * v, stretches[column]);
+        }
+    }
+    stretches = descending(stretches);
+    Svd { U, stretches, V }
 }
 
 /// F brought to a magnitude between 1 and 2 by a power of two, and the power that brings stretches back.
@@ -105,7 +154,7 @@ pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
 
 /// U, λ, V of a matrix scaled to a magnitude between 1 and 2.
 #[inline(always)]
-fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
+fn jacobi<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let mut columns = transpose(F);
     let mut quaternion = [R::splat(1.0), R::splat(0.0), R::splat(0.0), R::splat(0.0)];
     for _ in 1..sweeps(R::UNIT_ROUNDOFF) {
@@ -116,7 +165,7 @@ fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
     // The columns have collected the rounding of all rotations; F V anew has that of one product.
     let columns = three!(k => three!(i => dot(F[i], column(&V, k))));
     let (U, stretches) = left(&columns);
-    (U, descending(stretches), V)
+    Svd { U, stretches: descending(stretches), V }
 }
 
 /// Precision of a sweep's angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next

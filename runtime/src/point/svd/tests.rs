@@ -419,3 +419,54 @@ fn the_determinant_gives_tiny_stretches_with_sign_and_digits() {
     }
     assert!(plain_is_wrong > 100, "the samples are too easy: the plain sign is wrong {plain_is_wrong} times");
 }
+
+/// Entries that a plane of symmetry makes zero, and the stretch across it, are exact: the frames of a diagonal F
+/// are permutations.
+#[test]
+fn planes_of_symmetry_are_exact() {
+    let mut random = Random::new(7);
+    let mut matrices = Vec::new();
+    for pattern in 0..400 {
+        let mut F = random.matrix();
+        let [k, l, m] = [pattern % 3, (pattern + 1) % 3, (pattern + 2) % 3];
+        for other in [l, m] {
+            F[k][other] = 0.0;
+            F[other][k] = 0.0;
+        }
+        if pattern % 2 == 0 {
+            F[l][m] = 0.0;
+            F[m][l] = 0.0;
+        }
+        if pattern % 5 == 0 {
+            F[l][l] = F[k][k];
+        }
+        F[m][m] *= [1.0, 1e-9, 1e9][pattern % 3];
+        matrices.push(F);
+    }
+    for method in [Method::Plain, Method::SignedByDeterminant] {
+        for (backend, answers) in by_every_backend(method, &matrices) {
+            for (pattern, (F, Svd { U, stretches, V })) in matrices.iter().zip(answers).enumerate() {
+                let axes = if pattern % 2 == 0 { vec![0, 1, 2] } else { vec![pattern % 3] };
+                for k in axes {
+                    let column = (0..3).find(|&column| V[k][column].abs() == 1.0);
+                    let column = column.unwrap_or_else(|| panic!("{backend}: no axis {k} in {V:?} of {F:?}"));
+                    for other in 0..3 {
+                        let expected = if other == column { 1.0 } else { 0.0 };
+                        assert_eq!(
+                            (U[k][other].abs(), V[k][other].abs()),
+                            (expected, expected),
+                            "{backend}: {F:?}"
+                        );
+                        let expected = if other == k { 1.0 } else { 0.0 };
+                        assert_eq!(
+                            (U[other][column].abs(), V[other][column].abs()),
+                            (expected, expected),
+                            "{F:?}"
+                        );
+                    }
+                    assert_eq!(stretches[column].abs(), F[k][k].abs(), "{backend}: {F:?}");
+                }
+            }
+        }
+    }
+}

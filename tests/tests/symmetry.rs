@@ -1,0 +1,84 @@
+//! What a plane of symmetry makes zero is exactly zero, for every energy of the catalogue: `cargo test -p
+//! piola-tests --test symmetry`.
+//!
+//! Codes that align bodies with their axes compare such entries with zero, and equal stretches with each other.
+
+#![expect(non_snake_case, reason = "F, P as in the literature")]
+
+use piola::batch::{Batch, TileMaterial};
+use piola::lanes::Backend;
+use piola::point::Filter;
+use piola::random::Random;
+use piola::{Inversion, StatusCell};
+use piola_materials::CATALOGUE;
+
+const COUNT: usize = 384;
+
+/// Deformation gradients that map the first axis to itself, and every other one the others too.
+fn samples() -> Vec<[f64; 9]> {
+    let mut random = Random::new(11);
+    let near_one = |random: &mut Random| random.uniform(0.75, 1.25);
+    (0..COUNT)
+        .map(|p| {
+            let [a, b, c] = [(); 3].map(|()| near_one(&mut random));
+            let [d, e] = [(); 2].map(|()| if p % 2 == 0 { 0.0 } else { random.uniform(-0.25, 0.25) });
+            match p % 6 {
+                0 => [a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, b],
+                2 => [a, 0.0, 0.0, 0.0, a, 0.0, 0.0, 0.0, c],
+                _ => [a, 0.0, 0.0, 0.0, b, d, 0.0, e, c],
+            }
+        })
+        .collect()
+}
+
+/// Whether a reflection of the axis changes the sign of the entry (i, j).
+fn is_odd(axis: usize, i: usize, j: usize) -> bool {
+    (i == axis) != (j == axis)
+}
+
+#[test]
+fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
+    let samples = samples();
+    let F = samples.concat();
+    let mut unequal = Vec::new();
+    for entry in CATALOGUE {
+        let material: Box<dyn TileMaterial<f64>> =
+            entry.elements(entry.typical(), Inversion::Refuse).expect("typical parameters are admissible");
+        for backend in Backend::available() {
+            for filter in [Filter::None, Filter::Clamp] {
+                let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
+                let batch =
+                    Batch::new(&*material).with_backend(backend).with_filter(filter).with_statuses(&statuses);
+                let (mut P, mut dP_dF) = (vec![0.0; 9 * COUNT], vec![0.0; 81 * COUNT]);
+                batch.tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
+                for (p, F) in samples.iter().enumerate().filter(|(p, _)| !statuses[*p].get().refused) {
+                    let (P, dP_dF) = (&P[9 * p..][..9], &dP_dF[81 * p..][..81]);
+                    let axes = if p % 2 == 0 { 0..3 } else { 0..1 };
+                    for axis in axes {
+                        for row in 0..9 {
+                            let is_row_odd = is_odd(axis, row / 3, row % 3);
+                            let name = entry.name;
+                            assert!(
+                                !is_row_odd || P[row] == 0.0,
+                                "{name}, {backend}, {filter:?}: P of {F:?} is {P:?}"
+                            );
+                            for column in 0..9 {
+                                let number = dP_dF[9 * row + column];
+                                let is_zero = is_row_odd != is_odd(axis, column / 3, column % 3);
+                                assert!(
+                                    !is_zero || number == 0.0,
+                                    "{name}, {backend}, {filter:?}: dP/dF({row}, {column}) of {F:?} is {number:e}"
+                                );
+                            }
+                        }
+                    }
+                    if p % 6 == 0 && P[4] != P[8] || p % 6 == 2 && P[0] != P[4] {
+                        unequal.push((entry.name, backend.name(), filter));
+                    }
+                }
+            }
+        }
+    }
+    unequal.dedup();
+    assert!(unequal.is_empty(), "equal stretches have unequal stresses: {unequal:?}");
+}
