@@ -42,9 +42,11 @@
 //! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has
 //! plane strain and plane stress, and what starts from displacement gradients.
 //!
-//! **Without a decomposition.** Of an energy that is written in I1, I2 and J alone, [`Batch::energies`] and
-//! [`Batch::stresses`] come from these, several times as fast; a point outside the domain, near its end, or
-//! out of their range takes the way of all others.
+//! **Without a decomposition.** Of an energy that is written in I1, I2 and J, or in sums over the stretches
+//! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
+//! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where the
+//! terms by invariants cancel takes the way of all others, and so does a tangent in factors.
+//! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) says whether an energy is of this kind.
 //!
 //! This module knows no sparsity and no particular material.
 
@@ -88,8 +90,8 @@ pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::{Line, Sink, Source};
 use stage::{
-    Decompose, Forces, Invariants, Judge, Product, Respond, StiffnessForm, Stress, StressByInvariants,
-    TangentForm,
+    Decompose, Forces, Invariants, Judge, Product, Respond, RespondByInvariants, StiffnessForm, Stress,
+    StressByInvariants, TangentForm,
 };
 use tile::first_bits;
 use workspace::Workspace;
@@ -194,27 +196,15 @@ impl<'a, E: Stages> Batch<'a, E> {
     pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("energies", energies, 1)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
-            let Workspace { F: lines, points, invariants, energies_by_invariants, energies: values, .. } =
-                workspace;
+            let Workspace { F: lines, points, invariants, energies: values, .. } = workspace;
             let F = Source::new(batch.backend, batch.layout, F, lines);
-            let mut by_invariants = 0;
-            if batch.properties.has_invariants {
-                let in_range = E::invariants(batch.backend, Invariants { F, count, invariants });
-                let arguments = batch.arguments(invariants, start, count);
-                let status = batch.material.tile_energies_by_invariants(arguments, energies_by_invariants);
-                by_invariants = in_range & !(status.refused | status.nonfinite);
-                energies.copy_from_slice(&energies_by_invariants.0[0][..count]);
-            }
-            if by_invariants == first_bits(count) {
+            let in_range = batch.invariants(F, count, invariants);
+            let served = batch.energies_by_invariants(in_range, invariants, start, values, energies);
+            if served == first_bits(count) {
                 return Status::default();
             }
             batch.decompose(F, count, points);
-            let status =
-                batch.material.tile_energies(batch.arguments(&points.stretches, start, count), values);
-            for point in (0..count).filter(|point| by_invariants >> point & 1 == 0) {
-                energies[point] = values.0[0][point];
-            }
-            status & !by_invariants
+            batch.energies(points, start, served, values, energies) & !served
         })
     }
 
@@ -225,34 +215,26 @@ impl<'a, E: Stages> Batch<'a, E> {
     pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("P", P, 9)], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
-            let Workspace { F: lines, points, invariants, gradients, line, stress, .. } = workspace;
+            let Workspace { F: lines, points, invariants, gradients, line, .. } = workspace;
             let F = Source::new(batch.backend, batch.layout, F, lines);
-            let mut by_invariants = 0;
-            if batch.properties.has_invariants {
-                let in_range = E::invariants(batch.backend, Invariants { F, count, invariants });
+            let mut served = batch.invariants(F, count, invariants);
+            if served != 0 {
                 let arguments = batch.arguments(invariants, start, count);
-                let status = batch.material.tile_gradients_by_invariants(arguments, gradients);
-                let P = batch.sink(&mut *P);
-                let kernel = StressByInvariants { F, invariants, gradients, count, line, P };
-                by_invariants = in_range & !status.refused & E::stress_by_invariants(batch.backend, kernel);
+                served &= !batch.material.tile_gradients_by_invariants(arguments, gradients).refused;
+                let P = batch.sink(&mut *P, 0);
+                let has_second_invariant = batch.properties.has_second_invariant;
+                let kernel = StressByInvariants { F, gradients, has_second_invariant, count, line, P };
+                served &= E::stress_by_invariants(batch.backend, kernel);
             }
-            if by_invariants == first_bits(count) {
+            if served == first_bits(count) {
                 return Status::default();
             }
-            // The points that the invariants have served keep what they got.
-            stress.copy_from(P);
             batch.decompose(F, count, points);
             let refused =
                 batch.material.tile_gradients(batch.arguments(&points.stretches, start, count), gradients);
-            let kernel = Stress { points, gradients: &gradients.0, count, line, P: batch.sink(&mut *P) };
-            let status = refused | E::stress(batch.backend, kernel);
-            for point in (0..count).filter(|point| by_invariants >> point & 1 == 1) {
-                for k in 0..9 {
-                    let place = batch.layout.index::<E>(point, 9, k);
-                    P[place] = stress.0.as_flattened()[place];
-                }
-            }
-            status & !by_invariants
+            let P = batch.sink(P, served);
+            let kernel = Stress { points, gradients: &gradients.0, count, line, P };
+            (refused | E::stress(batch.backend, kernel)) & !served
         })
     }
 
@@ -298,12 +280,8 @@ impl<'a, E: Stages> Batch<'a, E> {
             [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)],
             |batch, tile| {
                 let Tile { workspace, start, count, inputs: [F], outputs: [energies, P, tangents] } = tile;
-                let Workspace { F: lines, points, energies: values, blocks, line, .. } = workspace;
-                batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
-                let status =
-                    batch.material.tile_energies(batch.arguments(&points.stretches, start, count), values);
-                energies.copy_from_slice(&values.0[0][..count]);
-                status | batch.stress_and_tangent(TangentForm::Full, points, blocks, line, start, P, tangents)
+                let (F, rooms) = batch.enter(workspace, F);
+                batch.respond(TangentForm::Full, F, start, count, rooms, P, tangents, Some(energies))
             },
         )
     }
@@ -322,7 +300,7 @@ impl<'a, E: Stages> Batch<'a, E> {
                 dF: Source::new(batch.backend, batch.layout, dF, increments),
                 count: tile.count,
                 line,
-                dP: batch.sink(dP),
+                dP: batch.sink(dP, 0),
             };
             E::product(batch.backend, kernel);
             Status::default()
@@ -376,9 +354,8 @@ impl<'a, E: Stages> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("P", P, 9), tangents], |batch, tile| {
             let Tile { workspace, start, count, inputs: [F], outputs: [P, tangents] } = tile;
-            let Workspace { F: lines, points, blocks, line, .. } = workspace;
-            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
-            batch.stress_and_tangent(form, points, blocks, line, start, P, tangents)
+            let (F, rooms) = batch.enter(workspace, F);
+            batch.respond(form, F, start, count, rooms, P, tangents, None)
         })
     }
 
@@ -393,19 +370,38 @@ impl<'a, E: Stages> Batch<'a, E> {
         let inputs = [("F", F, 9), ("rest", rest, REST)];
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
         self.run(inputs, outputs, |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F, rest], outputs: [gradients, stiffnesses] } = tile;
             let fence = NonTemporal::new();
-            let Workspace { F: lines, points, blocks, rest: shapes, line, .. } = tile.workspace;
-            let ([F, rest], [gradients, stiffnesses]) = (tile.inputs, tile.outputs);
-            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), tile.count, points);
-            let judged = batch.blocks(points, tile.start, tile.count, blocks);
-            let (points, count) = (&*points, tile.count);
+            let Workspace { F: lines, points, invariants, derivatives, blocks, rest: shapes, line, .. } =
+                workspace;
+            let F = Source::new(batch.backend, batch.layout, F, lines);
             let rest = Source::new(batch.backend, batch.layout, rest, shapes);
-            let to = batch.sink(gradients);
+            let mut served = batch.derivatives_by_invariants(F, start, count, invariants, derivatives);
+            if served != 0 {
+                let kernel = RespondByInvariants {
+                    F,
+                    invariants,
+                    derivatives,
+                    has_second_invariant: batch.properties.has_second_invariant,
+                    rest,
+                    count,
+                    line,
+                    first: batch.sink(gradients, 0),
+                    second: batch.large_sink(stiffnesses, &fence, 0),
+                };
+                served &= E::stiffness_by_invariants(batch.backend, form, kernel);
+            }
+            if served == first_bits(count) {
+                return Status::default();
+            }
+            batch.decompose(F, count, points);
+            let judged = batch.blocks(points, start, count, blocks);
+            let to = batch.sink(gradients, served);
             let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
             let forced = E::forces(batch.backend, kernel);
-            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &fence));
+            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &fence, served));
             let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
-            E::stiffness(batch.backend, form, kernel) | forced | judged
+            (E::stiffness(batch.backend, form, kernel) | forced | judged) & !served
         })
     }
 
@@ -463,10 +459,145 @@ struct Call<'a, E> {
     streams: bool,
 }
 
+/// Memory between the stages of a tile for stresses and tangents.
+struct Rooms<'w, E> {
+    points: &'w mut SvdTile<E>,
+    invariants: &'w mut Rows<E, 3>,
+    derivatives: &'w mut Rows<E, 9>,
+    energies: &'w mut Rows<E, 1>,
+    blocks: &'w mut Rows<E, 15>,
+    line: &'w mut Line<E>,
+}
+
 impl<E: Stages> Call<'_, E> {
+    /// The deformation gradients of a tile, and room for what comes of them.
+    fn enter<'w>(&self, workspace: &'w mut Workspace<E>, F: &'w [E]) -> (Source<'w, E, 9>, Rooms<'w, E>) {
+        let Workspace { F: lines, points, invariants, derivatives, energies, blocks, line, .. } = workspace;
+        let rooms = Rooms { points, invariants, derivatives, energies, blocks, line };
+        (Source::new(self.backend, self.layout, F, lines), rooms)
+    }
+
     fn decompose(&self, F: Source<'_, E, 9>, count: usize, points: &mut SvdTile<E>) {
         let is_signed = self.properties.ends_at_zero_volume;
         E::decompose(self.backend, Decompose { F, count, is_signed, points });
+    }
+
+    /// The invariants of a tile whose energy is one of them. Returns the points in range: none for any other.
+    fn invariants(&self, F: Source<'_, E, 9>, count: usize, invariants: &mut Rows<E, 3>) -> u64 {
+        if !self.properties.has_invariants {
+            return 0;
+        }
+        E::invariants(self.backend, Invariants { F, count, invariants })
+    }
+
+    /// Derivatives by the invariants, where they give the tangents of a tile. Returns these points.
+    fn derivatives_by_invariants(
+        &self,
+        F: Source<'_, E, 9>,
+        start: usize,
+        count: usize,
+        invariants: &mut Rows<E, 3>,
+        derivatives: &mut Rows<E, 9>,
+    ) -> u64 {
+        // What a filter changes is seen in the principal frames alone.
+        if self.filter != Filter::None || self.properties.has_pole {
+            return 0;
+        }
+        let in_range = self.invariants(F, count, invariants);
+        if in_range == 0 {
+            return 0;
+        }
+        let arguments = self.arguments(invariants, start, count);
+        let status = self.material.tile_derivatives_by_invariants(arguments, derivatives);
+        in_range & !(status.refused | status.nonfinite)
+    }
+
+    /// Energies of those points of a tile that the invariants serve, which it returns.
+    fn energies_by_invariants(
+        &self,
+        in_range: u64,
+        invariants: &Rows<E, 3>,
+        start: usize,
+        values: &mut Rows<E, 1>,
+        energies: &mut [E],
+    ) -> u64 {
+        if in_range == 0 {
+            return 0;
+        }
+        let arguments = self.arguments(invariants, start, energies.len());
+        let status = self.material.tile_energies_by_invariants(arguments, values);
+        energies.copy_from_slice(&values.0[0][..energies.len()]);
+        in_range & !(status.refused | status.nonfinite)
+    }
+
+    /// Energies of the points of a decomposed tile that are not served yet, and the status of all.
+    fn energies(
+        &self,
+        points: &SvdTile<E>,
+        start: usize,
+        served: u64,
+        values: &mut Rows<E, 1>,
+        energies: &mut [E],
+    ) -> Status<u64> {
+        let arguments = self.arguments(&points.stretches, start, energies.len());
+        let status = self.material.tile_energies(arguments, values);
+        for (point, energy) in energies.iter_mut().enumerate().filter(|(point, _)| served >> point & 1 == 0) {
+            *energy = values.0[0][point];
+        }
+        status
+    }
+
+    /// Stresses and tangents of a tile, and its energies if they are asked for.
+    #[expect(clippy::too_many_arguments, reason = "a tile with its rooms and its outputs")]
+    fn respond(
+        &self,
+        form: TangentForm,
+        F: Source<'_, E, 9>,
+        start: usize,
+        count: usize,
+        rooms: Rooms<'_, E>,
+        P: &mut [E],
+        tangents: &mut [E],
+        mut energies: Option<&mut [E]>,
+    ) -> Status<u64> {
+        let Rooms { points, invariants, derivatives, energies: values, blocks, line } = rooms;
+        let fence = NonTemporal::new();
+        let is_by_invariants = form != TangentForm::Factored;
+        let mut served = if is_by_invariants {
+            self.derivatives_by_invariants(F, start, count, invariants, derivatives)
+        } else {
+            0
+        };
+        if let Some(energies) = energies.as_deref_mut() {
+            served = self.energies_by_invariants(served, invariants, start, values, energies);
+        }
+        if served != 0 {
+            let kernel = RespondByInvariants {
+                F,
+                invariants,
+                derivatives,
+                has_second_invariant: self.properties.has_second_invariant,
+                rest: Source::NONE,
+                count,
+                line,
+                first: self.sink(P, 0),
+                second: self.large_sink(tangents, &fence, 0),
+            };
+            served &= E::tangent_by_invariants(self.backend, form, kernel);
+        }
+        if served == first_bits(count) {
+            return Status::default();
+        }
+        self.decompose(F, count, points);
+        let mut status = self.blocks(points, start, count, blocks);
+        if let Some(energies) = energies {
+            status = status | self.energies(points, start, served, values, energies);
+        }
+        let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P, served) };
+        let stressed = E::stress(self.backend, kernel);
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &fence, served));
+        let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
+        (E::tangent(self.backend, form, kernel) | stressed | status) & !served
     }
 
     /// The filtered blocks of a tile.
@@ -482,39 +613,18 @@ impl<E: Stages> Call<'_, E> {
         refused | E::judge(self.backend, Judge { points, blocks, count, filter: self.filter, has_pole })
     }
 
-    /// Stresses and tangents of a tile that has been decomposed.
-    #[expect(clippy::too_many_arguments, reason = "a tile's rooms, each borrowed by itself")]
-    fn stress_and_tangent(
-        &self,
-        form: TangentForm,
-        points: &SvdTile<E>,
-        blocks: &mut Rows<E, 15>,
-        line: &mut Line<E>,
-        start: usize,
-        P: &mut [E],
-        tangents: &mut [E],
-    ) -> Status<u64> {
-        let fence = NonTemporal::new();
-        let count = P.len() / 9;
-        let judged = self.blocks(points, start, count, blocks);
-        let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P) };
-        let stressed = E::stress(self.backend, kernel);
-        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &fence));
-        let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
-        E::tangent(self.backend, form, kernel) | stressed | judged
-    }
-
     fn arguments<'t>(&self, rows: &'t Rows<E, 3>, start: usize, count: usize) -> Arguments<'t, E> {
         Arguments { backend: self.backend, start, count, rows }
     }
 
-    fn sink<'t>(&self, to: &'t mut [E]) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, non_temporal: None }
+    /// A sink for the points that are not served yet.
+    fn sink<'t>(&self, to: &'t mut [E], served: u64) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: None, served }
     }
 
     /// A sink for outputs that may be larger than the caches.
-    fn large_sink<'t>(&self, to: &'t mut [E], fence: &'t NonTemporal) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, non_temporal: self.streams.then_some(fence) }
+    fn large_sink<'t>(&self, to: &'t mut [E], fence: &'t NonTemporal, served: u64) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: self.streams.then_some(fence), served }
     }
 }
 

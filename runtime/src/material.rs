@@ -94,9 +94,9 @@ pub trait Material: Send + Sync {
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
 
     /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no
-    /// stretch is named.
+    /// stretch is named, or in sums such as Σ (λ² − 1)² only.
     ///
-    /// The three methods below then give ψ and P without a singular value decomposition:
+    /// The four methods below then give ψ, P and dP/dF without a singular value decomposition:
     ///
     /// ```text
     /// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
@@ -108,8 +108,12 @@ pub trait Material: Send + Sync {
     /// root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
+    /// Whether ψ by invariants depends on I2. Where it does not, W2, W22, W12 and W2J are taken for zero, and
+    /// dP/dF takes half as many operations.
+    const HAS_SECOND_INVARIANT: bool = true;
+
     /// Energy density ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without
-    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS), and where stretches keep more digits near rest.
     #[inline(always)]
     fn energy_by_invariants<R: Real>(&self, _: [R; 3]) -> R {
         R::splat(f64::NAN)
@@ -119,6 +123,13 @@ pub trait Material: Send + Sync {
     #[inline(always)]
     fn gradient_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 3] {
         [R::splat(f64::NAN); 3]
+    }
+
+    /// Derivatives W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from \[I1, I2, J\]; NaN without
+    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    #[inline(always)]
+    fn derivatives_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 9] {
+        [R::splat(f64::NAN); 9]
     }
 
     /// Whether \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).

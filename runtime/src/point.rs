@@ -24,7 +24,6 @@ use crate::quotient::pole_floor;
 use crate::status::Status;
 
 pub mod gradient;
-#[cfg(feature = "batch")]
 pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
@@ -42,8 +41,10 @@ mod tests;
 mod twice;
 
 pub use gradient::{SvdGradient, svd_gradient};
+use invariants::{invariants, stress_by_invariants};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
+use matrix::three;
 pub use project::{Filter, project};
 pub use small_strain::{
     evaluate_energy_from_displacement, evaluate_from_displacement, evaluate_stress_from_displacement,
@@ -77,31 +78,53 @@ impl<R: Real> Point<R> {
     }
 }
 
-/// The energy density ψ(F), Pa, and its status. Computes no derivative.
+/// The energy density ψ(F), Pa, and its status. Computes no derivative, and for an energy of I1, I2 and J
+/// alone, well inside its domain, no decomposition.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_energy<R: Real>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (R, Status<R::Mask>) {
+    let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
+    if material.has_invariants() {
+        let (invariants, is_in_range) = invariants(F);
+        by_invariants = material.energy_by_invariants(invariants);
+        served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
+        if !(!served).any() {
+            return (by_invariants, Status::clean());
+        }
+    }
     let svd = decompose(material, F);
     let energy = material.energy(svd.stretches);
-    let refused = !material.admits(svd.stretches);
-    let nonfinite = !energy_is_finite(svd.stretches, energy);
-    (energy, Status { refused, nonfinite, ..Status::clean() })
+    let refused = !material.admits(svd.stretches) & !served;
+    let nonfinite = !energy_is_finite(svd.stretches, energy) & !served;
+    (R::select(served, by_invariants, energy), Status { refused, nonfinite, ..Status::clean() })
 }
 
-/// The first Piola stress P(F), Pa, and its status. Computes no second derivative.
+/// The first Piola stress P(F), Pa, and its status. Computes no second derivative, and for an energy of I1,
+/// I2 and J alone, well inside its domain, no decomposition.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_stress<R: Real>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (Matrix3<R>, Status<R::Mask>) {
+    let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
+    if material.has_invariants() {
+        let (invariants, is_in_range) = invariants(F);
+        let gradient = material.gradient_by_invariants(invariants);
+        by_invariants = stress_by_invariants::<R, true>(F, gradient);
+        served = is_in_range & material.admits_invariants(invariants) & entries_are_finite(&by_invariants);
+        if !(!served).any() {
+            return (by_invariants, Status::clean());
+        }
+    }
     let svd = decompose(material, F);
     let P = stress(&svd, material.gradient(svd.stretches));
-    let refused = !material.admits(svd.stretches);
-    let nonfinite = !stress_is_finite(svd.stretches, &P);
+    let refused = !material.admits(svd.stretches) & !served;
+    let nonfinite = !stress_is_finite(svd.stretches, &P) & !served;
+    let P = three!(i => three!(j => R::select(served, by_invariants[i][j], P[i][j])));
     (P, Status { refused, nonfinite, ..Status::clean() })
 }
 

@@ -16,6 +16,7 @@ pub mod extension;
 pub mod increment;
 pub mod interpret;
 pub mod invariants;
+pub mod power_sums;
 pub mod quotient;
 pub mod rational;
 pub mod simplify;

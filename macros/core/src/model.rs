@@ -23,7 +23,7 @@ use crate::judge::{self, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Parameter};
-use crate::read::resolve::{self, Resolver};
+use crate::read::resolve::{self, Invariantly, Resolver};
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
 
@@ -230,9 +230,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     // By invariants, I1b − 3 is not known well enough for real powers.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
         .filter(|_| !has_squares(&graph, energy))
-        .map(|(energy, bounds)| {
+        .map(|Invariantly { energy, bounds, is_written_so }| {
             let energy = over_one_denominator(&mut graph, energy, &ways.by_invariants());
-            by_invariants(&mut graph, energy, bounds)
+            by_invariants(&mut graph, energy, is_written_so, bounds)
         });
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));

@@ -4,6 +4,7 @@
 
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
+use crate::point::invariants::tangent::{Entries, RowsOf, Terms};
 use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
 use crate::status::Status;
@@ -19,6 +20,23 @@ pub(super) trait Form<const REST: usize, const N: usize> {
 
     /// Puts number k at k LINE.
     fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut [R::Scalar]);
+}
+
+/// Form that is made without a decomposition as well.
+pub(super) trait FormByInvariants<const REST: usize, const N: usize>: Form<REST, N> {
+    /// Puts number k at k LINE.
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
+        terms: &Terms<R, HAS_SECOND>,
+        rest: &[R; REST],
+        to: &mut [R::Scalar],
+    );
+
+    /// Whether no number can overflow on the way from the tangent, given a bound of its entries, to the form.
+    #[inline(always)]
+    fn stays_finite<R: Real>(tangent: R, rest: &[R; REST]) -> R::Mask {
+        let _ = (tangent, rest);
+        R::Mask::splat(true)
+    }
 }
 
 /// Puts number k at k LINE.
@@ -61,6 +79,17 @@ impl Form<0, 81> for FullTangent {
     }
 }
 
+impl FormByInvariants<0, 81> for FullTangent {
+    #[inline(always)]
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
+        terms: &Terms<R, HAS_SECOND>,
+        _: &[R; 0],
+        to: &mut [R::Scalar],
+    ) {
+        terms.assemble(&Entries, &mut Blocks3(Self, to));
+    }
+}
+
 /// The 45 entries of dP/dF on and above the diagonal, row by row.
 pub(super) struct PackedTangent;
 
@@ -82,6 +111,17 @@ impl Form<0, 45> for PackedTangent {
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
         assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
+    }
+}
+
+impl FormByInvariants<0, 45> for PackedTangent {
+    #[inline(always)]
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
+        terms: &Terms<R, HAS_SECOND>,
+        _: &[R; 0],
+        to: &mut [R::Scalar],
+    ) {
+        terms.assemble(&Entries, &mut Blocks3(Self, to));
     }
 }
 
@@ -156,13 +196,27 @@ impl<R: Real> Rest<R> {
         Self { inverse: [[a, b, c], [d, e, f], [g, h, i]], volume }
     }
 
+    /// Whether a stiffness is finite whose tangent has no entry larger than this, in any frames.
+    #[inline(always)]
+    fn keeps_finite(&self, tangent: R) -> R::Mask {
+        let shape = largest(to_row_major(self.inverse));
+        ((shape * self.volume) * R::splat(1024.0) * (shape * tangent)).is_finite()
+    }
+
+    /// The gradients of the barycentric coordinates of nodes 1, 2, 3, a row for each, times √volume.
+    #[inline(always)]
+    fn scaled_gradients(&self) -> [[R; 3]; 3] {
+        let factor = self.volume.sqrt();
+        three!(n => three!(x => factor * self.inverse[n][x]))
+    }
+
     /// W: row n is the gradient of the barycentric coordinate of node n + 1, seen from the principal frame at
     /// rest, times √volume.
     #[inline(always)]
     fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-        let factor = self.volume.sqrt();
+        let gradients = self.scaled_gradients();
         three!(n => {
-            let row = three!(x => factor * self.inverse[n][x]);
+            let row = gradients[n];
             three!(l => row[0].mul_add(V[0][l], row[1].mul_add(V[1][l], row[2] * V[2][l])))
         })
     }
@@ -200,9 +254,7 @@ fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
 /// most 27 products of an entry of the tangent and two of W, or sums of nine such entries.
 #[inline(always)]
 fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
-    let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
-    let shape = largest(to_row_major(rest.inverse));
-    ((shape * rest.volume) * R::splat(1024.0) * (shape * tangent)).is_finite()
+    rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
 }
 
 /// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the
@@ -310,6 +362,23 @@ macro_rules! stiffness_form {
                 let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
                 assemble_blocks(U, &W, blocks, &mut Stiffness(Self, to));
+            }
+        }
+
+        impl FormByInvariants<10, $numbers> for $Form {
+            #[inline(always)]
+            fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
+                terms: &Terms<R, HAS_SECOND>,
+                rest: &[R; 10],
+                to: &mut [R::Scalar],
+            ) {
+                let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
+                terms.assemble(&coordinates, &mut Stiffness(Self, to));
+            }
+
+            #[inline(always)]
+            fn stays_finite<R: Real>(tangent: R, rest: &[R; 10]) -> R::Mask {
+                Rest::new(*rest).keeps_finite(tangent)
             }
         }
     };

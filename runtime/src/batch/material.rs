@@ -134,6 +134,7 @@ macro_rules! tile_responses {
                 let materials = self.materials();
                 Properties {
                     has_invariants: P::Material::HAS_INVARIANTS,
+                    has_second_invariant: P::Material::HAS_SECOND_INVARIANT,
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
                     points: self.count(),
@@ -163,6 +164,10 @@ tile_responses! {
     /// W1, W2, WJ, Pa, from I1, I2, J.
     tile_gradients_by_invariants: gradient_by_invariants within admits_invariants,
     3 rows by |gradient| gradient, finite where |_, _| R::Mask::splat(true);
+
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J.
+    tile_derivatives_by_invariants: derivatives_by_invariants within admits_invariants,
+    9 rows by |derivatives| derivatives, finite where |_, _| R::Mask::splat(true);
 }
 
 /// Properties of a batch's materials that no deformation decides.
@@ -170,6 +175,8 @@ tile_responses! {
 pub struct Properties {
     /// Whether ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
     pub(crate) has_invariants: bool,
+    /// Whether ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
+    pub(crate) has_second_invariant: bool,
     /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].
     pub(crate) has_pole: bool,
     /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].

@@ -59,7 +59,7 @@ impl<E: Stages> Batch<'_, E> {
             batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
             let arguments = batch.arguments(&points.stretches, start, count);
             let refused = batch.material.tile_gradients(arguments, gradients);
-            let to = batch.sink(stresses);
+            let to = batch.sink(stresses, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
             refused | E::measured_stress(batch.backend, kernel)
         })
@@ -88,10 +88,10 @@ impl<E: Stages> Batch<'_, E> {
             let Workspace { F: lines, points, blocks, line, .. } = workspace;
             batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
             let judged = batch.blocks(points, start, count, blocks);
-            let (points, to) = (&*points, batch.sink(stresses));
+            let (points, to) = (&*points, batch.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };
             let stressed = E::measured_stress(batch.backend, kernel);
-            let to = batch.large_sink(tangents, &fence);
+            let to = batch.large_sink(tangents, &fence, 0);
             let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
             E::measured_tangent(batch.backend, kernel) | stressed | judged
         })

@@ -35,5 +35,5 @@ pub(super) fn set_edges(edges: &mut Lines<f64, 9>, lane: usize, [x0, x1, x2, x3]
 }
 
 pub(super) fn by_elements(to: &mut [f64]) -> Sink<'_, f64> {
-    Sink { to, layout: Layout::Points, non_temporal: None }
+    Sink { to, layout: Layout::Points, non_temporal: None, served: 0 }
 }

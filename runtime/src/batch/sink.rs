@@ -104,7 +104,7 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
 
     #[cfg(feature = "bodies")]
     pub(super) fn sink(&mut self) -> Sink<'_, E> {
-        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None }
+        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None, served: 0 }
     }
 }
 
@@ -142,6 +142,8 @@ pub(super) struct Sink<'a, E> {
     pub(super) layout: Layout,
     /// Fence for non-temporal stores past the caches; ordinary stores without one.
     pub(super) non_temporal: Option<&'a NonTemporal>,
+    /// Points that keep what they have, as bits.
+    pub(super) served: u64,
 }
 
 impl<E: Scalar> Sink<'_, E> {
@@ -165,7 +167,7 @@ impl<E: Scalar> Sink<'_, E> {
 
     #[inline(always)]
     fn is_direct(&self) -> bool {
-        self.layout == Layout::Lines && self.non_temporal.is_none()
+        self.layout == Layout::Lines && self.non_temporal.is_none() && self.served == 0
     }
 
     /// Brings what is in a place to the slice; `count` is how many points the tile has.
@@ -181,6 +183,14 @@ impl<E: Scalar> Sink<'_, E> {
         }
         let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
         let line = &line.0.as_flattened()[..N * E::LINE];
+        if self.served != 0 {
+            for lane in (0..R::LANES.min(count - at)).filter(|lane| self.served >> (at + lane) & 1 == 0) {
+                for k in 0..N {
+                    self.to[self.layout.index::<E>(at + lane, N, k)] = line[k * E::LINE + offset + lane];
+                }
+            }
+            return;
+        }
         match (self.layout, self.non_temporal) {
             (Layout::Lines, Some(fence)) => {
                 if offset + R::LANES == E::LINE {

@@ -10,8 +10,8 @@ use std::cell::Cell;
 #[cfg(feature = "bodies")]
 use super::form::{BlockStiffness, FactoredStiffness};
 use super::form::{
-    Factored, Form, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite, put_all,
-    put_gradient,
+    Factored, Form, FormByInvariants, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
+    gradient_is_finite, put_all, put_gradient,
 };
 use super::material::{from_rows, to_rows};
 use super::measure::{MeasuredStress, MeasuredTangent};
@@ -20,6 +20,7 @@ use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
+use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::{
@@ -87,27 +88,30 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
     }
 }
 
-/// Kernel from F, I1 and W1, W2, WJ to P.
+/// Kernel from F and W1, W2, WJ to P.
 pub(super) struct StressByInvariants<'a, E> {
     pub(super) F: Source<'a, E, 9>,
-    pub(super) invariants: &'a Rows<E, 3>,
     pub(super) gradients: &'a Rows<E, 3>,
+    pub(super) has_second_invariant: bool,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
     pub(super) P: Sink<'a, E>,
 }
 
-impl<E: Scalar> Kernel<E> for StressByInvariants<'_, E> {
+/// [`StressByInvariants`] with or without terms in I2.
+struct StressOf<'a, E, const HAS_SECOND: bool>(StressByInvariants<'a, E>);
+
+impl<E: Scalar, const HAS_SECOND: bool> Kernel<E> for StressOf<'_, E, HAS_SECOND> {
     /// The points whose stress is finite.
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self { F, invariants, gradients, count, line, mut P } = self;
+        let StressByInvariants { F, gradients, count, line, mut P, .. } = self.0;
         let mut finite = 0;
         for_each_group!(R, count, |at| {
-            let (F, I1) = (to_matrix(F.get_all::<R>(at)), invariants.get(0, at));
-            let stress = stress_by_invariants(&F, I1, gradients.get_all(at));
+            let F = to_matrix(F.get_all::<R>(at));
+            let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradients.get_all(at));
             finite |= R::bits(entries_are_finite(&stress)) << at;
             put_all(to_row_major(stress), P.place::<R, 9>(line, at));
             P.finish::<R, 9>(line, at, count);
@@ -266,6 +270,83 @@ where
     }
 }
 
+/// Output for the stresses and tangents of a tile by invariants, or for its gradients and stiffnesses.
+pub(super) struct RespondByInvariants<'a, E, const REST: usize> {
+    pub(super) F: Source<'a, E, 9>,
+    pub(super) invariants: &'a Rows<E, 3>,
+    pub(super) derivatives: &'a Rows<E, 9>,
+    pub(super) has_second_invariant: bool,
+    pub(super) rest: Source<'a, E, REST>,
+    pub(super) count: usize,
+    pub(super) line: &'a mut Line<E>,
+    /// P, or the gradient if there is a shape at rest.
+    pub(super) first: Sink<'a, E>,
+    pub(super) second: Sink<'a, E>,
+}
+
+/// [`RespondByInvariants`] with an output of a form.
+struct ShapedByInvariants<'a, E, Form, const HAS_SECOND: bool, const REST: usize, const N: usize>(
+    RespondByInvariants<'a, E, REST>,
+    Form,
+);
+
+impl<E, Form, const HAS_SECOND: bool, const REST: usize, const N: usize> Kernel<E>
+    for ShapedByInvariants<'_, E, Form, HAS_SECOND, REST, N>
+where
+    E: Scalar,
+    Form: FormByInvariants<REST, N>,
+{
+    /// The points that keep their digits and stay in range.
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
+        let RespondByInvariants {
+            F, invariants, derivatives, rest, count, line, mut first, mut second, ..
+        } = self.0;
+        let mut served = 0;
+        for_each_group!(R, count, |at| {
+            let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
+            let terms = Terms::<R, HAS_SECOND>::new(&F, invariants, &derivatives.get_all(at));
+            let rest = rest.get_all(at);
+            // The larger output first: what P needs of the registers stays in few.
+            Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
+            second.finish::<R, N>(line, at, count);
+            let stress = terms.stress();
+            let mut is_served = terms.keeps_digits() & Form::stays_finite(terms.bound(), &rest);
+            if REST == 0 {
+                put_all(to_row_major(stress), first.place::<R, 9>(line, at));
+                first.finish::<R, 9>(line, at, count);
+            } else {
+                let mut shape = [R::splat(0.0); 10];
+                shape[..REST].copy_from_slice(&rest);
+                put_gradient(&stress, &shape, first.place::<R, 12>(line, at));
+                first.finish::<R, 12>(line, at, count);
+                is_served = is_served & gradient_is_finite(&stress, &shape);
+            }
+            served |= R::bits(is_served) << at;
+        });
+        served & first_bits(count)
+    }
+}
+
+/// Runs a kernel for a form, with or without terms in I2.
+fn shape_by_invariants<E, F, const REST: usize, const N: usize>(
+    backend: Backend,
+    kernel: RespondByInvariants<'_, E, REST>,
+    form: F,
+) -> u64
+where
+    E: Scalar,
+    F: FormByInvariants<REST, N>,
+{
+    if kernel.has_second_invariant {
+        backend.run(ShapedByInvariants::<_, _, true, REST, N>(kernel, form))
+    } else {
+        backend.run(ShapedByInvariants::<_, _, false, REST, N>(kernel, form))
+    }
+}
+
 /// Kernel of products dP = (dP/dF) dF from what [`Factored`] has stored.
 pub(super) struct Product<'a, E> {
     pub(super) stored: Source<'a, E, 30>,
@@ -330,6 +411,20 @@ pub trait Stages: Scalar {
     fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
     #[doc(hidden)]
     fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
+    /// The points served: none for a form that needs a decomposition.
+    #[doc(hidden)]
+    fn tangent_by_invariants(
+        backend: Backend,
+        form: TangentForm,
+        kernel: RespondByInvariants<'_, Self, 0>,
+    ) -> u64;
+    /// The points served: none for a form that needs a decomposition.
+    #[doc(hidden)]
+    fn stiffness_by_invariants(
+        backend: Backend,
+        form: StiffnessForm,
+        kernel: RespondByInvariants<'_, Self, 10>,
+    ) -> u64;
     #[doc(hidden)]
     fn product(backend: Backend, kernel: Product<'_, Self>);
     #[doc(hidden)]
@@ -358,7 +453,11 @@ macro_rules! stages {
             }
 
             fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64 {
-                backend.run(kernel)
+                if kernel.has_second_invariant {
+                    backend.run(StressOf::<_, true>(kernel))
+                } else {
+                    backend.run(StressOf::<_, false>(kernel))
+                }
             }
 
             fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64> {
@@ -389,6 +488,33 @@ macro_rules! stages {
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
                     #[cfg(feature = "bodies")]
                     StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
+                }
+            }
+
+            fn tangent_by_invariants(
+                backend: Backend,
+                form: TangentForm,
+                kernel: RespondByInvariants<'_, Self, 0>,
+            ) -> u64 {
+                match form {
+                    TangentForm::Full => shape_by_invariants(backend, kernel, FullTangent),
+                    TangentForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
+                    TangentForm::Factored => 0,
+                }
+            }
+
+            fn stiffness_by_invariants(
+                backend: Backend,
+                form: StiffnessForm,
+                kernel: RespondByInvariants<'_, Self, 10>,
+            ) -> u64 {
+                match form {
+                    StiffnessForm::Full => shape_by_invariants(backend, kernel, FullStiffness),
+                    StiffnessForm::Packed => shape_by_invariants(backend, kernel, PackedStiffness),
+                    #[cfg(feature = "bodies")]
+                    StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
+                    #[cfg(feature = "bodies")]
+                    StiffnessForm::Factored => 0,
                 }
             }
 

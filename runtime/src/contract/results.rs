@@ -31,7 +31,7 @@ pub(super) fn name(number: usize) -> String {
 }
 
 /// Length of a row with results by strains and invariants, and whether stretches and invariants are admitted.
-pub(super) const ALL: usize = COUNT + 9;
+pub(super) const ALL: usize = COUNT + 15;
 
 /// Row of all results. Inlined.
 #[inline(always)]
@@ -41,6 +41,7 @@ pub(super) fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretc
     let [a, b, c] = stretches.map(|l| l * l);
     let invariants = [a + b + c, a * b + a * c + b * c, stretches[0] * stretches[1] * stretches[2]];
     let [w1, w2, wj] = material.gradient_by_invariants(invariants);
+    let [.., w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
     let truth = |mask| R::select(mask, R::splat(1.0), R::splat(0.0));
     let others = [
         s1,
@@ -50,6 +51,12 @@ pub(super) fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretc
         w1,
         w2,
         wj,
+        w11,
+        w22,
+        wjj,
+        w12,
+        w1j,
+        w2j,
         truth(material.admits(stretches)),
         truth(material.admits_invariants(invariants)),
     ];
@@ -71,6 +78,12 @@ pub(super) fn everything_name(number: usize) -> String {
         "derivative of the energy by I1",
         "derivative of the energy by I2",
         "derivative of the energy by J",
+        "second derivative of the energy by I1",
+        "second derivative of the energy by I2",
+        "second derivative of the energy by J",
+        "second derivative of the energy by I1 and I2",
+        "second derivative of the energy by I1 and J",
+        "second derivative of the energy by I2 and J",
         "admission (1 or 0)",
         "admission of the invariants (1 or 0)",
     ];

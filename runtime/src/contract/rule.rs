@@ -58,7 +58,8 @@ pub enum Rule {
     ///
     /// * the stretches are admitted too;
     /// * the energies agree;
-    /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ.
+    /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ;
+    /// * Hessian, flips and twists are those that W1 … WJJ make by the rules of calculus.
     Invariants,
     /// Smooth, restoring extension of a material whose [`inversion`](crate::Material::inversion) is
     /// `Inversion::Extend { epsilon }`:
@@ -133,7 +134,7 @@ impl Rule {
                 "flips and twists keep their digits at every gap between stretches, zero included"
             }
             Self::Strains => "`gradient_at_strains` is the gradient at the stretches 1 + s",
-            Self::Invariants => "energy and gradient by I1, I2 and J are those by stretches",
+            Self::Invariants => "energy and derivatives by I1, I2 and J are those by stretches",
             Self::Extension => "beyond its domain the energy goes on smoothly and restores",
             Self::Moduli => "the stated moduli are those of the Hessian at rest",
             Self::SinglePrecision => "in `f32` all numbers are those of `f64`, to the rounding of `f32`",

@@ -10,9 +10,6 @@ use crate::point::{self, Filter, Matrix3, Tangent};
 
 /// A material: its responses in `f64`, and whatever else a rule compares with them.
 pub(super) trait Subject: Response<f64> {
-    /// [`Material::HAS_INVARIANTS`].
-    fn has_invariants(&self) -> bool;
-
     /// [`Material::inversion`].
     fn inversion(&self) -> Inversion;
 
@@ -42,10 +39,6 @@ impl<M: Material> OnLanes for M {
 }
 
 impl<M: Material> Subject for M {
-    fn has_invariants(&self) -> bool {
-        M::HAS_INVARIANTS
-    }
-
     fn inversion(&self) -> Inversion {
         Material::inversion(self)
     }

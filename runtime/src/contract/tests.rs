@@ -24,7 +24,7 @@ fn right_materials_pass() {
         check_passes(&SaintVenantKirchhoff, &settings);
         check_passes(&NeoHookean, &settings);
         check_passes(&RotatedLinear, &settings);
-        check_passes(&ByInvariants { w2: -0.5 }, &settings);
+        check_passes(&ByInvariants { w2: -0.5, w11: 0.875 }, &settings);
         for epsilon in [0.1, 0.3, 0.7] {
             check_passes(&ExtendedNeoHookean { epsilon }, &settings);
         }
@@ -224,9 +224,10 @@ fn below<R: Real>(x: R) -> R {
     (x - R::splat(0.3)).min(R::splat(0.0))
 }
 
-/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −½.
+/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −1/2 and W11 = 7/8.
 struct ByInvariants {
     w2: f64,
+    w11: f64,
 }
 
 impl Material for ByInvariants {
@@ -254,6 +255,12 @@ impl Material for ByInvariants {
     fn gradient_by_invariants<R: Real>(&self, [i1, _, _]: [R; 3]) -> [R; 3] {
         let w1 = (i1 - R::splat(1.0)) * R::splat(0.5) + (i1 - R::splat(3.0)) * R::splat(0.375);
         [w1, R::splat(self.w2), R::splat(0.0)]
+    }
+
+    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
+        let zero = R::splat(0.0);
+        let [w1, w2, wj] = self.gradient_by_invariants(invariants);
+        [w1, w2, wj, R::splat(self.w11), zero, zero, zero, zero, zero]
     }
 
     fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
@@ -328,7 +335,12 @@ fn defects_that_one_rule_sees_are_named_by_it() {
         Rule::Lanes,
         "second derivative of the energy by stretch 1 on the portable back end",
     );
-    check_names_alone(&ByInvariants { w2: 0.5 }, Rule::Invariants, "by invariants");
+    check_names_alone(&ByInvariants { w2: 0.5, w11: 0.875 }, Rule::Invariants, "by invariants");
+    check_names_alone(
+        &ByInvariants { w2: -0.5, w11: 0.5 },
+        Rule::Invariants,
+        "second derivative of the energy by stretch 1, from those by invariants",
+    );
     check_names_alone(&plain(Defect::JumpingEnergy), Rule::StressSlope, "energy");
     check_names_alone(&plain(Defect::DeniesItsEnd), Rule::Domain, "ends_at_zero_volume");
     check_names_alone(
@@ -390,7 +402,7 @@ fn what_a_material_has_not_is_not_asked_for() {
     assert!(without.iter().all(|rule| !plain.contains(rule)));
     assert_eq!(plain.len(), Rule::ALL.len() - without.len());
     assert!(rules(&|| check(&ExtendedNeoHookean { epsilon: 0.3 }, &settings)).contains(&Rule::Extension));
-    assert!(rules(&|| check(&ByInvariants { w2: -0.5 }, &settings)).contains(&Rule::Invariants));
+    assert!(rules(&|| check(&ByInvariants { w2: -0.5, w11: 0.875 }, &settings)).contains(&Rule::Invariants));
 }
 
 mod messages;

@@ -147,6 +147,7 @@ macro_rules! sum_responses {
     ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         impl<A: Material, B: Material> Material for Sum<A, B> {
             const HAS_INVARIANTS: bool = A::HAS_INVARIANTS && B::HAS_INVARIANTS;
+            const HAS_SECOND_INVARIANT: bool = A::HAS_SECOND_INVARIANT || B::HAS_SECOND_INVARIANT;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
@@ -184,6 +185,7 @@ macro_rules! sum_responses {
 
         impl<M: Material, P: ParameterValue> Material for Scaled<M, P> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+            const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

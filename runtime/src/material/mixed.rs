@@ -100,6 +100,7 @@ macro_rules! mixed_responses {
     ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         impl<M: Material + PartialEq> Material for Mixed<'_, M> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+            const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

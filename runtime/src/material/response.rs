@@ -20,6 +20,7 @@ macro_rules! with_responses {
                 energy_and_blocks -> (R, Blocks<R>),
                 energy_by_invariants -> R,
                 gradient_by_invariants -> [R; 3],
+                derivatives_by_invariants -> [R; 9],
             }
             domain { admits, admits_invariants }
         }
@@ -48,6 +49,8 @@ macro_rules! declare_response {
                 #[doc = concat!("Forwards to [`Material::", stringify!($domain), "`].")]
                 fn $domain(&self, at: [R; 3]) -> R::Mask;
             )*
+            /// [`Material::HAS_INVARIANTS`].
+            fn has_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
             fn has_pole(&self) -> bool;
             /// Forwards to [`Material::ends_at_zero_volume`].
@@ -68,6 +71,10 @@ macro_rules! declare_response {
                 }
             )*
             #[inline]
+            fn has_invariants(&self) -> bool {
+                M::HAS_INVARIANTS
+            }
+            #[inline]
             fn has_pole(&self) -> bool {
                 Material::has_pole(self)
             }
@@ -84,6 +91,7 @@ macro_rules! forward_to_pointee {
     ([$($head:tt)*] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         $($head)* {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+            const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

@@ -1,20 +1,32 @@
-//! Stress without a singular value decomposition, for energies of the invariants I1 = |F|², I2 = |cof F|², J
-//! = det F.
+//! Stress and tangent without a singular value decomposition, for energies W of the invariants I1 = |F|²,
+//! I2 = |cof F|², J = det F.
+//!
+//! The cross product of two matrices \[BGO15\], (A × B)ij = εikm εjln Akl Bmn, is bilinear and symmetric, with
+//! A : (B × X) = (A × B) : X. Since cof F = ½ F × F, it differentiates cofactors. With C = cof F and D = C × F,
 //!
 //! ```text
-//! ∂I1/∂F = 2 F,   ∂I2/∂F = 2 (I1 F − F Fᵀ F),   ∂J/∂F = cof F
+//! dI1 = 2 F : dF,   dI2 = 2 C : (F × dF) = 2 D : dF,   dJ = C : dF
+//! P   = 2 W1 F + 2 W2 D + WJ C,                                             W1 = ∂W/∂I1, …
 //! ```
+//!
+//! D is I1 F − F Fᵀ F, but without a difference of cubes.
 //!
 //! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice the
 //! working precision, so that each is as good as F determines it: within a few u of its sensitivity to
-//! relative changes of F by 1. So is P.
+//! relative changes of F by 1. So is P. Entries of F that a plane of symmetry makes zero make the same entries
+//! of P exactly zero.
+//!
+//! \[BGO15\] Bonet, Gil, Ortigosa, *A computational framework for polyconvex large strain elasticity*, 2015.
 
-#![expect(non_snake_case, reason = "F, P, I1, I2, J as in the text above")]
+#![expect(non_snake_case, reason = "F, C, D, P, I1, I2, J as in the text above")]
 
-use super::matrix::{dot, multiply_transposed, three};
+use super::matrix::{dot, three};
 use super::svd::determinant;
 use super::{Matrix3, entries_are_finite};
 use crate::lanes::Real;
+
+#[cfg(feature = "batch")]
+pub(crate) mod tangent;
 
 /// I1, I2, J; and whether all of them, and what is computed from them, stay in range.
 #[inline(always)]
@@ -34,16 +46,26 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
     dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2])
 }
 
-/// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F, Pa.
+/// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 is taken for zero.
 #[inline(always)]
-pub(crate) fn stress_by_invariants<R: Real>(F: &Matrix3<R>, I1: R, [W1, W2, WJ]: [R; 3]) -> Matrix3<R> {
-    let b = multiply_transposed(F, F);
-    let cofactor = cofactor(F);
-    let (twice_W1, twice_W2) = (W1 + W1, W2 + W2);
-    let along_F = twice_W2.mul_add(I1, twice_W1);
+pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
+    F: &Matrix3<R>,
+    [W1, W2, WJ]: [R; 3],
+) -> Matrix3<R> {
+    let C = cofactor(F);
+    let D = if HAS_SECOND { cross(&C, F) } else { C };
+    stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [W1 + W1, W2 + W2, WJ])
+}
+
+/// The sum of F, D and C times a factor each.
+#[inline(always)]
+fn stress_of_terms<R: Real, const HAS_SECOND: bool>(
+    [F, D, C]: [&Matrix3<R>; 3],
+    [along_F, along_D, along_C]: [R; 3],
+) -> Matrix3<R> {
     three!(i => three!(j => {
-        let cubed = dot(b[i], [F[0][j], F[1][j], F[2][j]]);
-        along_F.mul_add(F[i][j], (-twice_W2).mul_add(cubed, WJ * cofactor[i][j]))
+        let P = along_F.mul_add(F[i][j], along_C * C[i][j]);
+        if HAS_SECOND { along_D.mul_add(D[i][j], P) } else { P }
     }))
 }
 
@@ -53,5 +75,16 @@ fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => {
         let (k, l, m, n) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
         F[k][m].mul_add(F[l][n], -(F[k][n] * F[l][m]))
+    }))
+}
+
+/// The cross product of two matrices, A × B.
+#[inline(always)]
+fn cross<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
+    three!(i => three!(j => {
+        let (k, l, m, n) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+        let straight = A[k][m].mul_add(B[l][n], A[l][n] * B[k][m]);
+        let crossed = A[k][n].mul_add(B[l][m], A[l][m] * B[k][n]);
+        straight - crossed
     }))
 }

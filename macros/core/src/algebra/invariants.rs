@@ -1,14 +1,15 @@
 //! Energies as functions of I1, I2 and J alone.
 //!
-//! Stress then needs no singular value decomposition:
+//! Stress and tangent then need no singular value decomposition, only the first and second derivatives of ψ
+//! by the invariants, such as
 //!
 //! ```text
 //! P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
 //! ```
 //!
 //! The declared expression is read once more with I1, I2 and J in the places of the three stretches of the
-//! graph, so that the same calculus differentiates it. An energy that names a stretch is not of this kind,
-//! whatever it may equal.
+//! graph, so that the same calculus differentiates it. An energy that names a stretch is of this kind only
+//! where [`power_sums`](super::power_sums) sees it.
 
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
@@ -19,18 +20,25 @@ use crate::algebra::simplify::simplify;
 pub struct ByInvariants {
     /// ψ.
     pub energy: Id,
+    /// Whether ψ is as accurate as by stretches.
+    pub has_energy: bool,
     /// W1, W2, WJ.
     pub gradient: [Id; 3],
+    /// W11, W22, WJJ, W12, W1J, W2J.
+    pub hessian: [Id; 6],
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
 }
 
-/// The derivatives of an energy of I1, I2, J, with the bounds of its domain.
-pub fn by_invariants(graph: &mut Graph, energy: Id, bounds: Vec<Id>) -> ByInvariants {
+/// The derivatives of an energy of I1, I2, J, with the bounds of its domain, and the energy itself if it has
+/// its digits.
+pub fn by_invariants(graph: &mut Graph, energy: Id, has_energy: bool, bounds: Vec<Id>) -> ByInvariants {
     let mut d = Differentiator::default();
-    let gradient = [0, 1, 2].map(|k| {
-        let derivative = d.by_stretch(graph, energy, k);
+    let mut derivative = |of, k| {
+        let derivative = d.by_stretch(graph, of, k);
         simplify(graph, derivative)
-    });
-    ByInvariants { energy, gradient, bounds }
+    };
+    let gradient = [0, 1, 2].map(|k| derivative(energy, k));
+    let hessian = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| derivative(gradient[i], j));
+    ByInvariants { energy, has_energy, gradient, hessian, bounds }
 }

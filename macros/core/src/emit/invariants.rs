@@ -17,8 +17,20 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let arguments = quote!([#i1, #i2, #j]: [R; 3]);
     let named = writer.with_variables(variables.clone());
     let mut program = |roots: &[_]| named.program(&model.program(roots));
-    let (energy, energy_output) = program(&[invariants.energy]);
+    let energy = invariants.has_energy.then(|| {
+        let (energy, output) = program(&[invariants.energy]);
+        quote! {
+            #[inline(always)]
+            #[allow(non_snake_case)]
+            fn energy_by_invariants<R: __p::Real>(&self, #arguments) -> R {
+                #energy
+                #(#output)*
+            }
+        }
+    });
     let (gradient, gradient_outputs) = program(&invariants.gradient);
+    let all = [&invariants.gradient[..], &invariants.hessian].concat();
+    let (derivatives, derivative_outputs) = program(&all);
     let (bounds, bound_outputs) = program(&invariants.bounds);
     let of_functions = functions::defined(declaration, model, &named, invariants.energy);
     let defined = free_name(declaration, &["defined", "functions_defined"]);
@@ -47,21 +59,26 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let admits = conditions.reduce(|a, b| quote!(#a & #b));
     let admits = admits.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
 
+    let has_second = !model.graph.is_zero(invariants.gradient[1]);
+
     quote! {
         const HAS_INVARIANTS: bool = true;
+        const HAS_SECOND_INVARIANT: bool = #has_second;
 
-        #[inline(always)]
-        #[allow(non_snake_case)]
-        fn energy_by_invariants<R: __p::Real>(&self, #arguments) -> R {
-            #energy
-            #(#energy_output)*
-        }
+        #energy
 
         #[inline(always)]
         #[allow(non_snake_case)]
         fn gradient_by_invariants<R: __p::Real>(&self, #arguments) -> [R; 3] {
             #gradient
             [#(#gradient_outputs),*]
+        }
+
+        #[inline(always)]
+        #[allow(non_snake_case)]
+        fn derivatives_by_invariants<R: __p::Real>(&self, #arguments) -> [R; 9] {
+            #derivatives
+            [#(#derivative_outputs),*]
         }
 
         #[inline(always)]

@@ -6,6 +6,7 @@ use quote::ToTokens;
 use syn::{BinOp, Expr, Ident, Lit, Pat, Stmt, UnOp};
 
 use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::power_sums::without_stretches;
 use crate::algebra::rational::Rational;
 use crate::read::diagnostics::Diagnostics;
 use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
@@ -49,15 +50,30 @@ const POWER: &str = "a power is written `x.powi(2)` or `x.powf(alpha)`";
 const NO_HELPERS: &str = "an energy has no helpers: write a sum over the three stretches as `sum(|l| …)`, and name \
      parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
 
-/// The energy and the bounds of its domain with I1, I2, J in the places of the three stretches, unless a
-/// stretch is named. The declaration must be free of mistakes.
-pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>)> {
+/// An energy with I1, I2, J in the places of the three stretches.
+pub struct Invariantly {
+    /// ψ.
+    pub energy: Id,
+    /// The bounds of its domain.
+    pub bounds: Vec<Id>,
+    /// Whether ψ is written so, and not in sums over the stretches that the invariants determine.
+    pub is_written_so: bool,
+}
+
+/// The energy by invariants, unless a stretch is named outside a sum that they determine. The declaration must
+/// be free of mistakes.
+pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<Invariantly> {
     let mut diagnostics = Diagnostics::default();
     let mut resolver =
         Resolver { scope: Scope::Invariants, ..Resolver::new(declaration, graph, &mut diagnostics) };
-    let energy = resolver.energy();
-    let bounds = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
-    diagnostics.is_clean().then_some((energy, bounds))
+    let written = resolver.energy();
+    let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
+    if !diagnostics.is_clean() {
+        return None;
+    }
+    let energy = without_stretches(graph, written)?;
+    let bounds = bounds.into_iter().map(|bound| without_stretches(graph, bound)).collect::<Option<_>>()?;
+    Some(Invariantly { energy, bounds, is_written_so: energy == written })
 }
 
 /// The energy with I1b, I2b in the places of I1, I2. The declaration must be free of mistakes.
@@ -73,7 +89,7 @@ enum Scope {
     Stretches,
     /// λ1, λ2, λ3 and the parameters, with I1b and I2b wherever I1 and I2 are written.
     Isochoric,
-    /// I1, I2, J and the parameters.
+    /// I1, I2, J and the parameters, with strains in the places of λ1, λ2, λ3.
     Invariants,
     /// The parameters alone, in a condition that is emitted as it is written except for its literals.
     Parameters,

@@ -546,6 +546,7 @@ const _: () = {
                 }
         }
         const HAS_INVARIANTS: bool = true;
+        const HAS_SECOND_INVARIANT: bool = false;
         #[inline(always)]
         #[allow(non_snake_case)]
         fn energy_by_invariants<R: __p::Real>(&self, [I1, I2, J]: [R; 3]) -> R {
@@ -571,6 +572,36 @@ const _: () = {
                 (mu * t3) * R::splat(0.5),
                 R::splat(0.0),
                 (-mu).mul_add(R::splat(1.0) / J, kappa * (J - R::splat(1.0))),
+            ]
+        }
+        #[inline(always)]
+        #[allow(non_snake_case)]
+        fn derivatives_by_invariants<R: __p::Real>(
+            &self,
+            [I1,
+            I2,
+            J,
+            ]: [R; 3],
+        ) -> [R; 9] {
+            let mu: R = __p::ParameterValue::on(&self.mu);
+            let jm: R = __p::ParameterValue::on(&self.jm);
+            let t0 = R::splat(1.0) / jm;
+            let t3 = R::splat(1.0) / (-t0).mul_add(I1 - R::splat(3.0), R::splat(1.0));
+            let kappa: R = __p::ParameterValue::on(&self.kappa);
+            let t5 = (mu * t3) * R::splat(0.5);
+            let t6 = J - R::splat(1.0);
+            let t7 = R::splat(1.0) / J;
+            let t8 = mu * t7;
+            [
+                t5,
+                R::splat(0.0),
+                kappa.mul_add(t6, -t8),
+                R::splat(0.5) * (t3 * (t3 * (mu * t0))),
+                R::splat(0.0),
+                t7.mul_add(t8, kappa),
+                R::splat(0.0),
+                R::splat(0.0),
+                R::splat(0.0),
             ]
         }
         #[inline(always)]

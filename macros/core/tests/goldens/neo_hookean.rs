@@ -428,6 +428,7 @@ const _: () = {
             }
         }
         const HAS_INVARIANTS: bool = true;
+        const HAS_SECOND_INVARIANT: bool = false;
         #[inline(always)]
         #[allow(non_snake_case)]
         fn energy_by_invariants<R: __p::Real>(&self, [I1, I2, J]: [R; 3]) -> R {
@@ -446,6 +447,32 @@ const _: () = {
                 mu * R::splat(0.5),
                 R::splat(0.0),
                 lambda.mul_add(J.ln(), -mu) * (R::splat(1.0) / J),
+            ]
+        }
+        #[inline(always)]
+        #[allow(non_snake_case)]
+        fn derivatives_by_invariants<R: __p::Real>(
+            &self,
+            [I1,
+            I2,
+            J,
+            ]: [R; 3],
+        ) -> [R; 9] {
+            let mu: R = __p::ParameterValue::on(&self.mu);
+            let lambda: R = __p::ParameterValue::on(&self.lambda);
+            let t0 = mu * R::splat(0.5);
+            let t2 = lambda.mul_add(J.ln(), -mu);
+            let t3 = R::splat(1.0) / J;
+            [
+                t0,
+                R::splat(0.0),
+                t2 * t3,
+                R::splat(0.0),
+                R::splat(0.0),
+                t3 * (t3 * (lambda - t2)),
+                R::splat(0.0),
+                R::splat(0.0),
+                R::splat(0.0),
             ]
         }
         #[inline(always)]

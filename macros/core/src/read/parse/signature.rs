@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 28] = [
+const MEMBERS: [&str; 30] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -26,8 +26,10 @@ const MEMBERS: [&str; 28] = [
     "energy_and_blocks",
     "admits",
     "HAS_INVARIANTS",
+    "HAS_SECOND_INVARIANT",
     "energy_by_invariants",
     "gradient_by_invariants",
+    "derivatives_by_invariants",
     "admits_invariants",
     "has_pole",
     "ends_at_zero_volume",

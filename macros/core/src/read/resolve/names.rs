@@ -34,10 +34,7 @@ impl Resolver<'_> {
         }
         if let Some(i) = self.declaration.stretches.iter().position(|stretch| stretch == name) {
             return match self.scope {
-                Scope::Stretches | Scope::Isochoric => self.graph.stretch(i),
-                Scope::Invariants => {
-                    self.mistake(name, &format!("`{text}` is not a function of I1, I2 and J"))
-                }
+                Scope::Stretches | Scope::Isochoric | Scope::Invariants => self.stretch(i),
                 Scope::Parameters => self.deformation(name),
             };
         }

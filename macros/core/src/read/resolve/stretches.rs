@@ -6,7 +6,7 @@
 use syn::{Expr, ExprCall, ExprClosure, Ident, Pat};
 
 use super::{Resolver, Scope};
-use crate::algebra::expr::{Id, Stretch};
+use crate::algebra::expr::{Id, Node, Stretch};
 use crate::algebra::simplify::join_sums;
 use crate::read::parse::{identifiers, indexed_lists};
 use crate::read::spelling::taken;
@@ -54,9 +54,6 @@ impl Resolver<'_> {
     }
 
     fn sum_over(&mut self, names: &[&Ident], body: &Expr, places: [Vec<Stretch>; 3]) -> Id {
-        if self.scope == Scope::Invariants {
-            return self.mistake(body, "the energy is not a function of I1, I2 and J");
-        }
         for (k, name) in names.iter().enumerate() {
             let is_read = identifiers(body.to_token_stream()).contains(name);
             if self.is_taken(name) || names[..k].contains(name) {
@@ -78,10 +75,18 @@ impl Resolver<'_> {
         join_sums(self.graph, sum)
     }
 
+    /// A stretch; by invariants, what stands for one.
+    pub(super) fn stretch(&mut self, i: Stretch) -> Id {
+        match self.scope {
+            Scope::Invariants => self.graph.leaf(Node::Strain(i)),
+            _ => self.graph.stretch(i),
+        }
+    }
+
     /// The body with its names bound to stretches.
     fn term(&mut self, names: &[&Ident], body: &Expr, at: &[Stretch]) -> Id {
         for (name, &i) in names.iter().zip(at) {
-            let stretch = self.graph.stretch(i);
+            let stretch = self.stretch(i);
             self.bindings.insert(name.to_string(), stretch);
         }
         let value = self.expression(body);

@@ -1,0 +1,312 @@
+//! dP/dF from the derivatives of an energy W by I1, I2 and J, and the stiffness of a tetrahedron.
+//!
+//! With C = cof F, D = C × F and the derivatives of [`super`], dC = F × dF and dD = C × dF + F × (F × dF):
+//!
+//! ```text
+//! dP  = 2 W1 dF + T × dF + 2 W2 F × (F × dF) + F (hF : dF) + D (hD : dF) + C (hC : dF)
+//!
+//! T   = WJ F + 2 W2 C                    hF = 4 W11 F + 4 W12 D + 2 W1J C
+//!                                        hD = 4 W12 F + 4 W22 D + 2 W2J C
+//!                                        hC = 2 W1J F + 2 W2J D +   WJJ C
+//! ```
+//!
+//! and F × (F × dF) = F (F : dF) + I1 dF − F Fᵀ dF − dF Fᵀ F, whose first term joins that with hF.
+//!
+//! # Seen from other coordinates
+//!
+//! Let dF = ec ⊗ wy, and take the product with ea ⊗ wx, where the rows wx are those of any 3×3 matrix W. Since
+//! (a ⊗ b) × (c ⊗ d) = (a × c) ⊗ (b × d), each term keeps its form. With F̃ = F Wᵀ, likewise C̃, D̃ and h̃, with
+//! T̃ = T (cof W)ᵀ and M = W Wᵀ, and with k the third index beside a and c, z that beside x and y,
+//!
+//! ```text
+//! K between (a, x) and (c, y) = (δac (2 W1 + 2 W2 I1) − 2 W2 (F Fᵀ)ac) Mxy − δac 2 W2 (F̃ᵀ F̃)xy
+//!                             + εack εxyz T̃kz + F̃ax h̃Fcy + D̃ax h̃Dcy + C̃ax h̃Ccy
+//! ```
+//!
+//! For W = I this is dP/dF; with √volume Dm⁻¹ it is the stiffness between three nodes of a tetrahedron.
+//!
+//! # What floating point does here
+//!
+//! The terms are as good as F determines them, and what is left to fear is that they cancel. No entry of F, C
+//! and D exceeds f = √I1, c = √I2 and d = |D| = √(I1 I2 + 3 J²), so that the terms of an entry of dP/dF are
+//! not larger together than
+//!
+//! ```text
+//! N = 2 |W1| + f |WJ| + 2 (c + 3 I1) |W2| + 4 f² |W11| + 4 d² |W22| + c² |WJJ|
+//!   + 8 f d |W12| + 4 f c |W1J| + 4 c d |W2J|
+//! ```
+//!
+//! and its error is a few u N. At rest, where f² = 3 bounds entries that are 1, N is 3 to 9 times the largest
+//! entry on the diagonal for the energies in use. A point where it is more than 16 times that entry goes the
+//! way of all others: [`Terms::keeps_digits`].
+
+#![expect(non_snake_case, reason = "F, C, D, P, T, I1, I2, J, W as in the text above")]
+
+use super::super::Matrix3;
+use super::super::matrix::{dot, multiply_transposed, three};
+use super::super::tangent::Assemble;
+use super::{cofactor, cross, stress_of_terms};
+use crate::lanes::Real;
+
+/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P.
+#[inline(always)]
+fn bounds<R: Real, const HAS_SECOND: bool>([I1, I2, J]: [R; 3], derivatives: &[R; 9]) -> (R, R) {
+    let mut sizes = *derivatives;
+    for size in &mut sizes {
+        *size = size.abs();
+    }
+    let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = sizes;
+    let (two, four) = (R::splat(2.0), R::splat(4.0));
+    let (f, c) = (I1.rough_sqrt(), I2.rough_sqrt());
+    let (first, last) = (two * W1, f.mul_add(WJ, c * (c * WJJ)));
+    let own = (two * f).mul_add((two * f).mul_add(W11, two * c * W1J), first + last);
+    let stress = f.mul_add(first, c * WJ);
+    if !HAS_SECOND {
+        return (own, stress);
+    }
+    let d = R::splat(3.0).mul_add(J * J, I1 * I2).rough_sqrt();
+    let second = two * W2 * R::splat(3.0).mul_add(I1, c);
+    let mixed = four * d * d.mul_add(W22, (two * f).mul_add(W12, c * W2J));
+    (own + second + mixed, d.mul_add(two * W2, stress))
+}
+
+/// Coordinates in which a tangent is wanted: the rows of W.
+pub(crate) trait Coordinates<R> {
+    /// A Wᵀ.
+    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R>;
+
+    /// A (cof W)ᵀ.
+    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R>;
+
+    /// `sum` + `factor` (W Wᵀ)xy.
+    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R;
+}
+
+/// W = I: the coordinates of dP/dF.
+pub(crate) struct Entries;
+
+impl<R: Real> Coordinates<R> for Entries {
+    #[inline(always)]
+    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
+        *A
+    }
+
+    #[inline(always)]
+    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R> {
+        *A
+    }
+
+    #[inline(always)]
+    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R {
+        if x == y { sum + factor } else { sum }
+    }
+}
+
+/// The rows of W as given.
+pub(crate) struct RowsOf<R> {
+    rows: Matrix3<R>,
+    normals: Matrix3<R>,
+    metric: Matrix3<R>,
+}
+
+impl<R: Real> RowsOf<R> {
+    #[inline(always)]
+    pub(crate) fn new(W: Matrix3<R>) -> Self {
+        Self { rows: W, normals: cofactor(&W), metric: multiply_transposed(&W, &W) }
+    }
+}
+
+impl<R: Real> Coordinates<R> for RowsOf<R> {
+    #[inline(always)]
+    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
+        multiply_transposed(A, &self.rows)
+    }
+
+    #[inline(always)]
+    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R> {
+        multiply_transposed(A, &self.normals)
+    }
+
+    #[inline(always)]
+    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R {
+        factor.mul_add(self.metric[x][y], sum)
+    }
+}
+
+/// Does it with the pairs a ≤ c of coordinates, each a constant.
+macro_rules! pairs {
+    (|$a:ident, $c:ident| $body:block) => {{
+        pairs!($a 0, $c 0, $body);
+        pairs!($a 0, $c 1, $body);
+        pairs!($a 0, $c 2, $body);
+        pairs!($a 1, $c 1, $body);
+        pairs!($a 1, $c 2, $body);
+        pairs!($a 2, $c 2, $body);
+    }};
+    ($a:ident $first:literal, $c:ident $second:literal, $body:block) => {{
+        let ($a, $c) = ($first, $second);
+        $body
+    }};
+}
+
+/// The matrices and factors that P and dP/dF are made of at a point. Without `HAS_SECOND`, derivatives by I2
+/// are taken for zero.
+pub(crate) struct Terms<R, const HAS_SECOND: bool> {
+    F: Matrix3<R>,
+    C: Matrix3<R>,
+    D: Matrix3<R>,
+    P: Matrix3<R>,
+    T: Matrix3<R>,
+    /// F Fᵀ.
+    b: Matrix3<R>,
+    /// 2 W1 + 2 W2 I1, and 2 W2.
+    along: [R; 2],
+    /// Factors of F, D and C in hF, that of F (F : dF) included, in hD, and in hC.
+    factors: [[R; 3]; 3],
+    /// N and the largest entry of P: see [`bounds`].
+    bounds: (R, R),
+}
+
+impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
+    /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
+    #[inline(always)]
+    pub(crate) fn new(F: &Matrix3<R>, invariants: [R; 3], derivatives: &[R; 9]) -> Self {
+        let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = *derivatives;
+        let (two, four) = (R::splat(2.0), R::splat(4.0));
+        let (p1, p2) = (two * W1, two * W2);
+        let C = cofactor(F);
+        let D = if HAS_SECOND { cross(&C, F) } else { C };
+        let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
+        Self {
+            F: *F,
+            C,
+            D,
+            P: stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [p1, p2, WJ]),
+            T: three!(i => three!(j => {
+                let T = WJ * F[i][j];
+                if HAS_SECOND { p2.mul_add(C[i][j], T) } else { T }
+            })),
+            b: multiply_transposed(F, F),
+            along: [if HAS_SECOND { p2.mul_add(invariants[0], p1) } else { p1 }, p2],
+            factors: [[if HAS_SECOND { a11 + p2 } else { a11 }, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]],
+            bounds: bounds::<R, HAS_SECOND>(invariants, derivatives),
+        }
+    }
+
+    /// First Piola stress P, Pa.
+    #[inline(always)]
+    pub(crate) fn stress(&self) -> Matrix3<R> {
+        self.P
+    }
+
+    /// A bound of the entries of dP/dF, Pa.
+    #[inline(always)]
+    pub(crate) fn bound(&self) -> R {
+        self.bounds.0
+    }
+
+    /// Whether dP/dF has the digits that it has by a decomposition, and nothing on the way to it or to P leaves
+    /// the range.
+    #[inline(always)]
+    pub(crate) fn keeps_digits(&self) -> R::Mask {
+        let mut largest = R::splat(0.0);
+        for a in 0..3 {
+            let h = self.products(a, &self.F, &self.D, &self.C);
+            for x in 0..3 {
+                let entry = self.on_diagonal(a, x, x, &self.F, &self.D, &self.C, &h);
+                largest = (entry + self.metric_factor(a)).abs().max(largest);
+            }
+        }
+        let (tangent, stress) = self.bounds;
+        // Of tiny F the factors are far larger than the products.
+        let [[a11, a12, a1J], [_, a22, a2J], [.., aJJ]] = self.factors;
+        let mut sizes = tangent + stress + a11.abs() + a1J.abs() + aJJ.abs();
+        if HAS_SECOND {
+            sizes = sizes + a12.abs() + a22.abs() + a2J.abs();
+        }
+        tangent.less(R::splat(MAX_CANCELLATION) * largest) & (R::splat(16.0) * sizes).is_finite()
+    }
+
+    /// hF, hD and hC in a row, a triple for each column.
+    #[inline(always)]
+    fn products(&self, row: usize, F: &Matrix3<R>, D: &Matrix3<R>, C: &Matrix3<R>) -> [[R; 3]; 3] {
+        three!(y => three!(k => {
+            let [f, d, c] = self.factors[k];
+            let sum = f.mul_add(F[row][y], c * C[row][y]);
+            if HAS_SECOND { d.mul_add(D[row][y], sum) } else { sum }
+        }))
+    }
+
+    /// F̃ax h̃F + D̃ax h̃D + C̃ax h̃C.
+    #[inline(always)]
+    fn ranks(&self, [F, D, C]: [R; 3], [hF, hD, hC]: [R; 3]) -> R {
+        let sum = F.mul_add(hF, C * hC);
+        if HAS_SECOND { D.mul_add(hD, sum) } else { sum }
+    }
+
+    /// K between (a, x) and (a, y) but for the term with W Wᵀ.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "two rows of three matrices, and their products")]
+    fn on_diagonal(
+        &self,
+        a: usize,
+        x: usize,
+        y: usize,
+        F: &Matrix3<R>,
+        D: &Matrix3<R>,
+        C: &Matrix3<R>,
+        h: &[[R; 3]; 3],
+    ) -> R {
+        let sum = self.ranks([F[a][x], D[a][x], C[a][x]], h[y]);
+        if !HAS_SECOND {
+            return sum;
+        }
+        let right = dot([F[0][x], F[1][x], F[2][x]], [F[0][y], F[1][y], F[2][y]]);
+        (-self.along[1]).mul_add(right, sum)
+    }
+
+    /// Factor of W Wᵀ in K between (a, x) and (a, y).
+    #[inline(always)]
+    fn metric_factor(&self, a: usize) -> R {
+        let [along, p2] = self.along;
+        if HAS_SECOND { (-p2).mul_add(self.b[a][a], along) } else { along }
+    }
+
+    /// dP/dF in the coordinates, as 3×3 blocks like those of [`assemble_blocks`](super::assemble_blocks), Pa.
+    #[inline(always)]
+    pub(crate) fn assemble(&self, coordinates: &impl Coordinates<R>, to: &mut impl Assemble<R>) {
+        let (F, C) = (coordinates.pulled(&self.F), coordinates.pulled(&self.C));
+        let D = if HAS_SECOND { coordinates.pulled(&self.D) } else { C };
+        let T = coordinates.pulled_normals(&self.T);
+        pairs!(|a, c| {
+            let h = self.products(c, &F, &D, &C);
+            let block = three!(x => three!(y => {
+                if a == c {
+                    // Computed on and above the diagonal.
+                    let (x, y) = if y < x { (y, x) } else { (x, y) };
+                    let entry = self.on_diagonal(a, x, y, &F, &D, &C, &h);
+                    coordinates.plus_metric(x, y, self.metric_factor(a), entry)
+                } else {
+                    let mut entry = self.ranks([F[a][x], D[a][x], C[a][x]], h[y]);
+                    if HAS_SECOND {
+                        entry = coordinates.plus_metric(x, y, -self.along[1] * self.b[a][c], entry);
+                    }
+                    match (y + 3 - x) % 3 {
+                        0 => entry,
+                        turn if turn == c - a => entry + T[third(a, c)][third(x, y)],
+                        _ => entry - T[third(a, c)][third(x, y)],
+                    }
+                }
+            }));
+            to.block(a, c, &block);
+        });
+    }
+}
+
+/// The index beside two different ones.
+const fn third(i: usize, j: usize) -> usize {
+    (6 - i - j) % 3
+}
+
+/// N by the largest entry on the diagonal of dP/dF, up to which the latter has its digits.
+const MAX_CANCELLATION: f64 = 16.0;
