@@ -170,8 +170,11 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
-    let nodes = resolver.into_nodes();
+    let mut nodes = resolver.into_nodes();
     let energy = with_squares(&mut graph, written);
+    if has_squares(&graph, energy) {
+        nodes.replace(|id| with_squares(&mut graph, id));
+    }
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
     // A misspelt domain may be the one that `extend` needs.

@@ -13,20 +13,36 @@ impl<'a> Source<'a> {
     /// Terms that break a rule together, such as two that should cancel, are not taken apart.
     pub(crate) fn blamed_term(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
         let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
-        smallest(&self.declaration.body, breaks, terms)
+        smallest(&self.declaration.body, breaks, terms, Several::StayTogether)
     }
 
     /// The smallest operand that alone breaks a rule, found through operators and functions.
     pub(crate) fn blamed_operand(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
         let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
-        smallest(&self.declaration.body, breaks, operands)
+        smallest(&self.declaration.body, breaks, operands, Several::StayTogether)
     }
+
+    /// The smallest operand that holds what breaks a rule, the first one if it is written more than once.
+    pub(crate) fn first_operand(&self, mut holds: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        let holds = |part: &Expr| self.nodes.of(part).is_some_and(&mut holds);
+        smallest(&self.declaration.body, holds, operands, Several::FirstIsMeant)
+    }
+}
+
+/// What several parts of one expression that break a rule are.
+#[derive(Clone, Copy, PartialEq)]
+enum Several {
+    /// They may break it together.
+    StayTogether,
+    /// Each breaks it.
+    FirstIsMeant,
 }
 
 fn smallest<'b>(
     body: &'b Block,
     mut breaks: impl FnMut(&Expr) -> bool,
     parts: impl Fn(&'b Expr, &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr>,
+    several: Several,
 ) -> Option<&'b Expr> {
     let mut definitions = HashMap::new();
     let mut blamed = value(body, &mut definitions)?;
@@ -34,7 +50,7 @@ fn smallest<'b>(
         let parts = parts(blamed, &mut definitions);
         let mut blamed_parts = parts.into_iter().filter(|part| breaks(part));
         match (blamed_parts.next(), blamed_parts.next()) {
-            (Some(part), None) => blamed = part,
+            (Some(part), other) if other.is_none() || several == Several::FirstIsMeant => blamed = part,
             _ => return Some(blamed),
         }
     }
@@ -65,9 +81,16 @@ fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr
         Expr::Unary(unary) => vec![&*unary.expr],
         Expr::Binary(binary) => vec![&*binary.left, &*binary.right],
         Expr::MethodCall(call) => std::iter::once(&*call.receiver).chain(&call.args).collect(),
-        Expr::Call(call) => call.args.iter().collect(),
-        Expr::Closure(summand) => vec![&*summand.body],
+        Expr::Call(call) => call.args.iter().map(summand).collect(),
         _ => terms(expression, definitions),
+    }
+}
+
+/// What a sum adds up, or another argument.
+fn summand(argument: &Expr) -> &Expr {
+    match argument {
+        Expr::Closure(summand) => &summand.body,
+        argument => argument,
     }
 }
 

@@ -85,12 +85,8 @@ impl Explainer<'_, '_> {
                     "`.powi(2)`"
                 },
             ),
-            Violation::Rough { power } => {
-                let exponent = power.map(|(_, exponent)| exponent).filter(|exponent| exponent.real.is_some());
-                let remedy = match exponent {
-                    Some(exponent) => self.above_one(exponent),
-                    None => "take a power above 1".to_owned(),
-                };
+            Violation::Rough { exponents } => {
+                let remedy = self.above_one(exponents);
                 format!(
                     "the stiffness of this is infinite at rest, as that of a power of `I1b - 3.0` is for an exponent below 1: {remedy}"
                 )
@@ -324,27 +320,65 @@ impl Explainer<'_, '_> {
             if factors.iter().any(|(_, exponent)| exponent.real.is_some()))
     }
 
-    /// The remedy that an exponent is at least 1, or above.
-    fn above_one(&mut self, exponent: Exponent) -> String {
-        let exponent = self.graph.exponent_value(exponent);
-        let declared = self.source.declaration.options.admissible.iter();
-        let declared = declared.map(|condition| condition.to_token_stream().to_string().replace(" [", "["));
-        let conditions: Vec<_> = declared.chain([format!("{} > 1.0", self.print(exponent))]).collect();
-        format!("declare `admissible({})`", conditions.join(", "))
+    /// The remedy that exponents are above 1.
+    fn above_one(&mut self, exponents: &[Exponent]) -> String {
+        let mut conditions: Vec<String> = Vec::new();
+        for &exponent in exponents {
+            match self.is_above_one(exponent) {
+                Some(condition) if conditions.contains(&condition) => {}
+                Some(condition) => conditions.push(condition),
+                None => return "take a power above 1".to_owned(),
+            }
+        }
+        match conditions.is_empty() {
+            true => "take a power above 1".to_owned(),
+            false => format!("declare {}", self.with_admissible(conditions)),
+        }
     }
 
-    /// The declared conditions on parameters, with the further one that an exponent is positive; such
-    /// conditions have no sums.
-    fn admissible(&mut self, exponent: Id) -> Option<String> {
-        let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
-        if self.graph.reachable(&[exponent]).iter().any(is_sum) {
-            return None;
+    /// The condition that an exponent is above 1, if it can be declared: for `2.0 * n + 1.0` that is `n > 0.0`.
+    fn is_above_one(&mut self, exponent: Exponent) -> Option<String> {
+        let mut varying = exponent.real?;
+        let mut limit = Rational::ONE.checked_add(exponent.rational.negated())?;
+        let mut side = '>';
+        if let Node::Linear { constant, terms } = self.graph.node(varying)
+            && let (true, &[(term, factor)]) = (constant.is_zero(), &terms[..])
+        {
+            limit = limit.checked_mul(factor.checked_powi(-1)?)?;
+            side = if factor.is_negative() { '<' } else { '>' };
+            varying = term;
         }
+        let limit = self.graph.constant(limit);
+        let condition = format!("{} {side} {}", self.print(varying), self.print(limit));
+        self.is_declarable(varying, &condition).then_some(condition)
+    }
+
+    /// The declared conditions on parameters, with the further one that an exponent is positive.
+    fn admissible(&mut self, exponent: Id) -> Option<String> {
+        let condition = format!("{} > 0.0", self.print(exponent));
+        self.is_declarable(exponent, &condition)
+            .then(|| format!("{}, or ", self.with_admissible(vec![condition])))
+    }
+
+    /// Whether a condition on an expression of parameters can be declared as it is printed: such conditions
+    /// have no sums.
+    fn is_declarable(&self, of: Id, condition: &str) -> bool {
+        let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
+        !self.graph.reachable(&[of]).iter().any(is_sum) && !is_cut(condition)
+    }
+
+    /// The declared conditions on parameters with further ones.
+    fn with_admissible(&self, further: Vec<String>) -> String {
         let declared = self.source.declaration.options.admissible.iter();
         let declared = declared.map(|condition| condition.to_token_stream().to_string().replace(" [", "["));
-        let conditions: Vec<_> = declared.chain([format!("{} > 0.0", self.print(exponent))]).collect();
-        Some(format!("`admissible({})`, or ", conditions.join(", ")))
+        let conditions: Vec<_> = declared.chain(further).collect();
+        format!("`admissible({})`", conditions.join(", "))
     }
+}
+
+/// Whether a printed expression stands for more than it says, so that it cannot be pasted.
+fn is_cut(text: &str) -> bool {
+    text.contains('…')
 }
 
 /// Whether an energy is written in stretches, and not in their isochoric parts.

@@ -6,14 +6,20 @@
 //!
 //! [`excess`]: crate::algebra::excess
 
+use super::argument::Argument;
 use super::finding::{Findings, Violation};
-use super::samples::{CANDIDATES, candidates};
+use super::samples::{CANDIDATES, POSITIVE, candidates, with_equal_entries};
+use super::source::Source;
 use crate::algebra::excess::has_squares;
-use crate::algebra::expr::{Graph, Id, Node};
-use crate::algebra::interpret::{Memo, Point, evaluate_with};
+use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
 
-/// Draws of the parameters, of which about 0.4 have an exponent below 1 if that is not excluded.
+/// Draws of positive parameters, of which about 0.4 have an exponent below 1 if that is not excluded.
 const DRAWS: usize = 24;
+
+/// Draws of parameters of either sign: an exponent n + 1 is between 0 and 1 in a tenth of them, so that all of
+/// them miss it once in 10⁶ times.
+const DRAWS_OF_EITHER_SIGN: usize = 128;
 
 /// A direction of strain that changes I1b and I2b.
 const DIRECTION: [f64; 3] = [1.0, -0.25, -0.75];
@@ -25,11 +31,13 @@ const STRAINS: [f64; 2] = [1e-6, 1e-14];
 const GROWTH: f64 = 1.4;
 
 /// Finds an energy whose stiffness grows without bound towards rest, given the second derivatives.
-pub(crate) fn roughness(graph: &Graph, hessian: &[Id], findings: &mut Findings<'_>) {
+pub(crate) fn roughness(graph: &mut Graph, hessian: &[Id], findings: &mut Findings<'_>) {
     let source = findings.source;
     if !has_squares(graph, source.energy) {
         return;
     }
+    let powers = powers(graph, source.energy);
+    let values: Vec<_> = powers.iter().map(|&(_, exponent)| graph.exponent_value(exponent)).collect();
     let stiffness = |point: &Point, strain: f64| {
         let stretches = DIRECTION.map(|direction| 1.0 + strain * direction);
         let (point, mut memo) = (Point { stretches, ..point.clone() }, Memo::default());
@@ -37,20 +45,55 @@ pub(crate) fn roughness(graph: &Graph, hessian: &[Id], findings: &mut Findings<'
         entries
             .fold(0.0, |largest: f64, entry| if entry > largest || entry.is_nan() { entry } else { largest })
     };
-    let points = candidates(source, 0x9FB2_1C65_1E98_DF25, 0..CANDIDATES);
-    let mut good = points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS);
-    let grows = good.any(|point| {
+    let mut grows = false;
+    let mut is_rough = vec![false; powers.len()];
+    for (point, is_positive) in draws(graph, source) {
+        let is_below_one = |&k: &usize| evaluate(graph, values[k], &point).value < 1.0;
+        let below_one: Vec<_> = (0..powers.len()).filter(is_below_one).collect();
+        // The others have been judged with positive parameters.
+        if !is_positive && !below_one.iter().any(|&k| powers[k].1.real.is_some()) {
+            continue;
+        }
         let [near, far] = STRAINS.map(|strain| stiffness(&point, strain));
-        far.is_nan() || near.is_nan() || far > GROWTH * near
-    });
-    if grows {
-        let is_power = |id: Id| match graph.node(id) {
-            Node::Product(factors) => factors.iter().find(|(base, exponent)| {
-                exponent.as_integer().is_none() && matches!(graph.node(*base), Node::Excess(..))
-            }),
-            _ => None,
-        };
-        let power = graph.reachable(&[source.energy]).into_iter().find_map(is_power).copied();
-        findings.add(source.blamed_term(|_| false), Violation::Rough { power });
+        let has_value = !near.is_nan() && !far.is_nan();
+        // A base may have no value for negative parameters.
+        if if has_value { far > GROWTH * near } else { is_positive } {
+            grows = true;
+            below_one.into_iter().for_each(|k| is_rough[k] = true);
+        }
     }
+    if !grows {
+        return;
+    }
+    let rough = powers.iter().zip(is_rough).filter(|(_, is_rough)| *is_rough).map(|(&power, _)| power);
+    let (real, fractions): (Vec<_>, Vec<_>) = rough.partition(|(_, exponent)| exponent.real.is_some());
+    // A root beside them may be smooth with its neighbours.
+    let rough = if real.is_empty() { fractions } else { real };
+    let holds = |part| {
+        let is_meant = |of: &Argument| {
+            rough.first().is_some_and(|&(base, exponent)| of.of == base && of.exponent == Some(exponent))
+        };
+        Argument::all(graph, part).iter().any(is_meant)
+    };
+    let part = source.first_operand(holds);
+    let exponents = rough.iter().map(|&(_, exponent)| exponent).collect();
+    findings.add(part, Violation::Rough { exponents });
+}
+
+/// The powers of sums of squares that are not whole, each with its base.
+fn powers(graph: &Graph, energy: Id) -> Vec<(Id, Exponent)> {
+    let arguments = Argument::all(graph, energy).into_iter();
+    let of_squares = arguments.filter(|argument| matches!(graph.node(argument.of), Node::Excess(..)));
+    of_squares.filter_map(|argument| Some((argument.of, argument.real_exponent()?))).collect()
+}
+
+/// Points with parameters that are good at rest, and whether these are positive where conditions allow it.
+fn draws(graph: &Graph, source: &Source<'_>) -> impl Iterator<Item = (Point, bool)> {
+    let good = |seed, attempts: std::ops::Range<usize>| {
+        let points = candidates(source, seed, attempts).map(with_equal_entries);
+        points.filter(|point| source.is_good_at_rest(graph, point))
+    };
+    let positive = good(0x9FB2_1C65_1E98_DF25, 0..CANDIDATES).take(DRAWS).map(|point| (point, true));
+    let either = good(0x5851_F42D_4C95_7F2D, POSITIVE..CANDIDATES).take(DRAWS_OF_EITHER_SIGN);
+    positive.chain(either.map(|point| (point, false)))
 }

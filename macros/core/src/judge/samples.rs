@@ -116,6 +116,16 @@ pub(crate) fn candidates(
     })
 }
 
+/// The point with the first entry of each list in the place of all of them, so that a condition on their sum
+/// holds for each.
+pub(crate) fn with_equal_entries(mut point: Point) -> Point {
+    for entries in &mut point.parameters {
+        let first = entries.first().copied().unwrap_or_default();
+        entries.fill(first);
+    }
+    point
+}
+
 /// Whether a value is zero but for rounding.
 pub(crate) fn is_zero(Estimate { value, magnitude }: Estimate) -> bool {
     value.abs() <= NOISE * magnitude

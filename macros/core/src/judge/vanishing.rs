@@ -51,7 +51,7 @@ pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mu
         let mut arguments = Argument::all(graph, part).into_iter();
         arguments.any(|argument| argument.real_exponent().is_some() && argument.of == of)
     };
-    findings.add(source.blamed_operand(holds), Violation::PowerAtRest { power });
+    findings.add(source.first_operand(holds), Violation::PowerAtRest { power });
 }
 
 /// Finds arguments that vanish inside the domain, away from rest.
@@ -62,7 +62,7 @@ pub(crate) fn limits(graph: &mut Graph, samples: &[Point], findings: &mut Findin
     if !findings.is_known(holds) {
         let has_value = has_value(graph, source, samples);
         let holds = |part| Argument::is_in(graph, part, argument.of);
-        findings.add(source.blamed_operand(holds), Violation::Vanishing { argument, has_value });
+        findings.add(source.first_operand(holds), Violation::Vanishing { argument, has_value });
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::argument::Argument;
 use super::finding::{Findings, Violation};
-use super::samples::{CANDIDATES, POSITIVE, candidates};
+use super::samples::{CANDIDATES, POSITIVE, candidates, with_equal_entries};
 use super::source::Source;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Point, evaluate};
@@ -38,7 +38,7 @@ pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findi
         Some(exponent) => graph.power(argument.of, exponent),
         None => graph.ln(argument.of),
     };
-    let part = source.blamed_operand(|part| Argument::is_in(graph, part, argument.of));
+    let part = source.first_operand(|part| Argument::is_in(graph, part, argument.of));
     findings.add(part, Violation::NoValueCollapsed { power, exponent, vanishing });
 }
 
@@ -102,15 +102,8 @@ fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, us
     })
 }
 
-/// Points with admissible parameters of either sign. The entries of a list are equal, so that a condition on
-/// their sum holds for each of them.
+/// Points with admissible parameters of either sign.
 fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
-    let points = candidates(source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).map(|mut point| {
-        for entries in &mut point.parameters {
-            let first = entries.first().copied().unwrap_or_default();
-            entries.fill(first);
-        }
-        point
-    });
+    let points = candidates(source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).map(with_equal_entries);
     points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS).collect()
 }

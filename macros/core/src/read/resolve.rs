@@ -105,6 +105,11 @@ impl Nodes {
     pub fn of(&self, expression: &Expr) -> Option<Id> {
         self.0.get(&std::ptr::from_ref(expression)).copied()
     }
+
+    /// Puts another node in the place of each.
+    pub(crate) fn replace(&mut self, mut with: impl FnMut(Id) -> Id) {
+        self.0.values_mut().for_each(|id| *id = with(*id));
+    }
 }
 
 impl<'a> Resolver<'a> {

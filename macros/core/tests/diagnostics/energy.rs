@@ -175,8 +175,12 @@ fn what_vanishes_at_rest_has_whole_powers() {
         let term = format!("{factor} * {written}");
         check_added(&term, written, &format!("the base of `{power}` vanishes at rest"));
     }
-    let of_entries = "sum(|p| m[p] * (2.0 * J.ln()).powf(m[p]))";
-    check_added(of_entries, of_entries, "the base of `(2.0 * J.ln()).powf(m[p])` vanishes at rest");
+    let of_entries = "(2.0 * J.ln()).powf(m[p])";
+    check_added(
+        &format!("sum(|p| m[p] * {of_entries})"),
+        of_entries,
+        "the base of `(2.0 * J.ln()).powf(m[p])` vanishes at rest",
+    );
     check_body(&format!("{GOOD} + mu * (1.0 + mu * (I1b - 3.0)).powf(mu)"), &[]);
     check_added(
         "mu * (I1 - 3.0).powf(1.5)",
@@ -210,8 +214,8 @@ fn powers_of_what_is_never_negative() {
     check_body(&format!("{GOOD} + mu * (I1b - 3.0).powf(1.5)"), &[]);
     check_body(&format!("{GOOD} + mu * (2.0 * (I1b - 3.0) + I2b - 3.0).powf(1.01)"), &[]);
     let rough = "the stiffness of this is infinite at rest";
-    for term in ["mu * (I1b - 3.0).sqrt()", "mu * (I2b - 3.0).powf(0.9)", "mu * (I1b - 3.0).powf(mu)"] {
-        check_body(&format!("{GOOD} + {term}"), &[(&format!("{GOOD} + {term}"), rough)]);
+    for power in ["(I1b - 3.0).sqrt()", "(I2b - 3.0).powf(0.9)", "(I1b - 3.0).powf(mu)"] {
+        check_added(&format!("mu * {power}"), power, rough);
     }
     // The terms of first order cancel, and the root alone would not do.
     let smooth = "let t = ((I1b - 3.0) / mu).sqrt(); -mu * ((1.0 - t).ln() + t)";
@@ -222,9 +226,45 @@ fn powers_of_what_is_never_negative() {
     );
     let energy = "mu * (I1b - 3.0) + k * (I1b - 3.0).powf(n)";
     let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, k: f64, n: f64) -> f64 {{ {energy} }}");
-    check("domain(J > 0.0)", &item, &[(energy, "declare `admissible(n > 1.0)`")]);
+    check("domain(J > 0.0)", &item, &[("(I1b - 3.0).powf(n)", "declare `admissible(n > 1.0)`")]);
     check("domain(J > 0.0), admissible(n > 1.0), fit", &item, &[]);
     check("domain(J > 0.0), admissible(n > 1.0), extend", &item, &[("extend", "which is not continued")]);
+}
+
+/// All exponents without a bound are named at once, each once, and none that has one.
+#[test]
+fn exponents_of_what_vanishes_at_rest_are_above_one() {
+    let mistakes = |admissible: &str, energy: &str| {
+        let item = format!(
+            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], k: f64, a: f64, b: f64, c: [f64; N], n: [f64; N]) -> f64 {{ \
+             k * a * b * sum(|p| c[p] * n[p]) * (J - 1.0).powi(2) + {energy} }}"
+        );
+        mistakes(&format!("domain(J > 0.0), part, admissible({admissible})"), &item)
+    };
+    let check = |energy: &str, tokens: &str, admissible: &str, condition: &str| {
+        let [(found, message)] = &mistakes(admissible, energy)[..] else { panic!("{energy}") };
+        let conditions: Vec<_> = [admissible, condition].into_iter().filter(|it| !it.is_empty()).collect();
+        let declared = conditions.join(", ");
+        assert!(message.ends_with(&format!(": declare `admissible({declared})`")), "{message}");
+        assert_eq!(found, tokens);
+        assert_eq!(mistakes(&declared, energy), [], "{energy}");
+    };
+    let two = "k * (I1b - 3.0).powf(a) + k * (I1b - 3.0).powf(b) - 2.0 * k * (I2b - 3.0).powf(a)";
+    check(two, "(I1b - 3.0).powf(a)", "", "a > 1.0, b > 1.0");
+    check(two, "(I1b - 3.0).powf(b)", "a > 1.0", "b > 1.0");
+    check(two, "(I1b - 3.0).powf(a)", "b >= 1.5", "a > 1.0");
+    let next = "k / (a + 1.0) * (I1b - 3.0).powf(a + 1.0)";
+    check(next, "(I1b - 3.0).powf(a + 1.0)", "", "a > 0.0");
+    for condition in ["a > 0.0", "0.0 < a", "a + 1.0 > 1.0", "k > 0.0, b < 0.0, a > 0.1"] {
+        assert_eq!(mistakes(condition, next), [], "{condition}");
+    }
+    let fused = "{ let x = I2b - 3.0; k * x * x.powf(2.0 - a / 3.0) }";
+    check(fused, "k * x * x.powf(2.0 - a / 3.0)", "", "a < 6.0");
+    check("k * (I1b - 3.0).powf(a + b + 0.5)", "(I1b - 3.0).powf(a + b + 0.5)", "", "a + b > 1.0 / 2.0");
+    let of_entries = "(I1b - 3.0).powf(n[p] + 1.0)";
+    check(&format!("sum(|p| c[p] * {of_entries})"), of_entries, "k > 0.0", "n[p] > 0.0");
+    // A base may be negative for what is not admissible.
+    assert_eq!(mistakes("a > 0.5", "k * ((I1b - 3.0) / b).powf(2.0 * a)"), []);
 }
 
 #[test]
@@ -311,12 +351,7 @@ fn what_collapses_to_a_line_or_a_point_has_a_value() {
             "λ3 = 0, in elements collapsed to a sheet",
             "2.0 - b",
         ),
-        (
-            "sum(|q| m[q] * I1.powf(m[q] / 2))",
-            "sum(|q| m[q] * I1.powf(m[q] / 2))",
-            "λ1 = λ2 = λ3 = 0",
-            "m[p] / 2.0",
-        ),
+        ("sum(|q| m[q] * I1.powf(m[q] / 2))", "I1.powf(m[q] / 2)", "λ1 = λ2 = λ3 = 0", "m[p] / 2.0"),
     ] {
         let [(tokens, message)] = &mistakes("prestressed, admissible(mu > 0.0)", &energy(term))[..] else {
             panic!("{term}")
