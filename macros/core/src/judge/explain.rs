@@ -127,7 +127,7 @@ impl Explainer<'_, '_> {
                     "`{power}` has no value where {negative}{place}: declare {admissible}`domain(J > 0.0)`"
                 )
             }
-            Violation::Vanishing { argument, has_value } => self.vanishing(*argument, *has_value),
+            Violation::Vanishing { arguments, has_value } => self.vanishing(arguments, *has_value),
             Violation::FlatExcluded { stretches: [l1, l2, _] } => {
                 let names = identifiers(tokens.clone());
                 let has = |words: [&str; 2]| words.iter().any(|word| names.iter().any(|name| name == word));
@@ -197,11 +197,11 @@ impl Explainer<'_, '_> {
             .then(|| format!("write {}{domain}, which leaves none", in_place(&source.invariants())));
         // Where elements are flat, isochoric invariants are beyond limits.
         let is_limited = source.declaration.options.extend.is_some() && !source.bounds.is_empty();
-        let remedies = match (stressed.vanishing, isochoric) {
-            (Some(Vanishing { remedy: Remedy::Isochoric, .. }), Some(isochoric)) => {
+        let remedies = match (&stressed.vanishing[..], isochoric) {
+            ([Vanishing { remedy: Remedy::Isochoric, .. }, ..], Some(isochoric)) => {
                 format!("{isochoric} and has a value wherever J > 0")
             }
-            (None, Some(isochoric)) if !is_limited => {
+            ([], Some(isochoric)) if !is_limited => {
                 format!("{}; or {isochoric}", self.balance(stressed))
             }
             _ => self.balance(stressed),
@@ -216,9 +216,17 @@ impl Explainer<'_, '_> {
             ""
         };
         let stress = self.print(stressed.stress);
-        if stress.len() > APPENDABLE {
+        let is_cut_short =
+            is_cut(&stress) || self.limits(&stressed.vanishing).iter().any(|limit| is_cut(limit));
+        if stress.len() > APPENDABLE || is_cut_short {
             let instead = match stressed.is_isochoric_free {
                 true => in_place(&source.invariants()),
+                false if !source.invariants().is_empty() => {
+                    return format!(
+                        "this leaves stress at rest: take it away by a term in `J.ln()`{domain}; or say `prestressed` in the \
+                         attribute{mistyped}"
+                    );
+                }
                 false => self.isochoric_stretches(),
             };
             return format!(
@@ -250,9 +258,9 @@ impl Explainer<'_, '_> {
         } else {
             format!("- {}", rust_factor(self.graph, declaration, stress))
         };
-        let limit = stressed.vanishing.and_then(|vanishing| self.limit(vanishing));
-        let is_limited = limit.is_some();
-        let domain = format!(" with {}", self.positive_domain(limit));
+        let limits = self.limits(&stressed.vanishing);
+        let is_limited = !limits.is_empty();
+        let domain = format!(" with {}", self.positive_domain(limits));
         if has_logarithm {
             let domain = if is_limited || !has_value { &domain } else { "" };
             return format!("append `{term} * (J - 1.0)`{domain}, or remove the term in `J.ln()`");
@@ -267,27 +275,38 @@ impl Explainer<'_, '_> {
         }
     }
 
-    fn vanishing(&mut self, argument: Vanishing, has_value: bool) -> String {
+    fn vanishing(&mut self, arguments: &[Vanishing], has_value: bool) -> String {
         let declaration = self.source.declaration;
-        let remedy = if let Some(limit) = self.limit(argument) {
-            let domain = if has_value {
-                let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
-                let conditions: Vec<_> = conditions.chain([limit]).collect();
-                format!("`domain({})`", conditions.join(", "))
-            } else {
-                self.positive_domain(Some(limit))
-            };
-            let is_parameter = |&id: &Id| matches!(self.graph.node(id), Node::Parameter(_));
-            let has_parameters = self.graph.reachable(&[argument.of]).iter().any(is_parameter);
-            let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
-            format!("declare {domain}{or}")
-        } else {
+        let limits = self.limits(arguments);
+        let remedy = if limits.is_empty() {
             let names = self.source.invariants();
             let is = if names.len() == 1 { "is" } else { "are" };
             format!("write {}, which {is} at least 3 wherever J > 0", in_place(&names))
+        } else {
+            let domain = if has_value {
+                let conditions = declaration.options.domain.iter().map(|it| it.to_token_stream().to_string());
+                let conditions: Vec<_> = conditions.chain(limits).collect();
+                format!("`domain({})`", conditions.join(", "))
+            } else {
+                self.positive_domain(limits)
+            };
+            let is_parameter = |&id: &Id| matches!(self.graph.node(id), Node::Parameter(_));
+            let all: Vec<_> = arguments.iter().map(|argument| argument.of).collect();
+            let has_parameters = self.graph.reachable(&all).iter().any(is_parameter);
+            let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
+            match is_cut(&domain) {
+                true => "limit the domain by conditions under which it does not".to_owned(),
+                false => format!("declare {domain}{or}"),
+            }
         };
-        let text = self.print(argument.of);
-        format!("`{text}` vanishes inside the domain, and there this has no value: {remedy}")
+        let texts: Vec<_> = arguments.iter().map(|argument| self.print(argument.of)).collect();
+        let (vanish, these) = if texts.len() == 1 { ("vanishes", "this") } else { ("vanish", "the energy") };
+        format!("{} {vanish} inside the domain, and there {these} has no value: {remedy}", list(&texts))
+    }
+
+    /// The conditions that expressions do not vanish; none if isochoric invariants keep them from it.
+    fn limits(&mut self, arguments: &[Vanishing]) -> Vec<String> {
+        arguments.iter().filter_map(|&argument| self.limit(argument)).collect()
     }
 
     /// The condition that an expression does not vanish.
@@ -305,12 +324,12 @@ impl Explainer<'_, '_> {
         })
     }
 
-    /// The declared domain where J > 0, with a further condition.
-    fn positive_domain(&self, limit: Option<String>) -> String {
+    /// The declared domain where J > 0, with further conditions.
+    fn positive_domain(&self, limits: Vec<String>) -> String {
         let conditions =
             self.source.declaration.bounds().map(|condition| condition.to_token_stream().to_string());
         let conditions: Vec<_> =
-            std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limit).collect();
+            std::iter::once("J > 0.0".to_owned()).chain(conditions).chain(limits).collect();
         format!("`domain({})`", conditions.join(", "))
     }
 

@@ -44,9 +44,8 @@ pub(crate) enum Violation {
     /// A power or logarithm has no value where some stretches vanish, unless its exponent, if that is real,
     /// is positive.
     NoValueCollapsed { power: Id, exponent: Option<Id>, vanishing: usize },
-    /// An argument vanishes inside the domain. `has_value`: the energy has a value for all volumes of its
-    /// domain.
-    Vanishing { argument: Vanishing, has_value: bool },
+    /// Arguments vanish inside the domain. `has_value`: the energy has a value for all volumes of its domain.
+    Vanishing { arguments: Vec<Vanishing>, has_value: bool },
     /// A condition excludes flat elements, such as one with these stretches, where an extension begins.
     FlatExcluded { stretches: [f64; 3] },
     /// The shear modulus is zero.
@@ -67,8 +66,8 @@ pub(crate) struct Stressed {
     pub(crate) has_logarithm: bool,
     /// Whether I1b and I2b in place of I1 and I2 leave no stress.
     pub(crate) is_isochoric_free: bool,
-    /// An argument that vanishes inside the domain.
-    pub(crate) vanishing: Option<Vanishing>,
+    /// The arguments that vanish inside the domain.
+    pub(crate) vanishing: Vec<Vanishing>,
     /// Whether the energy has a value for all volumes of its domain.
     pub(crate) has_value: bool,
 }

@@ -57,42 +57,58 @@ pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mu
 /// Finds arguments that vanish inside the domain, away from rest.
 pub(crate) fn limits(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
     let source = findings.source;
-    let Some(argument) = vanishing(graph, source) else { return };
-    let holds = |part| Argument::is_in(graph, part, argument.of);
+    let arguments = vanishing(graph, source);
+    let Some(first) = arguments.first() else { return };
+    let holds = |part| Argument::is_in(graph, part, first.of);
     if !findings.is_known(holds) {
+        let part = source.first_operand(holds);
         let has_value = has_value(graph, source, samples);
-        let holds = |part| Argument::is_in(graph, part, argument.of);
-        findings.add(source.first_operand(holds), Violation::Vanishing { argument, has_value });
+        findings.add(part, Violation::Vanishing { arguments, has_value });
     }
 }
 
-/// An argument that vanishes inside the domain, and what would help.
-pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Option<Vanishing> {
-    let draws = draws(graph, source);
-    let of = vanishing_in(graph, source, source.energy, &draws)?;
-    let isochoric = isochoric(source.declaration, graph);
-    let remedy =
-        if !source.invariants().is_empty() && vanishing_in(graph, source, isochoric, &draws).is_none() {
-            Remedy::Isochoric
-        } else if draws.iter().any(|point| evaluate(graph, of, &at_rest(point)).value > 0.0) {
-            Remedy::Positive
-        } else {
-            Remedy::Negative
+/// The arguments that vanish inside the domain, each where the conditions on those before it hold, and what
+/// would help.
+pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Vec<Vanishing> {
+    let mut draws = draws(graph, source);
+    let mut bounds = source.bounds.to_vec();
+    let mut found: Vec<Vanishing> = Vec::new();
+    while let Some(of) = vanishing_in(graph, &bounds, source.energy, &draws) {
+        if found.is_empty() && !source.invariants().is_empty() {
+            let isochoric = isochoric(source.declaration, graph);
+            if vanishing_in(graph, &bounds, isochoric, &draws).is_none() {
+                return vec![Vanishing { of, remedy: Remedy::Isochoric }];
+            }
+        }
+        let at_rest = |graph: &Graph, id, point: &Point| evaluate(graph, id, &at_rest(point)).value;
+        let (remedy, bound) = match draws.iter().any(|point| at_rest(graph, of, point) > 0.0) {
+            true => (Remedy::Positive, of),
+            false => (Remedy::Negative, graph.neg(of)),
         };
-    Some(Vanishing { of, remedy })
+        if found.iter().any(|before| before.of == of) {
+            break;
+        }
+        found.push(Vanishing { of, remedy });
+        bounds.push(bound);
+        draws.retain(|point| at_rest(graph, bound, point) > 0.0);
+    }
+    found
 }
 
-fn vanishing_in(graph: &Graph, source: &Source<'_>, energy: Id, draws: &[Point]) -> Option<Id> {
-    // The domain of functions is not known here.
-    if source.declaration.has_functions() {
+/// An argument of an energy that vanishes inside a domain.
+fn vanishing_in(graph: &Graph, bounds: &[Id], energy: Id, draws: &[Point]) -> Option<Id> {
+    let depends_on_function =
+        |id: Id| graph.reachable(&[id]).iter().any(|&id| matches!(graph.node(id), Node::Function(..)));
+    // The values of functions are not known here.
+    if bounds.iter().any(|&bound| depends_on_function(bound)) {
         return None;
     }
     let arguments = Argument::all(graph, energy);
     let found = arguments.into_iter().find(|argument| {
         // No condition of a domain is on each entry of a list.
         !is_positive(graph, argument.of)
-            && !argument.depends_on(graph, |node| matches!(node, Node::Entry(_)))
-            && draws.iter().any(|point| changes_sign(graph, source, argument.of, point))
+            && !argument.depends_on(graph, |node| matches!(node, Node::Entry(_) | Node::Function(..)))
+            && draws.iter().any(|point| changes_sign(graph, bounds, argument.of, point))
     });
     found.map(|argument| argument.of)
 }
@@ -121,7 +137,7 @@ fn is_positive(graph: &Graph, id: Id) -> bool {
 
 /// Whether an expression changes its sign on one of the [`PATHS`], with the parameters of the point, before
 /// the domain ends.
-fn changes_sign(graph: &Graph, source: &Source<'_>, id: Id, point: &Point) -> bool {
+fn changes_sign(graph: &Graph, bounds: &[Id], id: Id, point: &Point) -> bool {
     let sign = evaluate(graph, id, &at_rest(point)).value.signum();
     PATHS.into_iter().any(|path| {
         for step in 1..=STEPS {
@@ -129,7 +145,7 @@ fn changes_sign(graph: &Graph, source: &Source<'_>, id: Id, point: &Point) -> bo
             let point = Point { stretches: path.map(|exponent| (length * exponent).exp()), ..point.clone() };
             let mut memo = Memo::default();
             let mut value = |id| evaluate_with(graph, id, &point, &mut memo);
-            let is_inside = source.bounds.iter().all(|&bound| value(bound).value > 0.0);
+            let is_inside = bounds.iter().all(|&bound| value(bound).value > 0.0);
             let Estimate { value, magnitude } = value(id);
             if !is_inside || !value.is_finite() {
                 return false;

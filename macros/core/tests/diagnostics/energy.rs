@@ -208,6 +208,22 @@ fn long_stresses_are_avoided_instead_of_balanced() {
     check("domain(J > 0.0, l1.powi(2) < n * J.powf(2.0 / 3.0)), admissible(n > 1.0), part", &item, &[]);
 }
 
+/// Of whole exponents that are parameters, powers at rest cannot be written, and no part of them is offered.
+#[test]
+fn what_cannot_be_written_is_not_offered() {
+    let check = |term: &str, remedy: &str| {
+        let item = format!(
+            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], c: [f64; N], i: [u32; N], j: [u32; N]) -> f64 {{ \
+             sum(|p| c[p] * (I1 - 3.0).powi(i[p]) * (I2 - 3.0).powi(j[p])) + {term} }}"
+        );
+        let [(_, message)] = &mistakes("domain(J > 0.0)", &item)[..] else { panic!("{term}") };
+        let start = format!("this leaves stress at rest: {remedy}; or say `prestressed` in the attribute");
+        assert!(message.starts_with(&start) && !message.contains('…'), "{message}");
+    };
+    check("sum(|p| c[p]) * (J - 1.0).powi(2)", "write `I1b`, `I2b` for `I1`, `I2`, which leaves none");
+    check("sum(|p| c[p]) * J", "take it away by a term in `J.ln()`");
+}
+
 /// I1b − 3 is never negative, and its real powers above 1 are smooth.
 #[test]
 fn powers_of_what_is_never_negative() {
@@ -286,6 +302,24 @@ fn what_vanishes_elsewhere_is_a_limit() {
         assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
         check(&domain, &energy(term), &[]);
     }
+    // Conditions come at once, but for those that follow from the others; what is meant is underlined.
+    let two = "{ let x = 1 - b * (I1b - 3); -mu * x.ln() - mu * mu * (1 - b * (I2b - 3).powi(2)).ln() + mu / x - mu }";
+    let limits = "1.0 - b * (I1b - 3.0) > 0.0, 1.0 - b * (I2b - 3.0).powi(2) > 0.0";
+    let [(tokens, message)] = &mistakes("domain(J > 0.0)", &energy(two))[..] else { panic!("{two}") };
+    let expected = format!(
+        "`1.0 - b * (I1b - 3.0)`, `1.0 - b * (I2b - 3.0).powi(2)` vanish inside the domain, and there the energy has no \
+         value: declare `domain(J > 0.0, {limits})`"
+    );
+    assert!(message.starts_with(&expected), "{message}");
+    assert_eq!(tokens, "x.ln()");
+    check(&format!("domain(J > 0.0, {limits})"), &energy(two), &[]);
+    let stressed = "-mu * (1 - b * (I1 - 3)).ln() - mu * (1 - b * (I2 - 3).powi(2)).ln() + mu * J";
+    let [(_, message)] = &mistakes("", &energy(stressed))[..] else { panic!("{stressed}") };
+    let domain = "`domain(J > 0.0, 1.0 - b * (I1 - 3.0) > 0.0, 1.0 - b * (I2 - 3.0).powi(2) > 0.0)`";
+    assert!(message.contains(&format!("* J.ln()` with {domain}; or")), "{message}");
+    let root = "mu * (I1b - 3.0) - mu * (1.0 - (b * (I1b - 3.0)).powf(1.5)).ln()";
+    let logarithm = "(1.0 - (b * (I1b - 3.0)).powf(1.5)).ln()";
+    check("domain(J > 0.0), admissible(b > 0.0)", &energy(root), &[(logarithm, "inside the domain")]);
     // The admissible parameters decide.
     let logarithm = "(1 + b * (I1b - 3)).ln()";
     let term = format!("mu * {logarithm}");
