@@ -1,11 +1,13 @@
 //! Volumes for which an energy must have a value: inverted, flat and collapsed elements, unless its domain
 //! excludes them.
 
+use rustc_hash::FxHashSet;
+
 use super::argument::Argument;
 use super::finding::{Findings, Violation};
 use super::samples::{CANDIDATES, POSITIVE, candidates, with_equal_entries};
 use super::source::Source;
-use crate::algebra::expr::{Graph, Id};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::interpret::{Point, evaluate};
 use crate::read::domain::Volume;
 
@@ -22,8 +24,8 @@ pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findi
     if let Some(sign) = sign_without_value(graph, source, samples) {
         // An energy undefined at J = 0 is undefined on collapsed elements too and has the same remedy: only
         // the first is reported.
-        let breaks = |part| has_no_value(graph, source, part, sign, samples);
-        if !findings.is_known(breaks) {
+        let mut breaks = |part| has_no_value(graph, source, part, sign, samples);
+        if !findings.is_known(&mut breaks) {
             findings.add(source.blamed_term(breaks), Violation::NoValue { sign });
         }
         return;
@@ -48,37 +50,68 @@ pub(crate) fn has_value(graph: &mut Graph, source: &Source<'_>, samples: &[Point
 }
 
 /// A sign of J in the domain with which the energy has no value.
-fn sign_without_value(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<f64> {
+fn sign_without_value(graph: &mut Graph, source: &Source<'_>, samples: &[Point]) -> Option<f64> {
     let signs: &[f64] = match source.volume {
         Volume::Positive => &[],
         Volume::Nonzero => &[-1.0],
         Volume::Any => &[-1.0, 0.0],
     };
-    // The domain of functions is not known here.
-    let is_judged = !source.declaration.has_functions();
-    let is_short = |&sign: &f64| is_judged && has_no_value(graph, source, source.energy, sign, samples);
-    signs.iter().copied().find(is_short)
+    let mut is_short = |&sign: &f64| has_no_value(graph, source, source.energy, sign, samples);
+    signs.iter().copied().find(|sign| is_short(sign))
 }
 
 /// Whether a part has no value at the samples, given J of this sign, inside the domain.
-fn has_no_value(graph: &Graph, source: &Source<'_>, part: Id, sign: f64, samples: &[Point]) -> bool {
+fn has_no_value(graph: &mut Graph, source: &Source<'_>, part: Id, sign: f64, samples: &[Point]) -> bool {
+    let known = known(graph, source, part);
     let with_sign = |point: &Point| {
         let [l1, l2, l3] = point.stretches;
         Point { stretches: [l1, l2, sign * l3.abs()], ..point.clone() }
     };
     let is_inside = |point: &Point| source.is_inside(graph, point);
     let mut points = samples.iter().map(with_sign).filter(is_inside).peekable();
-    points.peek().is_some() && points.all(|point| !evaluate(graph, part, &point).value.is_finite())
+    let is_finite = |point: &Point| known.iter().all(|&part| evaluate(graph, part, point).value.is_finite());
+    points.peek().is_some() && !points.any(|point| is_finite(&point))
+}
+
+/// The largest parts of a part that contain no function, whose domain is not known here.
+fn known(graph: &mut Graph, source: &Source<'_>, part: Id) -> Vec<Id> {
+    if !source.declaration.has_functions() {
+        return vec![part];
+    }
+    // Operands come before what is made of them.
+    let order = graph.reachable(&[part]);
+    let mut has_function = FxHashSet::default();
+    for &id in &order {
+        let of_operands = graph.children(id).iter().any(|child| has_function.contains(child));
+        if of_operands || matches!(graph.node(id), Node::Function(..)) {
+            has_function.insert(id);
+        }
+    }
+    let mut known: Vec<_> = [part].into_iter().filter(|part| !has_function.contains(part)).collect();
+    for id in order.into_iter().filter(|id| has_function.contains(id)) {
+        let operands = match graph.node(id).clone() {
+            Node::Product(factors) => {
+                let powers = factors.into_iter().filter(|(base, _)| !has_function.contains(base));
+                powers.map(|(base, exponent)| graph.power(base, exponent)).collect()
+            }
+            _ => graph.children(id),
+        };
+        known.extend(operands.into_iter().filter(|operand| !has_function.contains(operand)));
+    }
+    known.sort_unstable();
+    known.dedup();
+    known
 }
 
 /// A logarithm or power without a value in collapsed elements, such as one of I2 on a line, and how many
 /// stretches vanish there.
 fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, usize)> {
-    // The domain of functions is not known here.
-    if source.volume != Volume::Any || source.declaration.has_functions() {
+    if source.volume != Volume::Any {
         return None;
     }
-    let arguments = Argument::all(graph, source.energy).into_iter();
+    let known = known(graph, source, source.energy);
+    let arguments: Vec<_> = known.iter().flat_map(|&part| Argument::all(graph, part)).collect();
+    let arguments = arguments.into_iter();
     let arguments: Vec<_> = arguments
         .map(|argument| (argument, argument.exponent.map(|exponent| graph.exponent_value(exponent))))
         .collect();
@@ -90,7 +123,7 @@ fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, us
         let collapsed = |point: &Point| Point { stretches, ..point.clone() };
         let argument = points.iter().map(collapsed).find_map(|point| {
             let value = |id: Id| evaluate(graph, id, &point).value;
-            if !source.is_inside(graph, &point) || value(source.energy).is_finite() {
+            if !source.is_inside(graph, &point) || known.iter().all(|&part| value(part).is_finite()) {
                 return None;
             }
             let has_none = |&&(argument, exponent): &&(Argument, Option<Id>)| {

@@ -357,6 +357,38 @@ fn what_vanishes_elsewhere_is_a_limit() {
     );
 }
 
+/// The domain of a function is unknown, and its own business; that of the other parts is not.
+#[test]
+fn parts_beside_functions_have_a_value() {
+    let check = |arguments: &str, term: &str, expected: &[(&str, &str)]| {
+        let item = format!(
+            "fn E([l1, l2, l3]: [f64; 3], mu: f64, g: f64, f: piola::Spline) -> f64 {{ \
+             mu * (I1 - 3.0) + f(I1 - 3.0) + g * (J - 1.0).powi(2) + {term} }}"
+        );
+        check(arguments, &item, expected);
+    };
+    let limited = "((I2 - 3.0 + g) / g).ln()";
+    let isochoric = "write `I1b`, `I2b` for `I1`, `I2`, which are at least 3 wherever J > 0";
+    check("domain(J > 0.0), admissible(g > 0.0)", &format!("mu * {limited}"), &[(limited, isochoric)]);
+    let limited = "(1.0 - g * (I1b - 3.0)).ln()";
+    for term in [format!("mu * {limited}"), format!("f({limited})"), format!("mu * f(J) * {limited}.powi(2)")]
+    {
+        let limit = "declare `domain(J > 0.0, 1.0 - g * (I1b - 3.0) > 0.0)`";
+        check("domain(J > 0.0)", &term, &[(limited, limit)]);
+    }
+    for (term, part, message) in [
+        ("mu * J.ln()", "mu * J.ln()", "has no value where J < 0"),
+        ("mu * f(J) * J.sqrt()", "mu * f(J) * J.sqrt()", "has no value where J < 0"),
+        ("mu * f(J) / I1", "mu * f(J) / I1", "has no value where λ1 = λ2 = λ3 = 0"),
+        ("f(mu * I2.ln())", "I2.ln()", "`I2.ln()` has no value where λ2 = λ3 = 0"),
+    ] {
+        check("", term, &[(part, message)]);
+    }
+    for fine in ["mu / f(I1)", "f(mu * I1.sqrt()) * g", "mu * f(J) * (1.0 + I1).powf(-mu)"] {
+        check("", fine, &[]);
+    }
+}
+
 /// I2 vanishes on lines, I1 at points, and there negative powers have no value.
 #[test]
 fn what_collapses_to_a_line_or_a_point_has_a_value() {
