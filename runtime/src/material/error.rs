@@ -126,7 +126,9 @@ impl fmt::Display for MaterialError {
             ),
             Self::StressedRest { stress } => write!(
                 f,
-                "the rest state would carry a stress of {} Pa; let the derivatives of the functions cancel at 1",
+                "the rest state would carry a stress of {} Pa: the derivatives of the functions do not cancel there. Pass \
+                 functions whose derivatives do, or change the energy: write `I1b`, `I2b` for `I1`, `I2`, or add `- p * J.ln()` \
+                 with this stress as a parameter `p`",
                 number(*stress)
             ),
             Self::Threshold { epsilon } => {
@@ -222,5 +224,13 @@ mod tests {
         for (mu, lambda) in [(1.0, f64::INFINITY), (f64::NAN, 1.0)] {
             assert!(unstable(mu, lambda).contains("divide by zero or overflow"), "{mu} {lambda}");
         }
+    }
+
+    /// Wherever the functions are evaluated at rest, at 1, at 3 or at 0.
+    #[test]
+    fn a_stressed_rest_state_is_told_with_its_remedies() {
+        let text = MaterialError::StressedRest { stress: 1e6 }.to_string();
+        assert!(text.contains("a stress of 1e6 Pa") || text.contains("a stress of 1000000 Pa"), "{text}");
+        assert!(text.contains("`I1b`, `I2b` for `I1`, `I2`") && text.contains("`- p * J.ln()`"), "{text}");
     }
 }
