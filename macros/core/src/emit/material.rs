@@ -29,12 +29,12 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             }
 
             impl #bounds __p::Graded for #name #arguments {
-                type OnLanes<'a> = __p::Mixed<'a, Self>;
+                type OnLanes<'lanes> = __p::Mixed<'lanes, Self>;
 
                 #[inline(always)]
-                fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes<'a>
+                fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
                 where
-                    Self: 'a,
+                    Self: 'lanes,
                 {
                     __p::Mixed::new(material)
                 }
@@ -65,12 +65,12 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         }
 
         impl #bounds __p::Graded for #name #arguments {
-            type OnLanes<'a> = #name<#(#lengths,)* #per_lane>;
+            type OnLanes<'lanes> = #name<#(#lengths,)* #per_lane>;
 
             #[inline(always)]
-            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self::OnLanes<'a>
+            fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
             where
-                Self: 'a,
+                Self: 'lanes,
             {
                 #name { #(#gathered,)* #inversion }
             }

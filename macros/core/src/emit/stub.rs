@@ -162,10 +162,10 @@ fn inert_type(function: &Function) -> TokenStream {
 
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Graded for #name<#(#generics),*> {
-            type OnLanes<'a> = Self;
-            fn on_lanes<'a>(material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy) -> Self
+            type OnLanes<'lanes> = Self;
+            fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self
             where
-                Self: 'a,
+                Self: 'lanes,
             {
                 #unreachable
             }

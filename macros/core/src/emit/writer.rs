@@ -243,10 +243,18 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The first of the names that the declaration has not taken.
+/// Greek letters that rustc's lint `confusable_idents` takes for Latin ones.
+const LOOKALIKES: [(&str, &str); 8] =
+    [("α", "a"), ("γ", "y"), ("ι", "i"), ("ν", "v"), ("ο", "o"), ("ρ", "p"), ("σ", "o"), ("υ", "u")];
+
+/// The first of the names that the declaration has not taken, and that look like none that it has.
 pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident {
+    let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
+    let taken: Vec<_> = declaration.stretches.iter().chain(parameters).collect();
     let is_taken = |name: &Ident| {
-        declaration.stretches.contains(name) || declaration.parameters.iter().any(|other| other.name == *name)
+        let looks_like =
+            |other: &Ident| LOOKALIKES.iter().any(|&(greek, latin)| *other == greek && *name == latin);
+        taken.iter().any(|&other| other == name || looks_like(other))
     };
     candidates
         .iter()

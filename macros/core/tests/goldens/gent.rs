@@ -642,13 +642,13 @@ const _: () = {
         }
     }
     impl __p::Graded for Gent {
-        type OnLanes<'a> = Gent<__p::PerLane>;
+        type OnLanes<'lanes> = Gent<__p::PerLane>;
         #[inline(always)]
-        fn on_lanes<'a>(
-            material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes<'a>
+        fn on_lanes<'lanes>(
+            material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy,
+        ) -> Self::OnLanes<'lanes>
         where
-            Self: 'a,
+            Self: 'lanes,
         {
             Gent {
                 mu: __p::PerLane::gather(|lane| material(lane).mu),

@@ -507,13 +507,13 @@ const _: () = {
         }
     }
     impl __p::Graded for NeoHookean {
-        type OnLanes<'a> = NeoHookean<__p::PerLane>;
+        type OnLanes<'lanes> = NeoHookean<__p::PerLane>;
         #[inline(always)]
-        fn on_lanes<'a>(
-            material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes<'a>
+        fn on_lanes<'lanes>(
+            material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy,
+        ) -> Self::OnLanes<'lanes>
         where
-            Self: 'a,
+            Self: 'lanes,
         {
             NeoHookean {
                 mu: __p::PerLane::gather(|lane| material(lane).mu),

@@ -678,13 +678,13 @@ const _: () = {
         }
     }
     impl<const N: usize> __p::Graded for Ogden<N> {
-        type OnLanes<'a> = Ogden<N, __p::PerLane>;
+        type OnLanes<'lanes> = Ogden<N, __p::PerLane>;
         #[inline(always)]
-        fn on_lanes<'a>(
-            material: impl ::core::ops::Fn(usize) -> &'a Self + ::core::marker::Copy,
-        ) -> Self::OnLanes<'a>
+        fn on_lanes<'lanes>(
+            material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy,
+        ) -> Self::OnLanes<'lanes>
         where
-            Self: 'a,
+            Self: 'lanes,
         {
             Ogden {
                 mu: ::core::array::from_fn(|k| __p::PerLane::gather(|lane| {

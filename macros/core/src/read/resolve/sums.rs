@@ -140,8 +140,13 @@ impl Resolver<'_> {
         self.used.insert(name.clone());
         let Some(index) = plain_name(&expression.index) else {
             self.excuse();
-            return self
-                .mistake(expression, &format!("an entry is written `{name}[p]`, inside `sum(|p| …)`"));
+            // One message for the list, however often it occurs.
+            self.mistaken.insert(name.clone());
+            let message = format!(
+                "a single entry of a list cannot be used: make it a parameter of its own, or write `{name}[p]`, inside \
+                 `sum(|p| …)`, for each"
+            );
+            return self.mistake(expression, &message);
         };
         match &mut self.index {
             Some(around) if around.name == *index => match around.length {
