@@ -147,7 +147,14 @@ fn one_mistake_gives_one_message() {
 fn names() {
     check_added("K", "K", "known are `l1`, `l2`, `l3`, `mu`, `m`, `J`, `I1`, `I2`, `I1b`, `I2b`");
     check_added("m", "m", "write `sum(|p| … m[p] …)`");
-    check_added("m[0]", "m[0]", "an entry is written `m[p]`, inside `sum(|p| …)`");
+    let single = "single entries of a list cannot be used: declare them as parameters of their own, or write `m[p]`, inside";
+    check_added("m[0]", "m[0]", single);
+    check_added("m[1] * J + m[2] * m[0].ln() + sum(|p| m[p] * m[0]) + m[p]", "m[1]", single);
+    check_added("sum(|p| m[p + 1])", "m[p + 1]", "an entry is written `m[p]`, inside `sum(|p| …)`");
+    check_arguments(
+        "domain(J > 0.0), admissible(m[0] > 0.0)",
+        &[("m[0]", "or write `m[p]`, which holds for each")],
+    );
     check_added("m[p]", "m[p]", "entries are only read inside a sum: `sum(|p| m[p])`");
     check_added("l1[p]", "l1", "`l1` is not a list");
     check_added("N", "N", "`N` is the length of lists");

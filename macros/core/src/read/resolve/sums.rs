@@ -138,15 +138,15 @@ impl Resolver<'_> {
             return self.name(list);
         };
         self.used.insert(name.clone());
+        if self.mistaken.contains(&name) {
+            self.excuse();
+            return self.unknown();
+        }
         let Some(index) = plain_name(&expression.index) else {
             self.excuse();
             // One message for the list, however often it occurs.
             self.mistaken.insert(name.clone());
-            let message = format!(
-                "a single entry of a list cannot be used: make it a parameter of its own, or write `{name}[p]`, inside \
-                 `sum(|p| …)`, for each"
-            );
-            return self.mistake(expression, &message);
+            return self.mistake(expression, &self.not_an_index(&name, &expression.index));
         };
         match &mut self.index {
             Some(around) if around.name == *index => match around.length {
@@ -173,8 +173,23 @@ impl Resolver<'_> {
                 self.mistake(index, &message)
             }
             None => {
+                self.mistaken.insert(name.clone());
                 self.mistake(expression, &format!("entries are only read inside a sum: `sum(|p| {name}[p])`"))
             }
+        }
+    }
+
+    /// The message about an index that is no name.
+    fn not_an_index(&self, list: &str, index: &Expr) -> String {
+        let place = match self.scope {
+            Scope::Parameters => "which holds for each",
+            _ => "inside `sum(|p| …)`",
+        };
+        match index {
+            Expr::Lit(_) => format!(
+                "single entries of a list cannot be used: declare them as parameters of their own, or write `{list}[p]`, {place}"
+            ),
+            _ => format!("an entry is written `{list}[p]`, {place}"),
         }
     }
 
