@@ -539,6 +539,19 @@ fn whole_exponents_are_exponents_alone() {
         "d[p]",
         "write `.powf(d[p])`, or declare `d: [u32; N]`",
     );
+    says(
+        "prestressed",
+        &with("sum(|p| d[p] * J.powi(2 * k[p]))"),
+        "2 * k[p]",
+        "let the list `k` hold the values of `2 * k[p]` themselves, or declare `k` with `f64` and write `.powf(2 * k[p])`",
+    );
+    says("prestressed", &with("J.powi((n - 1))"), "(n - 1)", "let `n` be the value of `n - 1` itself");
+    says(
+        "prestressed",
+        &with("sum(|q| J.powi(-k[q]))"),
+        "-k[q]",
+        "write `.recip().powi(k[q])`, or declare `k`",
+    );
     says("prestressed", &with("J.powi(k[p])"), "k[p]", "entries are only read inside a sum");
     let typical =
         |n: &str| format!("prestressed, typical(\"rubber\", m = 1, n = {n}, d = [1, 2], k = [0, 3])");

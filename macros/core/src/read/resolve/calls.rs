@@ -160,6 +160,10 @@ impl Resolver<'_> {
         if let Some(exponent) = self.whole_exponent(argument) {
             return if self.is_unknown(base) { base } else { self.graph.whole_power(base, exponent, 0) };
         }
+        if let Some(message) = self.no_whole_exponent(argument) {
+            self.excuse();
+            return self.mistake(argument, &message);
+        }
         let exponent = self.expression(argument);
         if self.is_unknown(exponent) {
             return exponent;
@@ -189,6 +193,38 @@ impl Resolver<'_> {
             Some(n) if n.abs() <= 64 => self.graph.powi(base, n),
             _ => self.mistake(argument, "a whole power is at most 64: for larger ones use `.powf(…)`"),
         }
+    }
+
+    /// The message about an exponent that is made of whole ones.
+    fn no_whole_exponent(&self, argument: &Expr) -> Option<String> {
+        if let Expr::Paren(inner) = argument {
+            return self.no_whole_exponent(&inner.expr);
+        }
+        // What is misunderstood of a parameter that stands alone is its place.
+        if self.scope == Scope::Parameters || !matches!(argument, Expr::Binary(_) | Expr::Unary(_)) {
+            return None;
+        }
+        let names = identifiers(argument.to_token_stream());
+        let mut whole = self.declaration.parameters.iter().filter(|parameter| parameter.is_whole);
+        let parameter = whole.find(|parameter| names.contains(&parameter.name))?;
+        let name = &parameter.name;
+        let written = |part: &dyn ToTokens| part.to_token_stream().to_string().replace(" [", "[");
+        if let Expr::Unary(negated) = argument {
+            let inner = written(&negated.expr);
+            return Some(format!(
+                "whole exponents that are parameters are not negative: write `.recip().powi({inner})`, or declare `{name}` with \
+                 `f64` and write `.powf(-{inner})`"
+            ));
+        }
+        let text = written(argument);
+        let holder = match parameter.length() {
+            Some(_) => format!("the list `{name}` hold the values of `{text}` themselves"),
+            None => format!("`{name}` be the value of `{text}` itself"),
+        };
+        Some(format!(
+            "`powi` takes a whole exponent that is a parameter as it is: let {holder}, or declare `{name}` with `f64` and write \
+             `.powf({text})`"
+        ))
     }
 
     fn real_power(&mut self, base: Id, argument: &Expr) -> Id {
