@@ -29,7 +29,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// What several parts of one expression that break a rule are.
+/// The meaning of several parts of one expression that break a rule.
 #[derive(Clone, Copy, PartialEq)]
 enum Several {
     /// They may break it together.
@@ -86,7 +86,7 @@ fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr
     }
 }
 
-/// What a sum adds up, or another argument.
+/// The body of a closure, which a sum adds up, or another argument as it is.
 fn summand(argument: &Expr) -> &Expr {
     match argument {
         Expr::Closure(summand) => &summand.body,

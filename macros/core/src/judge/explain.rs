@@ -355,7 +355,7 @@ impl Explainer<'_, '_> {
         }
     }
 
-    /// The condition that an exponent is above 1, if it can be declared: for `2.0 * n + 1.0` that is `n > 0.0`.
+    /// The condition that an exponent is above 1, if it can be declared: of `2.0 * n + 1.0` it is `n > 0.0`.
     fn is_above_one(&mut self, exponent: Exponent) -> Option<String> {
         let mut varying = exponent.real?;
         let mut limit = Rational::ONE.checked_add(exponent.rational.negated())?;

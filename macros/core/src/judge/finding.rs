@@ -31,7 +31,8 @@ pub(crate) enum Violation {
     NotInPascals(Rational),
     /// The base of a power that is not whole vanishes at rest.
     PowerAtRest { power: Id },
-    /// The stiffness grows without bound towards rest, as that of powers of an excess with these exponents does.
+    /// The stiffness grows without bound towards rest, as that of powers of an excess with these exponents
+    /// does.
     Rough { exponents: Vec<Exponent> },
     /// `extend` of an energy with a real power of an excess.
     ExtendedPower,

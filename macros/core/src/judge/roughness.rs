@@ -17,8 +17,8 @@ use crate::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
 /// Draws of positive parameters, of which about 0.4 have an exponent below 1 if that is not excluded.
 const DRAWS: usize = 24;
 
-/// Draws of parameters of either sign: an exponent n + 1 is between 0 and 1 in a tenth of them, so that all of
-/// them miss it once in 10⁶ times.
+/// Draws of parameters of either sign: an exponent n + 1 is between 0 and 1 in a tenth of them, so that all
+/// miss it once in 10⁶ times.
 const DRAWS_OF_EITHER_SIGN: usize = 128;
 
 /// A direction of strain that changes I1b and I2b.
