@@ -96,12 +96,12 @@ fn has_axis<R: Real>(F: &Matrix3<R>) -> bool {
 /// exact: zeros of F that a plane of symmetry makes are then zeros of P and dP/dF too.
 ///
 /// Jacobi's rotations never mix the column of such an axis with the others, so that the frames are that
-/// exact already but for the rounding of a quaternion that exchanges columns. Where nothing but the axis
-/// tells two directions apart, at rank one or zero, U need not contain it, and is left as it is.
+/// exact already but for the rounding of a quaternion that exchanges columns. Where U does not contain the
+/// axis to rounding, as at rank one, where nothing else tells two directions apart, it is left as it is.
 #[inline(always)]
 fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;
-    let (zero, one, nearly_one) = (R::splat(0.0), R::splat(1.0), R::splat(0.999));
+    let (zero, one, rounding) = (R::splat(0.0), R::splat(1.0), R::splat(64.0 * R::UNIT_ROUNDOFF));
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let others =
@@ -109,7 +109,9 @@ fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
         let is_axis = others.less(R::splat(R::MIN_POSITIVE));
         for column in 0..3 {
             let (u, v) = (one.copysign(U[k][column]), one.copysign(V[k][column]));
-            let is_here = is_axis & nearly_one.less(U[k][column].abs().min(V[k][column].abs()));
+            let (l, m) = ((column + 1) % 3, (column + 2) % 3);
+            let rest = U[k][l].abs().max(U[k][m].abs()).max(V[k][l].abs()).max(V[k][m].abs());
+            let is_here = is_axis & rest.less(rounding);
             for other in 0..3 {
                 U[k][other] = R::select(is_here, zero, U[k][other]);
                 V[k][other] = R::select(is_here, zero, V[k][other]);
@@ -118,7 +120,9 @@ fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
             }
             U[k][column] = R::select(is_here, u, U[k][column]);
             V[k][column] = R::select(is_here, v, V[k][column]);
-            stretches[column] = R::select(is_here, F[k][k] * u * v, stretches[column]);
+            // Only the last is signed, whatever underflow has made of a direction.
+            let stretch = if column == 2 { F[k][k] * u * v } else { F[k][k].abs() };
+            stretches[column] = R::select(is_here, stretch, stretches[column]);
         }
     }
     stretches = descending(stretches);
