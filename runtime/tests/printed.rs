@@ -142,6 +142,55 @@ fn Lossy(
     mu * (I1 - sum(|l| ((l.powi(2) + k.powi(2)).sqrt() - k).ln()) - 2.0 * J.ln())
 }
 
+/// Kilian's rubber in I1b alone, with the domain that a message offers for it.
+#[piola::material(domain(J > 0.0, 1.0 - ((I1b - 3.0) / (lm.powi(2) - 3.0)).sqrt() > 0.0), admissible(lm > 2.0))]
+fn VanDerWaals(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    g: f64,
+    /** Dimensionless. */
+    lm: f64,
+    /** Pa. */
+    kappa: f64,
+) -> f64 {
+    let theta = ((I1b - 3.0) / (lm.powi(2) - 3.0)).sqrt();
+    g * (3.0 - lm.powi(2)) * ((1.0 - theta).ln() + theta) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// An energy by invariants that ends at a real power of I1b − 3 and I2b − 3.
+#[piola::material(domain(J > 0.0, (I1b - 3.0 + b * (I2b - 3.0)).powf(0.7) < b), admissible(b > 0.0))]
+fn Ending([l1, l2, l3]: [f64; 3], b: f64) -> f64 {
+    I1b + b * (J - 1.0).powi(2)
+}
+
+#[test]
+fn a_domain_with_a_root_of_the_excess_contains_rest_dilations_and_rotations()
+-> Result<(), Box<dyn std::error::Error>> {
+    use piola::Material;
+    let (root, power) = (VanDerWaals::new(1e5, 2.1, 1e6)?, Ending::new(0.5)?);
+    check(&root, &Settings::default())?;
+    check(&power, &Settings::default())?;
+    for k in 0..1000 {
+        let a = 0.5 + 1.5 * f64::from(k) / 999.0;
+        assert!(root.admits([a; 3]) && power.admits([a; 3]), "{a}");
+        assert!(root.admits([a as f32; 3]) && power.admits([a as f32; 3]), "{a}");
+        let diagonal = [[a, 0.0, 0.0], [0.0, a, 0.0], [0.0, 0.0, a]];
+        let [[s, c], [t, d]] = [f64::from(k), 1.7 * a].map(|angle| [angle.sin(), angle.cos()]);
+        let rotation = [[c, -s, 0.0], [s * d, c * d, -t], [s * t, c * t, d]];
+        for f in [diagonal, rotation] {
+            for status in
+                [piola::point::evaluate_stress(&root, &f).1, piola::point::evaluate_stress(&power, &f).1]
+            {
+                assert!(status.is_clean(), "{f:?}: {status:?}");
+            }
+        }
+    }
+    // I1b − 3 is 1.41 where the root is 1, at lm² − 3.
+    assert!(root.admits([1.8f64, 0.745, 0.745]) && !root.admits([1.9f64, 0.725, 0.725]));
+    assert!(!Ending::<f64>::HAS_INVARIANTS && !power.admits([1.5f64, 0.8, 0.8]));
+    Ok(())
+}
+
 #[test]
 fn fractions_that_cancel_on_flat_elements_keep_their_digits() -> Result<(), Box<dyn std::error::Error>> {
     use piola::Material;

@@ -165,7 +165,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let written = resolver.energy();
-    let bounds: Vec<_> = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
+    let written_bounds: Vec<_> =
+        declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
     let constrained: Vec<_> =
         options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
@@ -175,6 +176,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if has_squares(&graph, energy) {
         nodes.replace(|id| with_squares(&mut graph, id));
     }
+    let bounds: Vec<_> = written_bounds.into_iter().map(|bound| with_squares(&mut graph, bound)).collect();
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
     // A misspelt domain may be the one that `extend` needs.
@@ -196,7 +198,15 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     let positive = volume == Volume::Positive;
     let in_range =
         |graph: &mut Graph, id| if positive { separate(graph, id, Purpose::Evaluation) } else { id };
-    let bounds: Vec<_> = bounds.iter().map(|&bound| in_range(&mut graph, bound)).collect();
+    let bounds_have_squares = bounds.iter().any(|&bound| has_squares(&graph, bound));
+    let mut without_written = FxHashMap::default();
+    let bounds: Vec<_> = bounds
+        .iter()
+        .map(|&bound| {
+            let bound = in_range(&mut graph, bound);
+            excess::squares_alone(&mut graph, bound, &mut without_written)
+        })
+        .collect();
     let ways = Ways::new(&samples, |point| source.is_inside(&graph, point));
     let joined = over_one_denominator(&mut graph, energy, &ways);
     let energy_in_range = in_range(&mut graph, joined);
@@ -230,9 +240,9 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
         findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
     }
-    // By invariants, I1b − 3 is not known well enough for real powers.
+    // By invariants, I1b − 3 is not known well enough for real powers, be they of the energy or of a bound.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
-        .filter(|_| !has_squares(&graph, energy))
+        .filter(|_| !bounds_have_squares && !has_squares(&graph, energy))
         .map(|Invariantly { energy, bounds, is_written_so }| {
             let energy = over_one_denominator(&mut graph, energy, &ways.by_invariants());
             by_invariants(&mut graph, energy, is_written_so, bounds)

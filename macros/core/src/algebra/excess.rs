@@ -34,7 +34,8 @@ use crate::algebra::increment::substitute_rest;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
 
-/// The energy with the bases of its real powers as sums of squares, wherever they are found to be such.
+/// An energy, or a bound of a domain, with the bases of its real powers as sums of squares, wherever they are
+/// found to be such.
 pub fn with_squares(graph: &mut Graph, energy: Id) -> Id {
     Invariants::new(graph).rewritten(graph, energy)
 }
