@@ -52,10 +52,39 @@ impl Univariate for SquaredLogarithm {
     }
 }
 
-/// Rubber whose chains lock, as a function of I1b − 3.
+/// Rubber whose chains lock, as a function of I1b − 2.
 #[material(domain(J > 0.0))]
 pub fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> f64 {
-    mu * f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
+    mu * f(I1b - 2.0) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// φ(x) = x + x^(3/2) for x > 0.
+#[derive(Clone, Debug, PartialEq)]
+struct Root;
+
+impl Univariate for Root {
+    #[inline(always)]
+    fn admits<R: Real>(&self, x: R) -> R::Mask {
+        R::splat(0.0).less(x)
+    }
+    #[inline(always)]
+    fn value<R: Real>(&self, x: R) -> R {
+        x + x * x.sqrt()
+    }
+    #[inline(always)]
+    fn derivative<R: Real>(&self, x: R) -> R {
+        R::splat(1.0) + R::splat(1.5) * x.sqrt()
+    }
+    #[inline(always)]
+    fn second_derivative<R: Real>(&self, x: R) -> R {
+        R::splat(0.75) / x.sqrt()
+    }
+}
+
+/// Rubber whose function ends where I1b − 3 begins.
+#[material(domain(J > 0.0))]
+pub fn OfExcess([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Root) -> f64 {
+    mu / 2.0 * f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
 /// Fibres in all directions that lock at a stretch of 1 + limit/weight, one weight for each population.
@@ -78,7 +107,7 @@ pub fn OfLogarithm([l1, l2, l3]: [f64; 3], mu: f64, f: Locking) -> f64 {
 }
 
 fn locking() -> ByInvariants {
-    ByInvariants::new(2.0, 50.0, Locking { limit: 2.0 }).expect("a material")
+    ByInvariants::new(2.0, 50.0, Locking { limit: 3.0 }).expect("a material")
 }
 
 fn in_sums() -> InSums<2> {
@@ -86,6 +115,7 @@ fn in_sums() -> InSums<2> {
 }
 
 piola::contract!(by_invariants: locking(), range: (0.5, 2.2));
+piola::contract!(of_excess: OfExcess::new(2.0, 50.0, Root)?);
 piola::contract!(of_stretches: OfStretches::new(1.0, SquaredLogarithm)?);
 piola::contract!(of_logarithm: OfLogarithm::new(1.0, Locking { limit: 1.5 })?, range: (0.4, 2.0));
 piola::contract!(
@@ -117,6 +147,23 @@ fn a_material_ends_where_its_function_does() {
 }
 
 #[test]
+fn a_function_of_the_excess_is_defined_at_rest_and_at_dilations() {
+    let solid = OfExcess::new(2.0, 50.0, Root).expect("a material");
+    for k in 0..1000 {
+        let a = 0.5 + 1.5 * f64::from(k) / 999.0;
+        assert!(solid.admits([a; 3]) && solid.admits([a as f32; 3]), "{a}");
+        let dilation = [[a, 0.0, 0.0], [0.0, a, 0.0], [0.0, 0.0, a]];
+        let point = piola::point::evaluate(&solid, &dilation, piola::point::Filter::None);
+        assert!(point.status.is_clean(), "{a}: {:?}", point.status);
+        // D⁻12 of I1b at a dilation is 4/λ², and φ′(0) is 1.
+        let expected = 4.0 / (a * a) - 50.0 * (a.powi(3) - 1.0) * a;
+        for flip in solid.blocks([a; 3]).flip {
+            assert!((flip - expected).abs() <= 1e-13 * (4.0 + 50.0 * a.powi(4)), "{flip} for {expected}");
+        }
+    }
+}
+
+#[test]
 fn beyond_the_end_of_a_function_points_are_refused_and_others_are_not() {
     let line = [[1.5, 0.0, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.8], [3.0, 0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.0, 0.6]];
     let [inside, outside] = line.map(|f| {
@@ -124,11 +171,11 @@ fn beyond_the_end_of_a_function_points_are_refused_and_others_are_not() {
         piola::point::evaluate_stress(&locking(), &f)
     });
     assert!(outside.1.refused && !inside.1.refused && inside.1.is_clean());
-    // ψ1 = 2 φ′ μ (λ1 − I1b/(3 λ1)) J^(−2/3) + κ (J − 1) λ2 λ3, with φ′ = 1/(2 − I1b + 3).
+    // ψ1 = 2 φ′ μ (λ1 − I1b/(3 λ1)) J^(−2/3) + κ (J − 1) λ2 λ3, with φ′ = 3/2/(3 − I1b + 2).
     let (l1, l2): (f64, f64) = (1.5, 0.8);
     let j = l1 * l2 * l2;
     let i1b = j.powf(-2.0 / 3.0) * (l1 * l1 + 2.0 * l2 * l2);
-    let slope = 1.0 / (5.0 - i1b);
+    let slope = 1.5 / (5.0 - i1b);
     let expected =
         2.0 * slope * 2.0 * (j.powf(-2.0 / 3.0) * l1 - i1b / (3.0 * l1)) + 50.0 * (j - 1.0) * l2 * l2;
     assert!((inside.0[0][0] - expected).abs() <= 1e-13 * 50.0, "{} for {expected}", inside.0[0][0]);
@@ -167,7 +214,7 @@ fn a_function_of_a_stretch_may_end_at_zero() {
 
 #[test]
 fn a_function_is_defined_at_rest() {
-    let error = ByInvariants::new(2.0, 50.0, Locking { limit: 0.0 }).expect_err("0 is not below 0");
+    let error = ByInvariants::new(2.0, 50.0, Locking { limit: 1.0 }).expect_err("1 is not below 1");
     assert_eq!(error, MaterialError::UndefinedRest);
     assert!(error.to_string().contains("not defined at rest"));
     let error = InSums::new(1.0, [1.0], Locking { limit: -1.0 }).expect_err("0 is not below −1");
@@ -183,7 +230,7 @@ fn every_point_has_the_end_of_its_own_function() -> Result<(), Box<dyn std::erro
     use piola::lanes::Backend;
     use piola::material::PerPoint;
 
-    let limits = [0.5, 1.0, 1.0, 2.0, 1e9];
+    let limits = [1.5, 2.0, 2.0, 3.0, 1e9];
     let materials = limits.map(|limit| ByInvariants::new(2.0, 50.0, Locking { limit }).expect("a material"));
     let (mut points, mut solids) = (Vec::new(), Vec::new());
     for p in 0..100 {

@@ -191,6 +191,47 @@ fn a_domain_with_a_root_of_the_excess_contains_rest_dilations_and_rotations()
     Ok(())
 }
 
+/// Gregory's carbon-filled rubber, 1979: a small constant keeps the power from what vanishes at rest.
+#[piola::material(domain(J > 0.0), admissible(n > 0.0), fit)]
+fn Gregory(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    a: f64,
+    /** Dimensionless. */
+    n: f64,
+    /** Dimensionless. */
+    c: f64,
+    /** Pa. */
+    kappa: f64,
+) -> f64 {
+    a * (I1b - 3.0 + c.powi(2)).powf(n) + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+#[test]
+fn a_small_constant_beside_the_excess_keeps_its_digits() -> Result<(), Box<dyn std::error::Error>> {
+    use piola::Material;
+    use piola::material::Declared;
+    assert!(Gregory::DESCRIPTION.formula.contains("(I1 J^(−2/3) + c² − 3)^n"));
+    check(&Gregory::new(1e5, 0.4, 1e-2, 1e6)?, &Settings::default())?;
+    for (n, c) in [(0.4f64, 1e-1f64), (0.4, 1e-3), (1.7, 1e-2), (0.5, 1e-4)] {
+        // The slope of the power, and so little resistance to changes of volume that nothing cancels.
+        let slope = n * (c * c).powf(n - 1.0);
+        let kappa = 1e-3 * slope;
+        let solid = Gregory::new(1.0, n, c, kappa)?;
+        for k in 0..1000 {
+            let l = 0.5 + 1.5 * f64::from(k) / 999.0;
+            let blocks = solid.blocks([l; 3]);
+            // D⁻12 of I1b at a dilation is 4/λ².
+            let expected = 4.0 * slope / (l * l) - kappa * (l.powi(3) - 1.0) * l;
+            for flip in blocks.flip {
+                let error = (flip / expected - 1.0).abs() / (f64::EPSILON / 2.0);
+                assert!(error <= 30.0, "{flip} for {expected} at {l}, n = {n}, C = {c}: {error} u");
+            }
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn fractions_that_cancel_on_flat_elements_keep_their_digits() -> Result<(), Box<dyn std::error::Error>> {
     use piola::Material;

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::cancellation::{Ways, lossy, over_one_denominator};
 use crate::algebra::diff::Differentiator;
-use crate::algebra::excess::{self, has_squares, with_squares};
+use crate::algebra::excess::{self, has_squares, with_squares, with_squares_in_sums};
 use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
@@ -208,7 +208,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         })
         .collect();
     let ways = Ways::new(&samples, |point| source.is_inside(&graph, point));
-    let joined = over_one_denominator(&mut graph, energy, &ways);
+    let accurate = with_squares_in_sums(&mut graph, energy);
+    let joined = over_one_denominator(&mut graph, accurate, &ways);
     let energy_in_range = in_range(&mut graph, joined);
     let plain = derive(&mut graph, energy_in_range, &samples, positive);
     let lossy = lossy(&graph, energy_in_range, [&plain.gradient, &plain.blocks()[3..]], &ways);
@@ -242,7 +243,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
     }
     // By invariants, I1b − 3 is not known well enough for real powers, be they of the energy or of a bound.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
-        .filter(|_| !bounds_have_squares && !has_squares(&graph, energy))
+        .filter(|_| !bounds_have_squares && !has_squares(&graph, accurate))
         .map(|Invariantly { energy, bounds, is_written_so }| {
             let energy = over_one_denominator(&mut graph, energy, &ways.by_invariants());
             by_invariants(&mut graph, energy, is_written_so, bounds)

@@ -213,7 +213,7 @@ impl<'a> Printer<'a> {
             Node::Float(bits) => format!("{:?}", f64::from_bits(*bits)),
             Node::Linear { constant, terms } => self.linear(*constant, terms, context),
             Node::Product(factors) => self.product(factors, context),
-            Node::Excess(_, written) => self.print(*written, context),
+            Node::Excess(_, written) | Node::Accurate(_, written) => self.print(*written, context),
             Node::Ln(a) => self.function("ln", *a, context),
             Node::Exp(a) => self.function("exp", *a, context),
             Node::Elementary(function, a) => self.function(function.name(), *a, context),

@@ -191,6 +191,7 @@ impl Scheduler<'_> {
                     .unwrap_or_else(|| self.literal(Rational::ONE));
             }
             Node::Excess(squares, _) => Op::AboveZero(self.value(squares)),
+            Node::Accurate(value, _) => return self.value(value),
             Node::Ln(a) => {
                 // ln J, which is defined where J itself is out of range.
                 if let Node::Product(factors) = self.graph.node(a)

@@ -88,6 +88,7 @@ impl Differentiator {
                 graph.mul(e, inner)
             }
             Node::Excess(squares, _) => self.derivative(graph, squares, v),
+            Node::Accurate(_, written) => self.derivative(graph, written, v),
             Node::Elementary(function, a) => {
                 let inner = self.derivative(graph, a, v);
                 if graph.is_zero(inner) {

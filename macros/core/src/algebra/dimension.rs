@@ -56,7 +56,7 @@ impl<'a> Dimensions<'a> {
                 self.without(graph, *argument)?;
                 Ok(self.units[*k].map(Rational::integer))
             }
-            Node::Excess(_, body) | Node::Sum(_, body) => self.of(graph, *body),
+            Node::Excess(_, body) | Node::Accurate(_, body) | Node::Sum(_, body) => self.of(graph, *body),
             Node::Ln(argument) | Node::Exp(argument) | Node::Elementary(_, argument) => {
                 self.without(graph, *argument)
             }

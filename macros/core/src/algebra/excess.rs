@@ -18,6 +18,15 @@
 //! for I1b and 3 + Y for I2b and multiplying out: if what is left vanishes with X and Y, it is the sum of
 //! squares. [`Node::Excess`] holds it beside the expression as written, which is for readers.
 //!
+//! # Small constants
+//!
+//! (I1b − 3 + C²)ⁿ with a small parameter C loses digits too, as I1b − 3 is rounded before C² is added: u/C²
+//! of its value near every dilation. Where parameters alone are added to what vanishes at rest, X and Y take
+//! its place in arguments of real powers, logarithms and other functions. They do so alone in those of
+//! functions that are parameters, which may end at zero or have an infinite slope there. Sums with numbers,
+//! such as 1 − (I1b − 3)/Jm, lose few digits unless Jm is small, and stay: stress by invariants needs them as
+//! they are written.
+//!
 //! # At rest
 //!
 //! X is of second order in the strains. So Xⁿ is twice continuously differentiable for n > 1, not only for n
@@ -40,16 +49,24 @@ pub fn with_squares(graph: &mut Graph, energy: Id) -> Id {
     Invariants::new(graph).rewritten(graph, energy)
 }
 
-/// Whether an expression has such bases.
+/// The energy with I1b − 3 and its kind as sums of squares also where parameters are added to them in
+/// arguments of real powers and functions, and in arguments of functions that are parameters.
+pub fn with_squares_in_sums(graph: &mut Graph, energy: Id) -> Id {
+    Invariants::new(graph).rewritten_sums(graph, energy)
+}
+
+/// Whether an expression has such bases or arguments.
 #[must_use]
 pub fn has_squares(graph: &Graph, id: Id) -> bool {
-    graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Excess(..)))
+    let is_sum_of_squares = |id: Id| matches!(graph.node(id), Node::Excess(..) | Node::Accurate(..));
+    graph.reachable(&[id]).into_iter().any(is_sum_of_squares)
 }
 
 /// The expression without what its sums of squares were written as, before it is scheduled.
 pub fn squares_alone(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Excess(value, _) => Some(graph.excess(value, value)),
+        Node::Accurate(value, _) => Some(value),
         _ => None,
     })
 }
@@ -104,6 +121,71 @@ impl Invariants {
         Some(graph.product(&replaced))
     }
 
+    /// An expression with the sums in its arguments replaced.
+    fn rewritten_sums(&self, graph: &mut Graph, e: Id) -> Id {
+        rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
+            Node::Product(factors) => {
+                let is_real = |exponent: Exponent| exponent.as_integer().is_none();
+                if !factors.iter().any(|&(_, exponent)| is_real(exponent)) {
+                    return None;
+                }
+                let mut replaced = Vec::with_capacity(factors.len());
+                for (base, exponent) in factors {
+                    let sum = if is_real(exponent) { self.sum(graph, base) } else { None };
+                    replaced.push((sum.unwrap_or_else(|| self.rewritten_sums(graph, base)), exponent));
+                }
+                Some(graph.product(&replaced))
+            }
+            Node::Ln(a) => self.sum(graph, a).map(|a| graph.ln(a)),
+            Node::Exp(a) => self.sum(graph, a).map(|a| graph.exp(a)),
+            Node::Elementary(function, a) => self.sum(graph, a).map(|a| graph.elementary(function, a)),
+            Node::Function(k, order, a) => {
+                let (others, squares) = self.split(graph, a)?;
+                let sum = if graph.is_zero(others) { squares } else { accurate(graph, a, others, squares) };
+                Some(graph.leaf(Node::Function(k, order, sum)))
+            }
+            // What is a sum of squares already.
+            Node::Excess(..) => Some(id),
+            _ => None,
+        })
+    }
+
+    /// An expression as parameters and a combination of X and Y, if it is such a sum.
+    fn sum(&self, graph: &mut Graph, e: Id) -> Option<Id> {
+        let (others, squares) = self.split(graph, e)?;
+        (!graph.is_zero(others)).then(|| accurate(graph, e, others, squares))
+    }
+
+    /// The parameters, without numbers, and the combination of X and Y that an expression is the sum of, if
+    /// it is.
+    fn split(&self, graph: &mut Graph, e: Id) -> Option<(Id, Id)> {
+        let shifted = self.shifted(graph, e);
+        let expanded = expand_products(graph, shifted);
+        if expanded == e || !has_squares(graph, expanded) {
+            return None;
+        }
+        let terms = match graph.node(expanded).clone() {
+            Node::Linear { constant, terms } if constant.is_zero() => terms,
+            Node::Linear { .. } => return None,
+            _ => vec![(expanded, Rational::ONE)],
+        };
+        let (terms, others): (Vec<_>, Vec<_>) =
+            terms.into_iter().partition(|&(term, _)| has_squares(graph, term));
+        let is_stretch = |id: Id| matches!(graph.node(id), Node::Stretch(_));
+        if others.iter().any(|&(term, _)| graph.reachable(&[term]).into_iter().any(is_stretch)) {
+            return None;
+        }
+        let squares = self.collected(graph, &terms)?;
+        let others = graph.linear(Rational::ZERO, &others);
+        // As it is written, (a − b)² has more digits.
+        let written = substitute_rest(graph, e);
+        let [one, other] = [written, others].map(|id| graph.reachable(&[id]).len());
+        let others = if one <= other { written } else { others };
+        // (3n − I1b)/(3n − 3) is 1 − X/(3n − 3).
+        let has_number = !graph.is_zero(others) && graph.as_constant(others).is_some();
+        (!has_number).then_some((others, squares))
+    }
+
     /// An expression as a sum of squares, if it is one.
     fn squares(&self, graph: &mut Graph, base: Id) -> Option<Id> {
         let shifted = self.shifted(graph, base);
@@ -115,20 +197,19 @@ impl Invariants {
         if !graph.is_zero(at_rest) {
             return None;
         }
-        let collected = self.collected(graph, expanded).unwrap_or(expanded);
-        let value =
-            rewrite(graph, collected, &mut FxHashMap::default(), &|graph, id| match *graph.node(id) {
-                Node::Excess(value, _) => Some(value),
-                _ => None,
-            });
+        let collected = match graph.node(expanded).clone() {
+            Node::Linear { terms, .. } => self.collected(graph, &terms),
+            _ => None,
+        };
+        let collected = collected.unwrap_or(expanded);
+        let value = rewrite(graph, collected, &mut FxHashMap::default(), &excess_alone);
         Some(graph.excess(value, base))
     }
 
     /// X − β X + β Y as (1 − β) X + β Y, in which nothing cancels; `None` for what is not linear in X and Y.
-    fn collected(&self, graph: &mut Graph, expanded: Id) -> Option<Id> {
-        let Node::Linear { terms, .. } = graph.node(expanded).clone() else { return None };
+    fn collected(&self, graph: &mut Graph, terms: &[(Id, Rational)]) -> Option<Id> {
         let mut factors = [0, 1].map(|k: usize| (self.both[k].excess, Vec::new()));
-        for (term, coefficient) in terms {
+        for &(term, coefficient) in terms {
             let has = |&mut (excess, _): &mut (Id, Vec<_>)| graph.reachable(&[term]).contains(&excess);
             let (excess, of) = factors.iter_mut().find_map(|each| has(&mut *each).then_some(each))?;
             let factor = graph.div(term, *excess);
@@ -166,6 +247,22 @@ impl Invariants {
             }
             None
         })
+    }
+}
+
+/// A sum of parameters and a combination of X and Y. As it does not vanish at rest, its derivatives as it is
+/// written are as good as those of squares, and take fewer operations.
+fn accurate(graph: &mut Graph, written: Id, others: Id, squares: Id) -> Id {
+    let sum = graph.add(others, squares);
+    let value = rewrite(graph, sum, &mut FxHashMap::default(), &excess_alone);
+    graph.accurate(value, written)
+}
+
+/// Squares in the place of what is kept from zero.
+fn excess_alone(graph: &mut Graph, id: Id) -> Option<Id> {
+    match *graph.node(id) {
+        Node::Excess(value, _) => Some(value),
+        _ => None,
     }
 }
 
@@ -225,6 +322,66 @@ mod tests {
             let [found, expected] = [rewritten, power].map(|id| evaluate(&g, id, &point).value);
             // Some roundings of a value of about 3, of which 1/10 is left.
             assert!((found - expected).abs() < 1e-14 * expected.abs(), "{found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn squares_stand_beside_parameters() {
+        let mut g = Graph::default();
+        let [i1, i2] = isochoric(&mut g);
+        let (c, d) = (g.leaf(Node::Parameter(0)), g.leaf(Node::Parameter(1)));
+        let small = g.powi(c, 2);
+        let plain = g.linear(Rational::integer(-3), &[(i1, Rational::ONE), (small, Rational::ONE)]);
+        let weighted = g.mul(d, i2);
+        let mixed = [(i1, Rational::ONE), (weighted, Rational::ONE), (d, Rational::integer(-3))];
+        let mixed = g.linear(Rational::integer(-3), &[&mixed[..], &[(c, Rational::ONE)]].concat());
+        let over = g.div(plain, d);
+        let point =
+            Point { stretches: [1.4, 0.9, 0.6], parameters: vec![vec![0.3], vec![0.7]], ..Point::default() };
+        let mut near = point.clone();
+        near.stretches = [1.0 + 1e-9, 1.0, 1.0 - 1e-9];
+        for sum in [plain, mixed, over] {
+            let (power, ln, exp) = (real(&mut g, sum), g.ln(sum), g.exp(sum));
+            for written in [power, ln, exp, g.leaf(Node::Function(0, 0, sum))] {
+                let rewritten = with_squares_in_sums(&mut g, written);
+                assert!(has_squares(&g, rewritten) && !matches!(g.node(rewritten), Node::Accurate(..)));
+                if matches!(g.node(written), Node::Function(..)) {
+                    continue;
+                }
+                let [found, expected] = [rewritten, written].map(|id| evaluate(&g, id, &point).value);
+                assert!((found - expected).abs() < 1e-14 * (1.0 + expected.abs()), "{found} for {expected}");
+            }
+        }
+        // At rest and near it the square of the parameter is all that there is.
+        let power = real(&mut g, plain);
+        let rewritten = with_squares_in_sums(&mut g, power);
+        let found = evaluate(&g, rewritten, &near).value;
+        assert!((found / 0.09f64.powf(1.5) - 1.0).abs() < 1e-15, "{found}");
+        let mut memo = FxHashMap::default();
+        let emitted = squares_alone(&mut g, rewritten, &mut memo);
+        assert!(!has_squares(&g, emitted));
+    }
+
+    #[test]
+    fn sums_with_numbers_or_stretches_stay_as_they_are() {
+        let mut g = Graph::default();
+        let [i1, _] = isochoric(&mut g);
+        let (n, stretch) = (g.leaf(Node::Parameter(0)), g.stretch(0));
+        let plain = g.linear(Rational::integer(-3), &[(i1, Rational::ONE)]);
+        let fraction = g.div(plain, n);
+        let limited = g.linear(Rational::ONE, &[(fraction, Rational::integer(-1))]);
+        // (3n − I1b)/(3n − 3)
+        let left = g.linear(Rational::ZERO, &[(n, Rational::integer(3)), (i1, Rational::integer(-1))]);
+        let whole = g.linear(Rational::integer(-3), &[(n, Rational::integer(3))]);
+        let left = g.div(left, whole);
+        let with_stretch = g.linear(Rational::ZERO, &[(plain, Rational::ONE), (stretch, Rational::ONE)]);
+        // Alone, it is exact enough for exp.
+        let exp = g.exp(plain);
+        assert_eq!(with_squares_in_sums(&mut g, exp), exp);
+        for sum in [limited, left, with_stretch] {
+            for written in [real(&mut g, sum), g.ln(sum), g.leaf(Node::Function(0, 0, sum))] {
+                assert_eq!(with_squares_in_sums(&mut g, written), written);
+            }
         }
     }
 

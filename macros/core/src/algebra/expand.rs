@@ -52,7 +52,7 @@ fn terms(graph: &mut Graph, e: Id) -> Option<Vec<Term>> {
                 all = multiplied(graph, &all, &factor)?;
             }
         }
-        Node::Excess(..) => all.push((e, Rational::ONE)),
+        Node::Excess(..) | Node::Accurate(..) => all.push((e, Rational::ONE)),
         Node::Sum(length, body) => {
             for (term, coefficient) in terms(graph, body)? {
                 let (number, factors) = graph.factors(term);

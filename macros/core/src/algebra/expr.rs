@@ -54,6 +54,9 @@ pub enum Node {
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it
     /// is written. Its value is kept from zero, so that powers of it have one.
     Excess(Id, Id),
+    /// An expression in a form that keeps its digits, for its value, and as it is written, for its derivatives
+    /// and for readers.
+    Accurate(Id, Id),
     /// Natural logarithm.
     Ln(Id),
     /// Exponential function.
@@ -214,6 +217,11 @@ impl Graph {
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares, and as it is written.
     pub fn excess(&mut self, squares: Id, written: Id) -> Id {
         if self.is_zero(squares) { squares } else { self.leaf(Node::Excess(squares, written)) }
+    }
+
+    /// An expression in a form that keeps its digits, and as it is written.
+    pub fn accurate(&mut self, value: Id, written: Id) -> Id {
+        if value == written { value } else { self.leaf(Node::Accurate(value, written)) }
     }
 
     /// An elementary function φ(a).

@@ -59,6 +59,7 @@ impl Increments {
                 let squares = self.increment(graph, squares);
                 graph.excess(squares, squares)
             }
+            Node::Accurate(value, _) => self.increment(graph, value),
             Node::Product(factors) => self.product_rule(graph, &factors),
             Node::Ln(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::LnQuotient(a, b))),
             Node::Exp(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b))),

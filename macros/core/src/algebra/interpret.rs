@@ -92,6 +92,7 @@ impl Interpreter<'_> {
                 product
             }
             Node::Excess(squares, _) => exact(self.value(*squares).value.max(0.0)),
+            Node::Accurate(value, _) => self.value(*value),
             Node::Ln(a) => {
                 let Estimate { value, magnitude } = self.value(*a);
                 Estimate { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }

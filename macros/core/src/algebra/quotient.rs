@@ -141,6 +141,7 @@ impl<'a> Quotients<'a> {
                 graph.sum(length, inner)
             }
             Node::Excess(squares, _) => self.quotient(graph, squares, reflection),
+            Node::Accurate(_, written) => self.quotient(graph, written, reflection),
             Node::Product(factors) => self.product_rule(graph, &factors, reflection),
             Node::Ln(a) => {
                 self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::LnQuotient(a, b)))

@@ -14,7 +14,7 @@ impl Graph {
                 vec![*a]
             }
             Node::Excess(a, b) if a == b => vec![*a],
-            Node::Excess(a, b) => vec![*a, *b],
+            Node::Excess(a, b) | Node::Accurate(a, b) => vec![*a, *b],
             Node::WhereNegative(a, b, c) => vec![*a, *b, *c],
             Node::LnQuotient(a, b)
             | Node::ExpQuotient(a, b)
@@ -70,6 +70,10 @@ impl Graph {
             Node::Excess(a, b) => {
                 let (a, b) = (map(self, a), map(self, b));
                 return self.excess(a, b);
+            }
+            Node::Accurate(a, b) => {
+                let (a, b) = (map(self, a), map(self, b));
+                return self.accurate(a, b);
             }
             Node::Elementary(function, a) => {
                 let a = map(self, a);
