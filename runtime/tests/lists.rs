@@ -3,7 +3,7 @@
 
 use piola::batch::Batch;
 use piola::lanes::Backend;
-use piola::material::{Blocks, Declared, Fittable, Form, Limit, MaterialError};
+use piola::material::{Argument, Blocks, Declared, Fittable, Form, Limit, MaterialError};
 use piola::random::Random;
 use piola::{Inversion, Material, material};
 
@@ -181,4 +181,46 @@ fn constraints_are_as_many_as_entries() -> Result<(), MaterialError> {
     assert_eq!(limits.len(), 2);
     assert_eq!((limits[0].limit, limits[0].gradient.len()), (Limit::ShearModulus, 7));
     Ok(())
+}
+
+/// Rubber that locks at a power of a stretch.
+#[material(domain(J > 0.0, I1b < lm.powi(n)), fit)]
+fn Locking([l1, l2, l3]: [f64; 3], mu: f64, lm: f64, n: u32, kappa: f64) -> f64 {
+    -mu * (lm.powi(n) - I1b).ln() + kappa / 2.0 * (J - 1.0).powi(2)
+}
+
+/// Rubber that locks at a sum.
+#[material(domain(J > 0.0, l1 > 0.1 * k, I1b < sum(|p| m[p])))]
+fn LockingAtSum([l1, l2, l3]: [f64; 3], k: f64, m: Vec<f64>) -> f64 {
+    -(sum(|p| m[p]) - I1b).ln() + k * (J - 1.0).powi(2)
+}
+
+/// A bound that a condition on a parameter implies, one without parameters, and one of stretches alone.
+#[material(domain(J > 0.0, I1b - 3.0 < jm, I1b < 1e3, J < 1e3), admissible(jm > 0.0))]
+fn Implied([l1, l2, l3]: [f64; 3], jm: f64) -> f64 {
+    -jm * (1.0 - (I1b - 3.0) / jm).ln() + jm * (J - 1.0).powi(2)
+}
+
+#[test]
+fn a_material_that_would_refuse_rest_is_not_made() {
+    let outside =
+        |condition, given: &[Argument]| MaterialError::RestOutside { condition, given: given.to_vec() };
+    let given = |lm, n| [Argument::scalar("lm", lm), Argument::scalar("n", n)];
+    assert_eq!(Locking::new(1.0, 1.5, 2, 1.0).err(), Some(outside("I1b < lm.powi(n)", &given(1.5, 2.0))));
+    let solid = Locking::new(1.0, 1.5, 3, 1.0).expect("1.5³ is above 3");
+    assert!(solid.admits([1.0f64; 3]));
+    assert_eq!(solid.with_lm(1.25).err(), Some(outside("I1b < lm.powi(n)", &given(1.25, 3.0))));
+    let values: [&[f64]; 4] = [&[1.0], &[1.0], &[1.0], &[1.0]];
+    assert!(Locking::from_values(&values, Inversion::Refuse).is_err());
+
+    let solid = LockingAtSum::new(1.0, vec![1.0, 2.5]).expect("3.5 is above 3");
+    assert!(solid.admits([1.0f64; 3]));
+    let error = LockingAtSum::new(1.0, vec![1.0, 2.0]).expect_err("3 is not above 3");
+    assert_eq!(error, outside("I1b < sum(|p| m[p])", &[]));
+    let error = LockingAtSum::new(10.0, vec![4.0]).expect_err("1 is not above 1");
+    assert_eq!(error, outside("l1 > 0.1 * k", &[Argument::scalar("k", 10.0)]));
+    assert!(error.to_string().contains("`l1 > 0.1 * k` must hold there too, but k = 10; change"), "{error}");
+
+    assert!(matches!(Implied::new(0.0), Err(MaterialError::Violated { .. })));
+    assert!(Implied::new(1e-9).is_ok_and(|solid| solid.admits([1.0f64; 3])));
 }

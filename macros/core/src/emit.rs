@@ -32,7 +32,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let texts = Texts::of(declaration, &mut model);
     let documentation = documentation::documentation(declaration, &mut model, &texts);
     let structure = structure(declaration, &documentation);
-    let constructor = constructor(declaration, &model);
+    let constructor = constructor(declaration, &mut model);
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &texts);
     let fittable = fittable(declaration, &mut model);
@@ -89,6 +89,8 @@ fn condition_text(condition: &Expr) -> String {
     text.replace(" [", "[")
         .replace("[ ", "[")
         .replace(" ]", "]")
+        .replace("(| ", "(|")
+        .replace(" | ", "| ")
         .replace(".0 ", " ")
         .trim_end_matches(".0")
         .to_owned()

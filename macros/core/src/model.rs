@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
+use syn::{BinOp, Expr};
 
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::cancellation::{Ways, lossy, over_one_denominator};
@@ -47,6 +48,8 @@ pub struct Model {
     pub invariants: Option<ByInvariants>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
+    /// The values at rest of those bounds that parameters decide there, with their places.
+    pub bounds_at_rest: Vec<(usize, Id)>,
     /// The volumes J for which the energy is defined.
     pub volume: Volume,
     /// Small-strain μ and λ.
@@ -207,6 +210,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
             excess::squares_alone(&mut graph, bound, &mut without_written)
         })
         .collect();
+    let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, &constrained);
     let ways = Ways::new(&samples, |point| source.is_inside(&graph, point));
     let accurate = with_squares_in_sums(&mut graph, energy);
     let joined = over_one_denominator(&mut graph, accurate, &ways);
@@ -282,6 +286,7 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<
         extended,
         invariants,
         bounds,
+        bounds_at_rest,
         volume,
         moduli,
         by_parameters,
@@ -307,6 +312,26 @@ fn constraint(graph: &mut Graph, variables: &[Node], limit: Limit, value: Id) ->
     };
     let by_parameters = by_parameters(graph, variables, [value]).into_iter().map(|[slope]| slope).collect();
     Constraint { limit, length, value, by_parameters }
+}
+
+/// The values at rest of bounds that parameters decide there, unless a condition on parameters says the same.
+fn bounds_at_rest(
+    graph: &mut Graph,
+    declaration: &Declaration,
+    bounds: &[Id],
+    constrained: &[Option<Id>],
+) -> Vec<(usize, Id)> {
+    let is_strict = |condition: &Expr| matches!(condition, Expr::Binary(comparison) if matches!(comparison.op, BinOp::Gt(_) | BinOp::Lt(_)));
+    let conditions = declaration.options.admissible.iter().zip(constrained);
+    let implied: Vec<_> =
+        conditions.filter_map(|(condition, &id)| id.filter(|_| is_strict(condition))).collect();
+    let is_parameter = |node: &Node| matches!(node, Node::Parameter(_) | Node::Entry(_) | Node::Function(..));
+    let at_rest: Vec<_> = bounds.iter().map(|&bound| substitute_rest(graph, bound)).enumerate().collect();
+    let decided = at_rest.into_iter().filter(|&(_, value)| {
+        !implied.contains(&value)
+            && graph.reachable(&[value]).into_iter().any(|id| is_parameter(graph.node(id)))
+    });
+    decided.collect()
 }
 
 /// λ + 2μ/3.

@@ -116,6 +116,14 @@ pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, M
     }
 }
 
+/// Checks that a bound of the domain, which is positive inside of it, is so at rest.
+///
+/// # Errors
+/// [`MaterialError::RestOutside`].
+pub fn inside_at_rest(bound: f64, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
+    if bound > 0.0 { Ok(()) } else { Err(MaterialError::RestOutside { condition, given: named(given) }) }
+}
+
 /// A material that is defined where all stretches are 1.
 ///
 /// # Errors

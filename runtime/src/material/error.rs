@@ -38,6 +38,13 @@ pub enum MaterialError {
         /// Poisson's ratio.
         poisson: f64,
     },
+    /// The rest state is outside the domain, whose end parameters decide.
+    RestOutside {
+        /// The condition of the domain as declared.
+        condition: &'static str,
+        /// The numbers among the parameters that it names, as given.
+        given: Vec<Argument>,
+    },
     /// The rest state is outside the domain, which functions given as parameters narrow.
     UndefinedRest,
     /// The rest state carries stress, which functions given as parameters do not cancel.
@@ -121,6 +128,18 @@ impl fmt::Display for MaterialError {
                 number(*young),
                 number(*poisson)
             ),
+            Self::RestOutside { condition, given } => {
+                write!(
+                    f,
+                    "the rest state, where all stretches are 1, would be outside of the domain: `{condition}` must hold \
+                     there too"
+                )?;
+                if given.is_empty() {
+                    f.write_str("; change the parameters that it depends on")
+                } else {
+                    write!(f, ", but {}; change these parameters", listed(given))
+                }
+            }
             Self::UndefinedRest => f.write_str(
                 "the energy is not defined at rest, where all stretches are 1: let each of its functions admit its argument there",
             ),
@@ -214,6 +233,17 @@ fn listed(given: &[Argument]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rest_state_outside_of_the_domain_is_told_by_the_condition() {
+        let outside = |given: &[Argument]| {
+            let given = given.to_vec();
+            MaterialError::RestOutside { condition: "I1b < lm.powi(2)", given }.to_string()
+        };
+        let text = outside(&[Argument::scalar("lm", 1.5)]);
+        assert!(text.contains("`I1b < lm.powi(2)` must hold there too, but lm = 1.5; change"), "{text}");
+        assert!(outside(&[]).ends_with("change the parameters that it depends on"));
+    }
 
     #[test]
     fn an_unstable_rest_state_is_told_by_the_modulus_that_makes_it_so() {

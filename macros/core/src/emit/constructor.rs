@@ -5,18 +5,19 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, Ident};
 
+use super::writer::{Writer, free_name};
 use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
 use crate::read::literals::typed;
-use crate::read::parse::{Declaration, Entries, Parameter, identifiers, indexed_list};
+use crate::read::parse::{Declaration, Entries, Kind, Parameter, identifiers, indexed_list};
 
 /// The inherent methods.
-pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStream {
+pub(super) fn constructor(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
-    let new = new(declaration);
+    let new = new(declaration, model);
     let determined = model.from_young_poisson.as_ref();
     let from_young_poisson = determined.map(|determined| from_young_poisson(declaration, determined));
     let conditions = declaration.options.extend.as_ref();
@@ -40,7 +41,7 @@ pub(super) fn constructor(declaration: &Declaration, model: &Model) -> TokenStre
     }
 }
 
-fn new(declaration: &Declaration) -> TokenStream {
+fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let Declaration { visibility, options, .. } = declaration;
     let names: Vec<_> = declaration.parameters.iter().map(|parameter| &parameter.name).collect();
     let types = declaration.parameters.iter().map(|parameter| declaration.parameter_type(parameter));
@@ -49,8 +50,9 @@ fn new(declaration: &Declaration) -> TokenStream {
     let lengths = declaration.parameters.iter().filter_map(|parameter| same_length(declaration, parameter));
     let lengths: Vec<_> = lengths.collect();
     let new_doc = format!(
-        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible{}.",
+        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible{}{}.",
         documented.collect::<Vec<_>>().join("\n"),
+        if model.bounds_at_rest.is_empty() { "" } else { ", or rest is outside of the domain" },
         if lengths.is_empty() { "" } else { ", or the lists of one sum are not equally long" },
     );
     let new_doc = doc(&new_doc);
@@ -68,6 +70,12 @@ fn new(declaration: &Declaration) -> TokenStream {
         options.admissible.iter().map(|condition| check(declaration, condition, &quote!(admissible)));
     let inversion = options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
     let material = quote!(Self { #(#names,)* #inversion });
+    let made = free_name(declaration, &["material", "made"]);
+    let inside = inside_at_rest(declaration, model, &made);
+    let (inside, material) = match inside {
+        None => (None, material),
+        Some(inside) => (Some(quote!(let #made = #material; #inside)), made.into_token_stream()),
+    };
     // Where a function is defined, and what cancels its stress, no declaration can promise.
     let checked = match (options.prestressed, declaration.has_functions()) {
         (true, false) => quote!(Ok(#material)),
@@ -83,9 +91,46 @@ fn new(declaration: &Declaration) -> TokenStream {
             #(#lengths)*
             #(#finite)*
             #(#admissible)*
+            #inside
             #checked
         }
     }
+}
+
+/// Returns an error unless rest is inside the domain of the material of this name, if parameters decide that.
+fn inside_at_rest(declaration: &Declaration, model: &mut Model, material: &Ident) -> Option<TokenStream> {
+    let (places, values): (Vec<_>, Vec<_>) = model.bounds_at_rest.iter().copied().unzip();
+    if values.is_empty() {
+        return None;
+    }
+    let program = model.program(&values);
+    let (statements, outputs) = Writer::new(declaration).with_material(material.clone()).program(&program);
+    let conditions: Vec<_> = declaration.bounds().collect();
+    let checks = places.into_iter().zip(outputs).filter_map(|(k, value)| {
+        let condition = conditions.get(k)?;
+        let text = condition_text(condition);
+        let names = identifiers(condition.to_token_stream());
+        let numbers = declaration
+            .parameters
+            .iter()
+            .filter(|parameter| matches!(parameter.kind, Kind::Number) && names.contains(&parameter.name));
+        let given = numbers.map(|parameter| {
+            let (name, text) = (&parameter.name, parameter.name.to_string());
+            let value = quote!(#material.#name);
+            let value = if parameter.is_whole { quote!(f64::from(#value)) } else { value };
+            quote!((#text, None, #value))
+        });
+        Some(quote!(__p::inside_at_rest(#value, #text, &[#(#given),*])?;))
+    });
+    Some(quote! {
+        {
+            #[allow(unused_imports)]
+            use ::piola::Real;
+            type R = f64;
+            #statements
+            #(#checks)*
+        }
+    })
 }
 
 /// Returns an error unless a vector has as many entries as the first of those that are read with it.

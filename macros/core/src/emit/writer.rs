@@ -78,7 +78,7 @@ impl<'a> Writer<'a> {
             match statement {
                 Statement::Let(value, op) => lines.push(*value, op),
                 Statement::Loop { length, body, totals } => {
-                    let length = self.declaration.lengths[*length].of_self();
+                    let length = self.declaration.lengths[*length].of(&self.material);
                     let index = &self.index;
                     let before = lines.take();
                     body.iter().for_each(|(value, op)| lines.push(*value, op));
@@ -301,7 +301,7 @@ impl<'a> Lines<'a> {
     fn push(&mut self, value: Value, op: &Op) {
         let writer = self.writer;
         let parameter = |k: usize| &writer.declaration.parameters[k].name;
-        // A whole exponent is no value of type `R`: it is read from `self` where it is needed.
+        // A whole exponent is no value of type `R`: it is read from the material where it is needed.
         let is_whole = |k: usize| writer.declaration.parameters[k].is_whole;
         match *op {
             Op::Literal(bits) => self.names.set(value, literal(f64::from_bits(bits))),
@@ -312,12 +312,12 @@ impl<'a> Lines<'a> {
             }
             Op::Epsilon => self.names.set(value, &writer.threshold),
             Op::Parameter(k) if is_whole(k) => {
-                let name = parameter(k);
-                self.names.set(value, quote!(self.#name));
+                let (name, material) = (parameter(k), &writer.material);
+                self.names.set(value, quote!(#material.#name));
             }
             Op::Entry(k) if is_whole(k) => {
-                let (name, index) = (parameter(k), &writer.index);
-                self.names.set(value, quote!(self.#name[#index]));
+                let (name, material, index) = (parameter(k), &writer.material, &writer.index);
+                self.names.set(value, quote!(#material.#name[#index]));
             }
             Op::Parameter(k) => self.field(value, parameter(k), TokenStream::new()),
             Op::Entry(k) => {
@@ -328,7 +328,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Reads a parameter from `self`.
+    /// Reads a parameter from the material.
     fn field(&mut self, value: Value, parameter: &Ident, index: TokenStream) {
         let number = self.writer.field(quote!(#parameter #index));
         self.statements.extend(quote!(let #parameter: R = #number;));

@@ -1,7 +1,7 @@
 //! Lengths of lists, and which lists have the same one.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, Ident};
 
 use super::{Declaration, Kind, Options, Parameter, indexed_lists};
@@ -25,9 +25,15 @@ impl Entries {
     /// The number as an expression in methods of the material.
     #[must_use]
     pub fn of_self(&self) -> TokenStream {
+        self.of(&format_ident!("self"))
+    }
+
+    /// The number as an expression, for a material of this name.
+    #[must_use]
+    pub fn of(&self, material: &Ident) -> TokenStream {
         match self {
             Self::Known(length) => length.to_token_stream(),
-            Self::AtRunTime(first) => quote!(self.#first.len()),
+            Self::AtRunTime(first) => quote!(#material.#first.len()),
         }
     }
 
