@@ -53,6 +53,10 @@ impl Bound {
             (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::BulkModulus) => {
                 moduli.mu > 0.0
             }
+            // Where rest is outside, points of the same condition may be too.
+            (TrialError::Inadmissible(MaterialError::RestOutside { condition, .. }), Limit::Domain(own)) => {
+                *condition == own
+            }
             (TrialError::Point(error), Limit::Domain(_)) => self.point == Some(error.point),
             _ => false,
         }
