@@ -71,17 +71,29 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
 
     /// ln self, with an absolute error of (1 + |ln self|) units; NaN for self ≤ 0.
     ///
-    /// With y0 ≈ ln self from `f64`, ln self = y0 + ln z for z = self e^(−y0) and ln z = 2 artanh w for
-    /// w = (z − 1)/(z + 1).
+    /// With y0 ≈ ln self, by the function of `f64` once or twice, ln self = y0 + ln z for z = self e^(−y0), and
+    /// ln z = 2 artanh w for w = (z − 1)/(z + 1).
     pub(super) fn natural_logarithm(self) -> Self {
         if self.kind != Kind::Finite || self.negative {
             return Self::NOT_A_NUMBER;
         }
-        let start = self.leading().ln() + self.exponent as f64 * std::f64::consts::LN_2;
-        let start = Self::splat(start);
+        let rough = |x: Self| Self::splat(x.leading().ln() + x.exponent as f64 * std::f64::consts::LN_2);
         let one = Self::splat(1.0);
-        let z = self * (-start).exponential();
-        let w = (z - one) / (z + one);
+        let (mut start, mut z) = (Self::ZERO, self);
+        // Of a number such as e^(10¹⁸) the first y0 is wrong by hundreds.
+        for _ in 0..4 {
+            start = start + rough(z);
+            z = self * (-start).exponential();
+            let gap = z - one;
+            if gap.kind != Kind::Finite || gap.exponent < -16 {
+                break;
+            }
+        }
+        let gap = z - one;
+        if z.kind != Kind::Finite || gap.kind == Kind::Finite && gap.exponent > -2 {
+            return start;
+        }
+        let w = gap / (z + one);
         start + w.arctangent_series(false).scaled(1)
     }
 
