@@ -198,7 +198,8 @@ impl<'a, E: Stages> Batch<'a, E> {
             let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
             let Workspace { F: lines, points, invariants, energies: values, .. } = workspace;
             let F = Source::new(batch.backend, batch.layout, F, lines);
-            let in_range = batch.invariants(F, count, invariants);
+            let has_energy = batch.properties.has_energy_by_invariants;
+            let in_range = if has_energy { batch.invariants(F, count, invariants) } else { 0 };
             let served = batch.energies_by_invariants(in_range, invariants, start, values, energies);
             if served == first_bits(count) {
                 return Status::default();
@@ -562,7 +563,8 @@ impl<E: Stages> Call<'_, E> {
     ) -> Status<u64> {
         let Rooms { points, invariants, derivatives, energies: values, blocks, line } = rooms;
         let fence = NonTemporal::new();
-        let is_by_invariants = form != TangentForm::Factored;
+        let has_energy = energies.is_none() || self.properties.has_energy_by_invariants;
+        let is_by_invariants = has_energy && form != TangentForm::Factored;
         let mut served = if is_by_invariants {
             self.derivatives_by_invariants(F, start, count, invariants, derivatives)
         } else {

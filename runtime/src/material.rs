@@ -112,8 +112,11 @@ pub trait Material: Send + Sync {
     /// dP/dF takes half as many operations.
     const HAS_SECOND_INVARIANT: bool = true;
 
+    /// Whether ψ itself is taken from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
+    const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
+
     /// Energy density ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without
-    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS), and where stretches keep more digits near rest.
+    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS).
     #[inline(always)]
     fn energy_by_invariants<R: Real>(&self, _: [R; 3]) -> R {
         R::splat(f64::NAN)

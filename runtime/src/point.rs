@@ -87,7 +87,7 @@ pub fn evaluate_energy<R: Real>(
     F: &Matrix3<R>,
 ) -> (R, Status<R::Mask>) {
     let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
-    if material.has_invariants() {
+    if material.has_energy_by_invariants() {
         let (invariants, is_in_range) = invariants(F);
         by_invariants = material.energy_by_invariants(invariants);
         served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();

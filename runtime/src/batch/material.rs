@@ -135,6 +135,7 @@ macro_rules! tile_responses {
                 Properties {
                     has_invariants: P::Material::HAS_INVARIANTS,
                     has_second_invariant: P::Material::HAS_SECOND_INVARIANT,
+                    has_energy_by_invariants: P::Material::HAS_ENERGY_BY_INVARIANTS,
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
                     points: self.count(),
@@ -177,6 +178,8 @@ pub struct Properties {
     pub(crate) has_invariants: bool,
     /// Whether ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
     pub(crate) has_second_invariant: bool,
+    /// Whether ψ is taken from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
+    pub(crate) has_energy_by_invariants: bool,
     /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].
     pub(crate) has_pole: bool,
     /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].

@@ -19,14 +19,12 @@ use super::sink::{Line, Lines, Sink, Source};
 use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
-use crate::lanes::{Backend, Kernel, Lanes, Scalar};
+use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
 use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
-use crate::point::{
-    Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite, svd,
-    svd_signed_by_determinant,
-};
+use crate::point::svd::{along_axes, has_axis, unaligned, unaligned_signed_by_determinant};
+use crate::point::{Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite};
 use crate::status::Status;
 
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
@@ -54,13 +52,20 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
         let Self { F, count, is_signed, points } = self;
         if is_signed {
             for_each_group!(InTurns<R>, count, |at| {
-                points.set(at, &svd_signed_by_determinant(&to_matrix(F.get_all::<InTurns<R>>(at))));
+                points.set(at, &unaligned_signed_by_determinant(&to_matrix(F.get_all::<InTurns<R>>(at))));
             });
         } else {
             for_each_group!(InTurns<R>, count, |at| {
-                points.set(at, &svd(&to_matrix(F.get_all::<InTurns<R>>(at))));
+                points.set(at, &unaligned(&to_matrix(F.get_all::<InTurns<R>>(at))));
             });
         }
+        // Apart from the loops above, which need all registers.
+        for_each_group!(R, count, |at| {
+            let F = to_matrix(F.get_all::<R>(at));
+            if has_axis(&F).any() {
+                points.set(at, &along_axes(&F, points.get(at)));
+            }
+        });
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
         let expected = material.energy(stretches);
         let found = material.energy_by_invariants(invariants);
         let tolerance = 100.0 * UNIT * (scale * stretches[0] + expected.abs());
-        if !found.is_nan() {
+        if material.has_energy_by_invariants() {
             judge.compare(|| "energy by invariants".into(), stretches, found, expected, tolerance)?;
         }
 

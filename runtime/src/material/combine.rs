@@ -148,6 +148,7 @@ macro_rules! sum_responses {
         impl<A: Material, B: Material> Material for Sum<A, B> {
             const HAS_INVARIANTS: bool = A::HAS_INVARIANTS && B::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = A::HAS_SECOND_INVARIANT || B::HAS_SECOND_INVARIANT;
+            const HAS_ENERGY_BY_INVARIANTS: bool = A::HAS_ENERGY_BY_INVARIANTS && B::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
@@ -186,6 +187,7 @@ macro_rules! sum_responses {
         impl<M: Material, P: ParameterValue> Material for Scaled<M, P> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

@@ -101,6 +101,7 @@ macro_rules! mixed_responses {
         impl<M: Material + PartialEq> Material for Mixed<'_, M> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

@@ -51,6 +51,8 @@ macro_rules! declare_response {
             )*
             /// [`Material::HAS_INVARIANTS`].
             fn has_invariants(&self) -> bool;
+            /// [`Material::HAS_ENERGY_BY_INVARIANTS`].
+            fn has_energy_by_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
             fn has_pole(&self) -> bool;
             /// Forwards to [`Material::ends_at_zero_volume`].
@@ -75,6 +77,10 @@ macro_rules! declare_response {
                 M::HAS_INVARIANTS
             }
             #[inline]
+            fn has_energy_by_invariants(&self) -> bool {
+                M::HAS_ENERGY_BY_INVARIANTS
+            }
+            #[inline]
             fn has_pole(&self) -> bool {
                 Material::has_pole(self)
             }
@@ -92,6 +98,7 @@ macro_rules! forward_to_pointee {
         $($head)* {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

@@ -78,13 +78,13 @@ fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     }))
 }
 
-/// The cross product of two matrices, A × B.
+/// The cross product of two matrices, A × B. Not fused, so that axes with equal entries have equal ones in it.
 #[inline(always)]
 fn cross<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => {
         let (k, l, m, n) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        let straight = A[k][m].mul_add(B[l][n], A[l][n] * B[k][m]);
-        let crossed = A[k][n].mul_add(B[l][m], A[l][m] * B[k][n]);
+        let straight = A[k][m] * B[l][n] + A[l][n] * B[k][m];
+        let crossed = A[k][n] * B[l][m] + A[l][m] * B[k][n];
         straight - crossed
     }))
 }

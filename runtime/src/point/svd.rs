@@ -53,10 +53,7 @@ pub struct Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    let (F, back) = scaled(F);
-    let svd = jacobi(&F);
-    let svd = if has_axis(&F) { along_axes(&F, svd) } else { svd };
-    Svd { stretches: three!(k => svd.stretches[k] * back), ..svd }
+    aligned(F, unaligned(F))
 }
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
@@ -68,28 +65,51 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
+    aligned(F, unaligned_signed_by_determinant(F))
+}
+
+/// [`svd()`], of which [`aligned`] is to follow.
+#[inline(always)]
+pub(crate) fn unaligned<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let (F, back) = scaled(F);
-    let svd = jacobi(&F);
-    let [s1, s2, s3] = svd.stretches;
+    let (U, stretches, V) = jacobi(&F);
+    Svd { U, stretches: three!(k => stretches[k] * back), V }
+}
+
+/// [`svd_signed_by_determinant`], of which [`aligned`] is to follow.
+#[inline(always)]
+pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
+    let (F, back) = scaled(F);
+    let (U, [s1, s2, s3], V) = jacobi(&F);
     let area = s1 * s2;
     let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
     // λ2 and the quotient are rounded independently, which must not disturb their order.
     let s3 = s3.abs().min(s2).copysign(s3);
-    let svd = Svd { stretches: [s1, s2, s3], ..svd };
-    let svd = if has_axis(&F) { along_axes(&F, svd) } else { svd };
-    Svd { stretches: three!(k => svd.stretches[k] * back), ..svd }
+    Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
 }
 
-/// Whether an axis k is a principal direction at rest and after the deformation on some lane: F has no other
-/// entry than Fkk in its row and column k.
+/// The decomposition with every axis exact that F maps to itself; see [`along_axes`].
 #[inline(always)]
-fn has_axis<R: Real>(F: &Matrix3<R>) -> bool {
+pub(crate) fn aligned<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
+    if has_axis(F).any() { along_axes(F, svd) } else { svd }
+}
+
+/// Whether some axis k is a principal direction at rest and after the deformation: F has no other entry than
+/// Fkk in its row and column k.
+#[inline(always)]
+pub(crate) fn has_axis<R: Real>(F: &Matrix3<R>) -> R::Mask {
     let [a, b, c] = three!(pair => {
         let (i, j) = PAIRS[pair];
-        F[i][j].mul_add(F[i][j], F[j][i] * F[j][i])
+        F[i][j].abs().max(F[j][i].abs())
     });
     // Two of the three vanish if the second smallest does.
-    a.min(b).max(a.max(b).min(c)).less(R::splat(R::MIN_POSITIVE)).any()
+    vanishes(a.min(b).max(a.max(b).min(c)))
+}
+
+/// Whether a number that is not negative is zero, or NaN.
+#[inline(always)]
+fn vanishes<R: Real>(x: R) -> R::Mask {
+    !R::splat(0.0).less(x)
 }
 
 /// The decomposition with every axis that is a principal direction exactly in the frames, and its stretch
@@ -99,14 +119,13 @@ fn has_axis<R: Real>(F: &Matrix3<R>) -> bool {
 /// exact already but for the rounding of a quaternion that exchanges columns. Where U does not contain the
 /// axis to rounding, as at rank one, where nothing else tells two directions apart, it is left as it is.
 #[inline(always)]
-fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
+pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;
     let (zero, one, rounding) = (R::splat(0.0), R::splat(1.0), R::splat(64.0 * R::UNIT_ROUNDOFF));
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let others =
-            F[k][i].mul_add(F[k][i], F[i][k] * F[i][k]) + F[k][j].mul_add(F[k][j], F[j][k] * F[j][k]);
-        let is_axis = others.less(R::splat(R::MIN_POSITIVE));
+        let others = F[k][i].abs().max(F[i][k].abs()).max(F[k][j].abs()).max(F[j][k].abs());
+        let is_axis = vanishes(others);
         for column in 0..3 {
             let (u, v) = (one.copysign(U[k][column]), one.copysign(V[k][column]));
             let (l, m) = ((column + 1) % 3, (column + 2) % 3);
@@ -125,8 +144,7 @@ fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
             stretches[column] = R::select(is_here, stretch, stretches[column]);
         }
     }
-    stretches = descending(stretches);
-    Svd { U, stretches, V }
+    Svd { U, stretches: descending(stretches), V }
 }
 
 /// F brought to a magnitude between 1 and 2 by a power of two, and the power that brings stretches back.
@@ -158,7 +176,7 @@ pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
 
 /// U, λ, V of a matrix scaled to a magnitude between 1 and 2.
 #[inline(always)]
-fn jacobi<R: Real>(F: &Matrix3<R>) -> Svd<R> {
+fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
     let mut columns = transpose(F);
     let mut quaternion = [R::splat(1.0), R::splat(0.0), R::splat(0.0), R::splat(0.0)];
     for _ in 1..sweeps(R::UNIT_ROUNDOFF) {
@@ -169,7 +187,7 @@ fn jacobi<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     // The columns have collected the rounding of all rotations; F V anew has that of one product.
     let columns = three!(k => three!(i => dot(F[i], column(&V, k))));
     let (U, stretches) = left(&columns);
-    Svd { U, stretches: descending(stretches), V }
+    (U, descending(stretches), V)
 }
 
 /// Precision of a sweep's angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next

@@ -45,6 +45,7 @@ fn main() {
     println!("{}", goals::REASONS);
     println!("## Energies by hand\n\n{}", comparisons::hand_written(effort));
     println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
+    println!("## Few points a call, {best}, f64, by points\n\n{}", tables::few_points(effort));
     for backend in Backend::available().take(if is_quick { 1 } else { usize::MAX }) {
         println!("## In cache, {backend}, f64\n\n{}", tables::in_cache::<f64>(effort, backend));
         println!("## In cache, {backend}, f32\n\n{}", tables::in_cache::<f32>(effort, backend));

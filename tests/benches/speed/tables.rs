@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
+use piola::point::Filter;
 use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
 
 use super::measure::{in_cache as measure_in_cache, streaming as measure_streaming};
@@ -47,6 +48,33 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
             }
             row(&mut table, &cells);
         }
+    }
+    table
+}
+
+/// Calls of few points, for each of which a call costs more than in a full tile.
+pub(crate) fn few_points(effort: Effort) -> String {
+    let materials = materials::<f64>();
+    let mut titles = vec!["points of a call".to_owned()];
+    for (name, _) in &materials {
+        titles.extend([Task::Stresses, Task::Tangents].map(|task| format!("{name}, {}", task.name())));
+        titles.push(format!("{name}, {}", Task::Tangents.label(Filter::Clamp)));
+    }
+    let mut table = header(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    for count in [1, 4, 8, 27, 64, IN_CACHE] {
+        let mut cells = vec![count.to_string()];
+        for (_, energy) in &materials {
+            for (task, filter) in [
+                (Task::Stresses, Filter::None),
+                (Task::Tangents, Filter::None),
+                (Task::Tangents, Filter::Clamp),
+            ] {
+                let batch = Batch::new(&**energy).with_filter(filter);
+                let mut arrays = Arrays::new(task, Layout::Points, count);
+                cells.push(cell(time(effort, count, || arrays.run(&batch))));
+            }
+        }
+        row(&mut table, &cells);
     }
     table
 }

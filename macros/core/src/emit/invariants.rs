@@ -59,11 +59,17 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let admits = conditions.reduce(|a, b| quote!(#a & #b));
     let admits = admits.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
 
+    let has_no_energy = (!invariants.has_energy).then(|| {
+        quote!(
+            const HAS_ENERGY_BY_INVARIANTS: bool = false;
+        )
+    });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
 
     quote! {
         const HAS_INVARIANTS: bool = true;
         const HAS_SECOND_INVARIANT: bool = #has_second;
+        #has_no_energy
 
         #energy
 
