@@ -23,7 +23,7 @@ use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
 use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
-use crate::point::svd::{along_axes, has_axis, unaligned, unaligned_signed_by_determinant};
+use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
 use crate::point::{Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite};
 use crate::status::Status;
 
@@ -62,7 +62,7 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
         // Apart from the loops above, which need all registers.
         for_each_group!(R, count, |at| {
             let F = to_matrix(F.get_all::<R>(at));
-            if has_axis(&F).any() {
+            if may_have_axis(&F).any() {
                 points.set(at, &along_axes(&F, points.get(at)));
             }
         });

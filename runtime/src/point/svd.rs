@@ -91,19 +91,15 @@ pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R>
 /// The decomposition with every axis exact that F maps to itself; see [`along_axes`].
 #[inline(always)]
 pub(crate) fn aligned<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
-    if has_axis(F).any() { along_axes(F, svd) } else { svd }
+    if may_have_axis(F).any() { along_axes(F, svd) } else { svd }
 }
 
-/// Whether some axis k is a principal direction at rest and after the deformation: F has no other entry than
-/// Fkk in its row and column k.
+/// False only where F maps no axis to itself. If it does so with axis k, Fkk is alone in its row and column, and
+/// of the three entries above the diagonal two are zero, and so all products of two.
 #[inline(always)]
-pub(crate) fn has_axis<R: Real>(F: &Matrix3<R>) -> R::Mask {
-    let [a, b, c] = three!(pair => {
-        let (i, j) = PAIRS[pair];
-        F[i][j].abs().max(F[j][i].abs())
-    });
-    // Two of the three vanish if the second smallest does.
-    vanishes(a.min(b).max(a.max(b).min(c)))
+pub(crate) fn may_have_axis<R: Real>(F: &Matrix3<R>) -> R::Mask {
+    let [a, b, c] = [F[0][1] * F[0][2], F[0][1] * F[1][2], F[0][2] * F[1][2]];
+    vanishes(a.mul_add(a, b.mul_add(b, c * c)))
 }
 
 /// Whether a number that is not negative is zero, or NaN.
