@@ -123,8 +123,8 @@ fn inside_at_rest(declaration: &Declaration, model: &mut Model, material: &Ident
         Some(quote!(__p::inside_at_rest(#value, #text, &[#(#given),*])?;))
     });
     Some(quote! {
+        #[allow(unused_imports, clippy::all)]
         {
-            #[allow(unused_imports)]
             use ::piola::Real;
             type R = f64;
             #statements
