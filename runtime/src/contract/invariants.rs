@@ -2,8 +2,29 @@
 
 use super::samples::at_samples;
 use super::subject::Subject;
-use super::{Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stress_scale};
-use crate::material::PAIRS;
+use super::{
+    Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
+};
+use crate::material::{Blocks, PAIRS};
+
+/// Change of the second derivatives by a relative change of the stretches, per change, Pa.
+fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>) -> f64 {
+    const CHANGE: f64 = 1e-6;
+    let mut largest = 0.0f64;
+    for signs in [[1.0, 1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0]] {
+        let near = material.blocks(std::array::from_fn(|k| stretches[k] * (1.0 + CHANGE * signs[k])));
+        let pairs = [
+            (&near.hessian[..], &blocks.hessian[..]),
+            (&near.flip, &blocks.flip),
+            (&near.twist, &blocks.twist),
+        ];
+        for (near, here) in pairs {
+            let changes = near.iter().zip(here).map(|(near, here)| (near - here).abs());
+            largest = changes.filter(|change| change.is_finite()).fold(largest, f64::max);
+        }
+    }
+    largest / CHANGE
+}
 
 /// [`Rule::Invariants`].
 pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
@@ -52,7 +73,8 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
         let [w1, w2, wj, w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
         let second = [[w11, w12, w1j], [w12, w22, w2j], [w1j, w2j, wjj]];
         let blocks = material.blocks(stretches);
-        let stiffness = scale / stretches[0];
+        // Invariants are rounded as stretches are.
+        let stiffness = stiffness(&blocks) + sensitivity(material, stretches, &blocks);
         for (place, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
             let mut terms: Vec<f64> =
                 (0..9).map(|k| slopes[i][k / 3] * second[k / 3][k % 3] * slopes[j][k % 3]).collect();
