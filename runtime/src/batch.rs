@@ -44,8 +44,8 @@
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J, or in sums over the stretches
 //! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
-//! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where the
-//! terms by invariants cancel takes the way of all others, and so does a tangent in factors.
+//! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where
+//! the terms by invariants cancel takes the way of all others, and so does a tangent in factors.
 //! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) says whether an energy is of this kind.
 //!
 //! This module knows no sparsity and no particular material.

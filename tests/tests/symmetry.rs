@@ -1,7 +1,8 @@
 //! What a plane of symmetry makes zero is exactly zero, for every energy of the catalogue: `cargo test -p
 //! piola-tests --test symmetry`.
 //!
-//! Codes that align bodies with their axes compare such entries with zero, and equal stretches with each other.
+//! Codes that align bodies with their axes compare such entries with zero, and equal stretches with each
+//! other.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 

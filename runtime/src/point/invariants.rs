@@ -1,8 +1,9 @@
 //! Stress and tangent without a singular value decomposition, for energies W of the invariants I1 = |F|²,
 //! I2 = |cof F|², J = det F.
 //!
-//! The cross product of two matrices \[BGO15\], (A × B)ij = εikm εjln Akl Bmn, is bilinear and symmetric, with
-//! A : (B × X) = (A × B) : X. Since cof F = ½ F × F, it differentiates cofactors. With C = cof F and D = C × F,
+//! The cross product of two matrices \[BGO15\], (A × B)ij = εikm εjln Akl Bmn, is bilinear and symmetric,
+//! with A : (B × X) = (A × B) : X. Since cof F = ½ F × F, it differentiates cofactors. With C = cof F and D
+//! = C × F,
 //!
 //! ```text
 //! dI1 = 2 F : dF,   dI2 = 2 C : (F × dF) = 2 D : dF,   dJ = C : dF
@@ -11,10 +12,10 @@
 //!
 //! D is I1 F − F Fᵀ F, but without a difference of cubes.
 //!
-//! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice the
-//! working precision, so that each is as good as F determines it: within a few u of its sensitivity to
-//! relative changes of F by 1. So is P. Entries of F that a plane of symmetry makes zero make the same entries
-//! of P exactly zero.
+//! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice
+//! the working precision, so that each is as good as F determines it: within a few u of its sensitivity to
+//! relative changes of F by 1. So is P. Entries of F that a plane of symmetry makes zero make the same
+//! entries of P exactly zero.
 //!
 //! \[BGO15\] Bonet, Gil, Ortigosa, *A computational framework for polyconvex large strain elasticity*, 2015.
 
@@ -35,9 +36,12 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     let largest = rows[0].max(rows[1]).max(rows[2]);
     // The eighth root of the range: I2 and the error terms of the determinant are of degree 4 and 6.
     let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.125)), R::splat(R::MIN_POSITIVE.powf(-0.125)));
-    let is_in_range = low.less(largest) & largest.less(high) & entries_are_finite(F);
+    let J = determinant(F);
+    // Nearer to zero, a decomposition cannot tell the sign, and it is the decomposition that refuses.
+    let smallest = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF) * (largest * largest * largest);
+    let is_in_range = low.less(largest) & largest.less(high) & entries_are_finite(F) & smallest.less(J.abs());
 
-    ([square(F), square(&cofactor(F)), determinant(F)], is_in_range)
+    ([square(F), square(&cofactor(F)), J], is_in_range)
 }
 
 /// Squared Frobenius norm |A|².
@@ -78,7 +82,8 @@ fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     }))
 }
 
-/// The cross product of two matrices, A × B. Not fused, so that axes with equal entries have equal ones in it.
+/// The cross product of two matrices, A × B. Not fused, so that axes with equal entries have equal ones in
+/// it.
 #[inline(always)]
 fn cross<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => {

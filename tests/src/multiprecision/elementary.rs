@@ -71,8 +71,8 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
 
     /// ln self, with an absolute error of (1 + |ln self|) units; NaN for self ≤ 0.
     ///
-    /// With y0 ≈ ln self, by the function of `f64` once or twice, ln self = y0 + ln z for z = self e^(−y0), and
-    /// ln z = 2 artanh w for w = (z − 1)/(z + 1).
+    /// With y0 ≈ ln self, by the function of `f64` once or twice, ln self = y0 + ln z for z = self e^(−y0),
+    /// and ln z = 2 artanh w for w = (z − 1)/(z + 1).
     pub(super) fn natural_logarithm(self) -> Self {
         if self.kind != Kind::Finite || self.negative {
             return Self::NOT_A_NUMBER;

@@ -54,8 +54,8 @@ pub enum Node {
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it
     /// is written. Its value is kept from zero, so that powers of it have one.
     Excess(Id, Id),
-    /// An expression in a form that keeps its digits, for its value, and as it is written, for its derivatives
-    /// and for readers.
+    /// An expression in a form that keeps its digits, for its value, and as it is written, for its
+    /// derivatives and for readers.
     Accurate(Id, Id),
     /// Natural logarithm.
     Ln(Id),

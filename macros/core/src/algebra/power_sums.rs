@@ -6,9 +6,9 @@
 //! Σ ti = k,   Σ ti² = k² + 4k − 2m
 //! ```
 //!
-//! so that Saint Venant–Kirchhoff's energy, in Σ (λi² − 1)², is one of invariants. Its derivatives by them keep
-//! their digits. The sum itself is of second order in the strains where its terms are of the first: near rest
-//! it loses digits that the squares keep.
+//! so that Saint Venant–Kirchhoff's energy, in Σ (λi² − 1)², is one of invariants. Its derivatives by them
+//! keep their digits. The sum itself is of second order in the strains where its terms are of the first:
+//! near rest it loses digits that the squares keep.
 
 use rustc_hash::FxHashMap;
 
@@ -18,8 +18,8 @@ use crate::algebra::rational::Rational;
 /// c0 + c1 t + c2 t² with t = λ² − 1.
 type Polynomial = [Rational; 3];
 
-/// An expression of I1, I2, J, which stand in the places of the stretches, and of stretches, for which strains
-/// stand: without the latter, if they occur in such sums alone.
+/// An expression of I1, I2, J, which stand in the places of the stretches, and of stretches, for which
+/// strains stand: without the latter, if they occur in such sums alone.
 pub fn without_stretches(graph: &mut Graph, e: Id) -> Option<Id> {
     let mut done = FxHashMap::default();
     let rewritten = rewrite(graph, e, &mut done);

@@ -60,8 +60,8 @@ pub struct Invariantly {
     pub is_written_so: bool,
 }
 
-/// The energy by invariants, unless a stretch is named outside a sum that they determine. The declaration must
-/// be free of mistakes.
+/// The energy by invariants, unless a stretch is named outside a sum that they determine. The declaration
+/// must be free of mistakes.
 pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<Invariantly> {
     let mut diagnostics = Diagnostics::default();
     let mut resolver =

@@ -14,9 +14,10 @@
 //!
 //! # Seen from other coordinates
 //!
-//! Let dF = ec ⊗ wy, and take the product with ea ⊗ wx, where the rows wx are those of any 3×3 matrix W. Since
-//! (a ⊗ b) × (c ⊗ d) = (a × c) ⊗ (b × d), each term keeps its form. With F̃ = F Wᵀ, likewise C̃, D̃ and h̃, with
-//! T̃ = T (cof W)ᵀ and M = W Wᵀ, and with k the third index beside a and c, z that beside x and y,
+//! Let dF = ec ⊗ wy, and take the product with ea ⊗ wx, where the rows wx are those of any 3×3 matrix W.
+//! Since (a ⊗ b) × (c ⊗ d) = (a × c) ⊗ (b × d), each term keeps its form. With F̃ = F Wᵀ, likewise C̃, D̃
+//! and h̃, with T̃ = T (cof W)ᵀ and M = W Wᵀ, and with k the third index beside a and c, z that beside x
+//! and y,
 //!
 //! ```text
 //! K between (a, x) and (c, y) = (δac (2 W1 + 2 W2 I1) − 2 W2 (F Fᵀ)ac) Mxy − δac 2 W2 (F̃ᵀ F̃)xy
@@ -205,8 +206,8 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         self.bounds.0
     }
 
-    /// Whether dP/dF has the digits that it has by a decomposition, and nothing on the way to it or to P leaves
-    /// the range.
+    /// Whether dP/dF has the digits that it has by a decomposition, and nothing on the way to it or to P
+    /// leaves the range.
     #[inline(always)]
     pub(crate) fn keeps_digits(&self) -> R::Mask {
         let mut largest = R::splat(0.0);

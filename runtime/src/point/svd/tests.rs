@@ -420,8 +420,8 @@ fn the_determinant_gives_tiny_stretches_with_sign_and_digits() {
     assert!(plain_is_wrong > 100, "the samples are too easy: the plain sign is wrong {plain_is_wrong} times");
 }
 
-/// Entries that a plane of symmetry makes zero, and the stretch across it, are exact: the frames of a diagonal F
-/// are permutations.
+/// Entries that a plane of symmetry makes zero, and the stretch across it, are exact: the frames of a
+/// diagonal F are permutations.
 #[test]
 fn planes_of_symmetry_are_exact() {
     let mut random = Random::new(7);
