@@ -37,8 +37,10 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     // The eighth root of the range: I2 and the error terms of the determinant are of degree 4 and 6.
     let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.125)), R::splat(R::MIN_POSITIVE.powf(-0.125)));
     let J = determinant(F);
-    // Nearer to zero, a decomposition cannot tell the sign, and it is the decomposition that refuses.
-    let smallest = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF) * (largest * largest * largest);
+    // Nearer to zero products of entries underflow, here or relative to the largest one. A decomposition cannot
+    // tell the sign then, and it is the decomposition that refuses.
+    let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
+    let smallest = threshold.mul_add(largest * largest * largest, threshold);
     let is_in_range = low.less(largest) & largest.less(high) & entries_are_finite(F) & smallest.less(J.abs());
 
     ([square(F), square(&cofactor(F)), J], is_in_range)
