@@ -41,7 +41,8 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     // tell the sign then, and it is the decomposition that refuses.
     let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
     let smallest = threshold.mul_add(largest * largest * largest, threshold);
-    let is_in_range = low.less(largest) & largest.less(high) & entries_are_finite(F) & smallest.less(J.abs());
+    let room = (largest - low).min(high - largest).min(J.abs() - smallest);
+    let is_in_range = R::splat(0.0).less(room) & entries_are_finite(F);
 
     ([square(F), square(&cofactor(F)), J], is_in_range)
 }
