@@ -37,8 +37,8 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
     // The eighth root of the range: I2 and the error terms of the determinant are of degree 4 and 6.
     let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.125)), R::splat(R::MIN_POSITIVE.powf(-0.125)));
     let J = determinant(F);
-    // Nearer to zero products of entries underflow, here or relative to the largest one. A decomposition cannot
-    // tell the sign then, and it is the decomposition that refuses.
+    // Nearer to zero, products of entries underflow, here or relative to the largest one. A decomposition
+    // cannot tell the sign then, and it is the decomposition that refuses.
     let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
     let smallest = threshold.mul_add(largest * largest * largest, threshold);
     let room = (largest - low).min(high - largest).min(J.abs() - smallest);
