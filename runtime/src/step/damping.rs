@@ -11,9 +11,13 @@
 //! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: no
 //! damping can drive a body, however stiff or inverted it is.
 
+use std::ops::Range;
+
+use crate::batch::element::TILE;
 use crate::point::Filter;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
+use crate::system::element::Stiffness;
 use crate::system::stiffnesses::ElementStiffnesses;
 
 /// Forces against velocity.
@@ -106,9 +110,9 @@ impl Viscosity {
         stiffnesses.add(self.factor, &self.stiffnesses);
     }
 
-    /// Adds the blocks of β/h K on its diagonal.
-    pub(crate) fn add_to_blocks(&self, body: &Body, blocks: &mut [[[f64; 3]; 3]]) {
-        self.stiffnesses.add_diagonal_blocks(body, self.factor, blocks);
+    /// Adds β/h K to the stiffnesses of the elements of some tiles.
+    pub(crate) fn add_tiles_to(&self, tiles: Range<usize>, to: &mut [[Stiffness; TILE]]) {
+        self.stiffnesses.add_tiles_to(self.factor, tiles, to);
     }
 }
 

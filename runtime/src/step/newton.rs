@@ -172,6 +172,7 @@ pub(crate) fn minimize(
     line_search: &LineSearchSettings,
 ) -> Result<(NewtonReport, Evaluated), NewtonError> {
     demand_admissible(&survey, objective.body, objective.elastic)?;
+    workspace.solver.begin();
     let report = NewtonReport::before(settings);
     Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
 }
@@ -304,9 +305,9 @@ impl Iteration<'_, '_> {
         }
         let on_demand = filtering == Filtering::OnDemand;
         let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
-        if !self.solve(tolerance, definiteness)? {
+        if !self.solve(x, tolerance, definiteness)? {
             self.linearise(Filter::Clamp, x, pins_move)?;
-            self.solve(tolerance, Definiteness::Optional)?;
+            self.solve(x, tolerance, Definiteness::Optional)?;
         }
         self.report.iterations += 1;
         Ok(true)
@@ -332,9 +333,14 @@ impl Iteration<'_, '_> {
     }
 
     /// Solves for the direction; false if the matrix is indefinite and definiteness is required.
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, NewtonError> {
+    fn solve(
+        &mut self,
+        x: &[[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<bool, NewtonError> {
         let NewtonWorkspace { solver, gradient, direction, .. } = &mut *self.workspace;
-        let solution = solver.solve(self.objective, gradient, direction, tolerance, definiteness)?;
+        let solution = solver.solve(self.objective, x, gradient, direction, tolerance, definiteness)?;
         let Some(solution) = solution else { return Ok(false) };
         self.report.shift = self.report.shift.max(solution.shift);
         self.report.linear_iterations += solution.iterations;

@@ -18,6 +18,7 @@ use crate::mesh::Anchor;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::pattern::Pattern;
 
 use super::damping::Viscosity;
@@ -161,17 +162,25 @@ impl Quadratic<'_> {
         }
     }
 
-    /// Adds the second derivatives in the coordinates of each node to the block of the node.
-    pub(crate) fn add_to_blocks(&self, blocks: &mut [[[f64; 3]; 3]]) {
-        for (node, block) in blocks.iter_mut().enumerate() {
+    /// Adds the second derivatives to a matrix of a row and a column for each node.
+    pub(crate) fn add_to(&self, matrix: &mut SymmetricBlocks<f64, 3>) {
+        let pattern = matrix.pattern().clone();
+        for node in 0..self.masses.len() {
+            let block = &mut matrix.blocks_mut()[pattern.diagonal(node)];
             for c in 0..3 {
                 block[c][c] += self.guarded_diagonal(node);
             }
         }
         for spring in self.springs {
-            for (node, weight) in spring.weights() {
-                for c in 0..3 {
-                    blocks[node][c][c] += spring.stiffness * weight * weight;
+            for (row, row_weight) in spring.weights() {
+                for (column, column_weight) in spring.weights().filter(|&(column, _)| column <= row) {
+                    // The nodes of a spring belong to one element: the simulation has made sure that the
+                    // block exists, but for pinned ones, which do not move.
+                    if let Some((block, _)) = pattern.block(row, column) {
+                        for c in 0..3 {
+                            matrix.blocks_mut()[block][c][c] += spring.stiffness * row_weight * column_weight;
+                        }
+                    }
                 }
             }
         }

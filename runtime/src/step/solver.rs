@@ -5,8 +5,9 @@
 
 mod assembled;
 mod cholesky;
+mod conjugate;
 mod interface;
-mod matrix_free;
+mod preconditioner;
 mod refined;
 
 use crate::system::linear::LinearError;
@@ -15,7 +16,7 @@ use crate::system::{Body, Pins};
 
 use assembled::Assembled;
 use cholesky::Exact;
-use matrix_free::MatrixFree;
+use conjugate::Conjugate;
 use refined::Refined;
 
 pub(super) use interface::{Definiteness, SolveError, Solver};
@@ -45,28 +46,30 @@ pub enum LinearSolver {
     Automatic,
     /// Sparse Cholesky factorisation in f64.
     ///
-    /// At least as fast as the others for bodies of a few thousand elements (`cargo speed-report` shows all
-    /// of them from a thousand to a million), and the only one without a tolerance. An indefinite matrix gets
-    /// inertia until it is definite.
+    /// The fastest for bodies of up to a few thousand elements (`cargo speed-report` shows all of them from
+    /// a thousand to a million), and the only one without a tolerance. An indefinite matrix gets inertia
+    /// until it is definite.
     Cholesky,
     /// A factor in f32, of half the memory and traffic, and conjugate gradients in f64 that it preconditions,
     /// until ‖b − A p‖ ≤ tolerance ‖b‖.
     ///
-    /// On one thread the fastest from ten to a hundred thousand elements. Stiffness may have any unit. A
-    /// factor that fails in f32 gets a larger diagonal, which costs iterations but no accuracy. The system is
-    /// given up at negative curvature and after a hundred iterations; a handful is the rule.
+    /// For bodies of thousands of elements whose factor stays sparse, because they are thin. Stiffness may
+    /// have any unit. A factor that fails in f32 gets a larger diagonal, which costs iterations but no
+    /// accuracy. The system is given up at negative curvature and after a hundred iterations; a handful is
+    /// the rule.
     RefinedCholesky {
         /// ‖b − A p‖/‖b‖ at which to stop.
         tolerance: f64,
     },
-    /// Conjugate gradients without a matrix, preconditioned by the 3×3 blocks on the diagonal, taken anew
-    /// with each linearisation, until ‖b − A p‖ ≤ tolerance ‖b‖.
+    /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the
+    /// diagonal or, where these take many iterations, by multigrid (smoothed aggregation), whose iterations
+    /// hardly grow with the number of elements.
     ///
-    /// For bodies of hundreds of thousands of elements, whose factor does not fit into memory: its own grows
-    /// with the elements, about a kilobyte each. Needs the more iterations the stiffer a body is for its time
-    /// step, the finer and the thinner. The system is given up at negative curvature, with the direction so
-    /// far or that of steepest descent in the first iteration, as in Nocedal and Wright, *Numerical
-    /// Optimization*, algorithm 7.1.
+    /// From some thousand elements on the fastest. Memory grows with the elements alone: about a kilobyte
+    /// each, and as much again where levels of multigrid are made. The choice between the two
+    /// preconditioners depends on the matrix and on numbers of iterations, so that each run makes the same.
+    /// The system is given up at negative curvature, with the direction so far or that of steepest descent
+    /// in the first iteration, as in Nocedal and Wright, *Numerical Optimization*, algorithm 7.1.
     ConjugateGradients {
         /// ‖b − A p‖/‖b‖ at which to stop.
         tolerance: f64,
@@ -76,17 +79,15 @@ pub enum LinearSolver {
 }
 
 impl LinearSolver {
-    /// The solver that [`LinearSolver::Automatic`] chooses: [`Cholesky`](Self::Cholesky) up to 10 000
-    /// elements, [`RefinedCholesky`](Self::RefinedCholesky) to 10⁻⁶ up to 100 000, beyond that
-    /// [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000 iterations.
+    /// The solver that [`LinearSolver::Automatic`] chooses: [`Cholesky`](Self::Cholesky) up to 4000 elements,
+    /// beyond that [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000 iterations.
     ///
-    /// These limits are what `cargo speed-report` finds for compact bodies on one thread; thin ones, whose
-    /// factors stay sparse, are served well by a factor beyond these limits.
+    /// This limit is what `cargo speed-report` finds for compact bodies on one thread; thin ones, whose
+    /// factors stay sparse, are served well by a factor beyond it.
     #[must_use]
     pub fn for_elements(elements: usize) -> Self {
         match elements {
-            ..=10_000 => Self::Cholesky,
-            10_001..=100_000 => Self::RefinedCholesky { tolerance: 1e-6 },
+            ..=4000 => Self::Cholesky,
             _ => Self::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
         }
     }
@@ -116,7 +117,7 @@ impl LinearSolver {
                 Ok(Refined { factor: RefinedCholesky::new(pattern.shared_entries())?, tolerance })
             })?),
             Self::ConjugateGradients { tolerance, max_iterations } => {
-                Box::new(MatrixFree::new(body, pins, tolerance, max_iterations))
+                Box::new(Conjugate::new(body, pins, tolerance, max_iterations)?)
             }
         })
     }

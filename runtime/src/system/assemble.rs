@@ -11,11 +11,13 @@
 //!    the order of its list. Nodal vectors and energies are summed by one thread in the order of the
 //!    elements: that takes microseconds.
 //!
-//! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a division.
-//! A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes of
-//! stiffness for each element, which stays in the cache for the bodies this is made for. It belongs to the
-//! caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products alone a third of it
-//! is enough ([`FactoredStiffness`](super::factored::FactoredStiffness)).
+//! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a
+//! division. A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720
+//! bytes of stiffness for each element, which stays in the cache for the bodies this is made for. It
+//! belongs to the caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products a
+//! third of it is enough ([`FactoredStiffness`](super::factored::FactoredStiffness)), and large bodies are
+//! assembled in waves, which share one small buffer
+//! ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken
 //! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is
@@ -106,12 +108,23 @@ impl Elastic {
         filter: Filter,
         tangents: &mut T,
     ) -> Evaluated {
-        self.groups.par_iter_mut().zip(tangents.tiles()).for_each(|(state, tile)| {
+        self.linearise_groups::<T>(body, filter, 0..self.groups.len(), tangents.tiles());
+        self.survey()
+    }
+
+    /// Evaluates gradients and filtered tangents of some groups where the energies were evaluated last.
+    pub(crate) fn linearise_groups<T: Tangents>(
+        &mut self,
+        body: &Body,
+        filter: Filter,
+        groups: Range<usize>,
+        tiles: &mut [T::Tile],
+    ) {
+        self.groups[groups].par_iter_mut().zip(tiles).for_each(|(state, tile)| {
             state.evaluate(body, |group, material, elements| {
                 T::evaluate(tile, group, material, elements, filter)
             });
         });
-        self.survey()
     }
 
     /// Survey of the last evaluation.

@@ -81,31 +81,10 @@ impl FactoredStiffness {
         self.starts.len() - 1
     }
 
-    /// Whether an element joins two nodes.
-    pub(crate) fn joins(&self, a: usize, b: usize) -> bool {
-        self.contributions[self.starts[a]..self.starts[a + 1]].iter().any(|at| {
-            let tile = &self.tiles[at.tile as usize];
-            let place = tile.nodes.iter().position(|&node| node == b);
-            place.is_some_and(|b| {
-                tile.corners.iter().any(|corners| corners.contains(&at.place) && corners.contains(&(b as u8)))
-            })
-        })
-    }
-
     /// Computes K x, one vector for each node.
     pub(crate) fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) {
         self.make_products(x);
         self.sum(product, |total, sum| *total = sum);
-    }
-
-    /// Adds K x.
-    pub(crate) fn add_product(&mut self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.make_products(x);
-        self.sum(total, |total, sum| {
-            for a in 0..3 {
-                total[a] += sum[a];
-            }
-        });
     }
 
     /// The 3×3 blocks of K on its diagonal, one for each node.

@@ -25,7 +25,9 @@ pub(crate) mod block_jacobi;
 pub(crate) mod conjugate_gradients;
 pub(crate) mod dense;
 pub(crate) mod lanczos;
+pub(crate) mod multigrid;
 pub(crate) mod refined;
+pub(crate) mod symmetric_blocks;
 
 /// A factorisation in f64 or f32, and the memory for the next one.
 ///

@@ -1,6 +1,8 @@
 //! The stiffnesses of all elements, block by block, on their way into a matrix: see
 //! [assembly](super::assemble).
 
+use std::ops::Range;
+
 use super::assemble::Tangents;
 use super::body::Body;
 use super::element::{ElementGroup, Stiffness, Tetrahedron, pair};
@@ -37,16 +39,16 @@ impl ElementStiffnesses {
 
     /// Adds a factor times other stiffnesses of the same body.
     pub(crate) fn add(&mut self, factor: f64, other: &Self) {
-        for (block, other) in self
-            .tiles
-            .as_flattened_mut()
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(other.tiles.as_flattened().as_flattened())
-        {
+        other.add_tiles_to(factor, 0..other.tiles.len(), &mut self.tiles);
+    }
+
+    /// Adds a factor times the stiffnesses of some tiles to others.
+    pub(crate) fn add_tiles_to(&self, factor: f64, tiles: Range<usize>, to: &mut [[Stiffness; TILE]]) {
+        let blocks = to.as_flattened_mut().as_flattened_mut().iter_mut();
+        for (to, block) in blocks.zip(self.tiles[tiles].as_flattened().as_flattened()) {
             for a in 0..3 {
                 for c in 0..3 {
-                    block[a][c] += factor * other[a][c];
+                    to[a][c] += factor * block[a][c];
                 }
             }
         }
@@ -98,19 +100,6 @@ impl ElementStiffnesses {
             }
         }
         sum
-    }
-
-    /// Adds a factor times the 3×3 blocks of K on its diagonal, one for each node.
-    pub(crate) fn add_diagonal_blocks(&self, body: &Body, factor: f64, blocks: &mut [[[f64; 3]; 3]]) {
-        for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
-            for (i, &node) in element.nodes.iter().enumerate() {
-                for a in 0..3 {
-                    for c in 0..3 {
-                        blocks[node][a][c] += factor * stiffness[pair(i, i)][a][c];
-                    }
-                }
-            }
-        }
     }
 
     /// Sums the stiffnesses into the entries of the pattern and adds `diagonal(node)` to the diagonal.

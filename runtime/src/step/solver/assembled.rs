@@ -101,6 +101,7 @@ impl<F: Factorisation> Solver for Assembled<F> {
     fn solve(
         &mut self,
         objective: &Objective<'_>,
+        _: &[[f64; 3]],
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
         tolerance: f64,

@@ -14,19 +14,24 @@ pub(crate) trait Solver: Send + Sync {
     /// Whether an element joins two free nodes.
     fn joins(&self, a: usize, b: usize) -> bool;
 
+    /// Forgets what earlier systems have taught, before the first one of a step: a step depends on the state
+    /// before it and on nothing else.
+    fn begin(&mut self) {}
+
     /// Evaluates gradients and filtered second derivatives where the energies were evaluated last.
     fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated;
 
     /// Adds the product of the second derivatives with a displacement of few nodes.
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]);
 
-    /// Solves for the direction, zero at pinned nodes. Returns `None` if the matrix is indefinite and
-    /// definiteness is required.
+    /// Solves for the direction at `x`, zero at pinned nodes, once after each linearisation. Returns `None`
+    /// if the matrix is indefinite and definiteness is required.
     ///
     /// `tolerance` counts where it is tighter than the solver's own.
     fn solve(
         &mut self,
         objective: &Objective<'_>,
+        x: &[[f64; 3]],
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
         tolerance: f64,

@@ -107,6 +107,27 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
+/// What a solver learns in a step is nothing to the next one: a run that is taken up again goes on as if it
+/// had not been interrupted.
+#[test]
+fn a_step_depends_on_the_state_before_it_alone() {
+    let mesh = tetrahedral_box([12, 4, 4], [1.2, 0.4, 0.4]).expect("a box");
+    for (linear, h) in [(REFINED, 0.02), (GRADIENTS, 0.02), (GRADIENTS, 1.0)] {
+        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
+        let settings =
+            SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() };
+        let mut whole = simulation(&mesh, ROTATED, settings);
+        for _ in 0..2 {
+            whole.step(h).expect("a step");
+        }
+        let mut again = simulation(&mesh, ROTATED, settings);
+        again.set_positions(whole.positions()).expect("finite");
+        again.set_velocities(whole.velocities()).expect("finite");
+        assert_eq!(whole.step(h).expect("a step").newton, again.step(h).expect("a step").newton);
+        assert_eq!(whole.positions(), again.positions(), "{linear:?}");
+    }
+}
+
 #[test]
 fn negative_curvature_is_left_aside_and_reported() {
     let mesh = beam(6);

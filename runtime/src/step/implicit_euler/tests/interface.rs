@@ -151,8 +151,7 @@ fn no_setting_returns_nan() {
 #[test]
 fn the_solver_fits_the_body_and_may_be_chosen() {
     assert_eq!(LinearSolver::for_elements(1031), LinearSolver::Cholesky);
-    assert!(matches!(LinearSolver::for_elements(50_000), LinearSolver::RefinedCholesky { .. }));
-    assert!(matches!(LinearSolver::for_elements(1_000_000), LinearSolver::ConjugateGradients { .. }));
+    assert!(matches!(LinearSolver::for_elements(5000), LinearSolver::ConjugateGradients { .. }));
     let mesh = beam(3);
     let run = |linear| {
         let newton = NewtonSettings { linear, ..NewtonSettings::default() };

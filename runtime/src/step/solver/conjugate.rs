@@ -1,0 +1,173 @@
+//! Conjugate gradients on the assembled matrix.
+
+use crate::point::Filter;
+use crate::step::objective::Objective;
+use crate::system::element::Evaluated;
+use crate::system::linear::LinearError;
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::nodal_stiffness::NodalStiffness;
+use crate::system::{Body, Pins};
+
+use super::interface::{Definiteness, Solution, SolveError, Solver};
+use super::preconditioner::Preconditioner;
+
+/// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
+///
+/// Unknowns are the coordinates of all nodes, pinned ones too: right sides and products are set to zero
+/// there.
+#[derive(Clone)]
+pub(super) struct Conjugate {
+    stiffness: NodalStiffness,
+    nodes: Nodes,
+    preconditioner: Preconditioner,
+    conjugate_gradients: ConjugateGradients,
+    tolerance: f64,
+    max_iterations: usize,
+}
+
+/// The nodes of a body by their freedom.
+#[derive(Clone)]
+struct Nodes {
+    pinned: Vec<usize>,
+    free: Vec<usize>,
+    is_free: Vec<bool>,
+}
+
+impl Conjugate {
+    pub(super) fn new(
+        body: &Body,
+        pins: &Pins,
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<Self, LinearError> {
+        let nodes = body.rest().len();
+        let mut is_free = vec![true; nodes];
+        pins.nodes().iter().for_each(|&node| is_free[node] = false);
+        Ok(Self {
+            stiffness: NodalStiffness::new(body)?,
+            nodes: Nodes {
+                pinned: pins.nodes().to_vec(),
+                free: (0..nodes).filter(|&node| is_free[node]).collect(),
+                is_free,
+            },
+            preconditioner: Preconditioner::new(nodes),
+            conjugate_gradients: ConjugateGradients::new(3 * nodes),
+            tolerance,
+            max_iterations,
+        })
+    }
+}
+
+impl Solver for Conjugate {
+    fn free_nodes(&self) -> &[usize] {
+        &self.nodes.free
+    }
+
+    fn joins(&self, a: usize, b: usize) -> bool {
+        self.stiffness.matrix().pattern().block(a, b).is_some()
+    }
+
+    fn begin(&mut self) {
+        self.preconditioner.forget();
+    }
+
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
+        let viscosity = objective.viscosity;
+        self.stiffness.linearise(objective.body, objective.elastic, filter, |tiles, stiffnesses| {
+            if let Some(viscosity) = viscosity {
+                viscosity.add_tiles_to(tiles, stiffnesses);
+            }
+        })
+    }
+
+    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        let mut product = vec![[0.0; 3]; total.len()];
+        self.stiffness.matrix_mut().multiply(displacement, &mut product);
+        for (total, product) in total.iter_mut().zip(product) {
+            for c in 0..3 {
+                total[c] += product[c];
+            }
+        }
+        objective.quadratic.add_product(displacement, total);
+    }
+
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
+        let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
+        objective.quadratic.add_to(stiffness.matrix_mut());
+        if !preconditioner.is_chosen() {
+            preconditioner.choose(softness(objective, stiffness.matrix(), &nodes.free));
+        }
+        let tolerance = tolerance.min(self.tolerance);
+        let mut given_up = 0;
+        loop {
+            preconditioner.take(stiffness, &nodes.is_free, x)?;
+            for (direction, gradient) in direction.iter_mut().zip(gradient) {
+                *direction = gradient.map(|g| -g);
+            }
+            nodes.pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
+            let limit = preconditioner.patience(tolerance).min(self.max_iterations - given_up);
+            let matrix = stiffness.matrix_mut();
+            let mut system = Linearised { matrix, pinned: &nodes.pinned, preconditioner };
+            let unknowns = direction.as_flattened_mut();
+            let mut iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, limit);
+            let again = preconditioner.judge(iteration, tolerance);
+            iteration.iterations += given_up;
+            if again && iteration.iterations < self.max_iterations {
+                given_up = iteration.iterations;
+                continue;
+            }
+            let solution = Solution::of(iteration, definiteness)?;
+            if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
+                return Err(SolveError::NotFinite);
+            }
+            return Ok(solution);
+        }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
+    }
+}
+
+/// Share of inertia in the diagonal of a matrix, on average over the free nodes: 1 for nodes that move by
+/// themselves, 0 for statics.
+fn softness(objective: &Objective<'_>, matrix: &SymmetricBlocks<f64, 3>, free: &[usize]) -> f64 {
+    let share = |&node: &usize| {
+        let block = matrix.diagonal(node);
+        3.0 * objective.quadratic.guarded_diagonal(node) / (block[0][0] + block[1][1] + block[2][2])
+    };
+    free.iter().map(share).sum::<f64>() / free.len().max(1) as f64
+}
+
+/// The second derivatives as an operator on displacements that are zero at pinned nodes.
+struct Linearised<'a> {
+    matrix: &'a mut SymmetricBlocks<f64, 3>,
+    pinned: &'a [usize],
+    preconditioner: &'a mut Preconditioner,
+}
+
+impl System for Linearised<'_> {
+    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+        let (x, product) = (vectors(x), product.as_chunks_mut().0);
+        self.matrix.multiply(x, product);
+        self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+    }
+
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
+        self.preconditioner.apply(vectors(r), z.as_chunks_mut().0);
+    }
+}
+
+/// Entries as vectors, one for each node.
+fn vectors(entries: &[f64]) -> &[[f64; 3]] {
+    entries.as_chunks().0
+}

@@ -1,0 +1,184 @@
+//! Choice of the preconditioner of conjugate gradients: the blocks on the diagonal where these take few
+//! iterations, multigrid where they take many.
+//!
+//! Blocks cost next to nothing. They serve bodies that are soft for their time step: there inertia holds
+//! each node by itself. Without inertia, and in a fine mesh, their iterations grow with the number of
+//! elements along an edge, and those of [multigrid](crate::system::linear::multigrid) do not; an iteration of
+//! it costs six times as much, and its levels take the time of ten more to make.
+//!
+//! So blocks are chosen where inertia has enough of a share in the diagonal, and are left where they do not
+//! get on. Levels are made for the first system of a step that needs them. For later systems the finest level
+//! takes the current matrix, and the others serve on while they cost no more iterations than making them anew
+//! would, measured by what fresh ones took for each digit.
+//!
+//! All of this is decided by the matrix and by numbers of iterations, never by a clock, and nothing is kept
+//! from one step for the next: a step depends on the state before it alone, to the last bit, whether a run
+//! was interrupted there or not.
+
+use crate::system::linear::LinearError;
+use crate::system::linear::block_jacobi::BlockJacobi;
+use crate::system::linear::conjugate_gradients::{End, Iteration};
+use crate::system::linear::multigrid::Multigrid;
+use crate::system::nodal_stiffness::NodalStiffness;
+
+/// Iterations for each digit of the solution that blocks on the diagonal are given.
+const BLOCKS: f64 = 20.0;
+
+/// Share of inertia in the diagonal from which on blocks are chosen.
+///
+/// With a share s the condition of D⁻¹A is about 2.8/s, and blocks take 1.15 √(2.8/s) iterations for each
+/// digit: here fourteen, the time that levels take.
+const SOFT: f64 = 0.02;
+
+/// Iterations in the time of which levels can be made anew.
+const SET_UP: f64 = 10.0;
+
+/// A positive definite approximation of the inverse of a matrix, zero at pinned nodes.
+#[derive(Clone)]
+pub(super) struct Preconditioner {
+    blocks: BlockJacobi,
+    multigrid: Multigrid,
+    in_use: InUse,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum InUse {
+    /// To be chosen.
+    Nothing,
+    Blocks,
+    /// Levels of the current matrix.
+    Fresh,
+    /// Levels of an earlier matrix, but for the finest, and the iterations for each digit that they took
+    /// fresh.
+    Old {
+        for_a_digit: f64,
+    },
+    /// Levels are to be made.
+    Wanted,
+}
+
+impl Preconditioner {
+    pub(super) fn new(nodes: usize) -> Self {
+        Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::default(), in_use: InUse::Nothing }
+    }
+
+    /// Forgets all that earlier systems have taught.
+    pub(super) fn forget(&mut self) {
+        self.in_use = InUse::Nothing;
+    }
+
+    pub(super) fn is_chosen(&self) -> bool {
+        self.in_use != InUse::Nothing
+    }
+
+    /// Chooses by the share of inertia in the diagonal.
+    pub(super) fn choose(&mut self, softness: f64) {
+        self.in_use = if softness >= SOFT { InUse::Blocks } else { InUse::Wanted };
+    }
+
+    /// Takes the matrix with the nodes at `x`.
+    pub(super) fn take(
+        &mut self,
+        stiffness: &NodalStiffness,
+        is_free: &[bool],
+        x: &[[f64; 3]],
+    ) -> Result<(), LinearError> {
+        let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
+        match self.in_use {
+            InUse::Nothing | InUse::Blocks => self.blocks.factor(|node| matrix.diagonal(node)),
+            InUse::Old { .. } => self.multigrid.take(matrix, is_free),
+            InUse::Fresh | InUse::Wanted => {
+                self.multigrid.set_up(matrix, graph, order, is_free, x)?;
+                self.in_use = InUse::Fresh;
+            }
+        }
+        Ok(())
+    }
+
+    /// Computes about A⁻¹ r.
+    pub(super) fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
+        match self.in_use {
+            InUse::Nothing | InUse::Blocks => self.blocks.solve(r, z),
+            _ => self.multigrid.solve(r, z),
+        }
+    }
+
+    /// Number of iterations after which a system that is solved to this tolerance is begun again with another
+    /// preconditioner.
+    pub(super) fn patience(&self, tolerance: f64) -> usize {
+        let digits = -tolerance.log10();
+        match self.in_use {
+            InUse::Blocks => (digits * BLOCKS).ceil() as usize,
+            InUse::Old { for_a_digit } => (2.0 * (digits * for_a_digit + SET_UP)) as usize,
+            InUse::Nothing | InUse::Fresh | InUse::Wanted => usize::MAX,
+        }
+    }
+
+    /// Chooses the preconditioner of the next system by how one was solved to this tolerance; true if that
+    /// one is to be solved again.
+    pub(super) fn judge(&mut self, Iteration { iterations, end }: Iteration, tolerance: f64) -> bool {
+        let (digits, iterations) = (-tolerance.log10(), iterations as f64);
+        let has_failed = matches!(end, End::Limit | End::NotFinite);
+        match self.in_use {
+            InUse::Blocks if end == End::Limit => {
+                self.in_use = InUse::Wanted;
+                return true;
+            }
+            InUse::Fresh if end == End::Converged => {
+                self.in_use = InUse::Old { for_a_digit: iterations / digits };
+            }
+            // A matrix that is not definite says nothing about the next one.
+            InUse::Fresh => self.in_use = InUse::Wanted,
+            InUse::Old { .. } if has_failed => {
+                self.in_use = InUse::Wanted;
+                return true;
+            }
+            InUse::Old { for_a_digit } if iterations > digits * for_a_digit + SET_UP => {
+                self.in_use = InUse::Wanted;
+            }
+            InUse::Nothing | InUse::Blocks | InUse::Old { .. } | InUse::Wanted => {}
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(in_use: InUse, iterations: usize, end: End, tolerance: f64) -> (InUse, bool) {
+        let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0) };
+        let again = preconditioner.judge(Iteration { iterations, end }, tolerance);
+        (preconditioner.in_use, again)
+    }
+
+    #[test]
+    fn blocks_are_chosen_where_inertia_counts_and_left_where_they_take_too_long() {
+        let mut preconditioner = Preconditioner::new(0);
+        assert!(!preconditioner.is_chosen());
+        preconditioner.choose(0.0);
+        assert_eq!(preconditioner.in_use, InUse::Wanted);
+        preconditioner.choose(0.5);
+        assert_eq!(preconditioner.in_use, InUse::Blocks);
+        assert_eq!((preconditioner.patience(1e-3), preconditioner.patience(0.5)), (60, 7));
+        preconditioner.forget();
+        assert!(!preconditioner.is_chosen());
+        assert_eq!(after(InUse::Blocks, 30, End::Converged, 1e-3), (InUse::Blocks, false));
+        assert_eq!(after(InUse::Blocks, 60, End::Limit, 1e-3), (InUse::Wanted, true));
+        assert_eq!(after(InUse::Blocks, 5, End::NegativeCurvature, 1e-3), (InUse::Blocks, false));
+    }
+
+    #[test]
+    fn levels_serve_as_long_as_they_are_worth_it() {
+        let old = InUse::Old { for_a_digit: 5.0 };
+        assert_eq!(after(InUse::Fresh, 15, End::Converged, 1e-3), (old, false));
+        assert_eq!(Preconditioner { in_use: old, ..Preconditioner::new(0) }.patience(1e-2), 40);
+        assert_eq!(after(old, 19, End::Converged, 1e-2), (old, false));
+        assert_eq!(after(old, 25, End::Converged, 1e-2), (InUse::Wanted, false));
+        assert_eq!(after(old, 40, End::Limit, 1e-2), (InUse::Wanted, true));
+        assert_eq!(after(old, 7, End::NotFinite, 1e-2), (InUse::Wanted, true));
+        assert_eq!(after(InUse::Fresh, 9, End::NegativeCurvature, 1e-3), (InUse::Wanted, false));
+        // Whatever fresh levels cannot solve is not begun again.
+        assert_eq!(after(InUse::Fresh, 900, End::Limit, 1e-3), (InUse::Wanted, false));
+    }
+}

@@ -1,0 +1,62 @@
+//! Groups of neighbouring rows, each of which becomes one row of the next level [VMB96 §5].
+
+use crate::system::graph::Graph;
+
+/// The aggregate of each row.
+pub(super) struct Aggregates {
+    /// `NONE` for rows that are left to the smoother.
+    of_row: Vec<u32>,
+    count: usize,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Aggregates {
+    /// Takes rows in this order: one without neighbours in an aggregate founds one with all its neighbours.
+    /// Rows that are left then join the aggregate that most of their neighbours belong to.
+    ///
+    /// Rows that are not `included`, and those without any neighbour that is, belong to none.
+    pub(super) fn new(graph: &Graph, order: &[u32], included: &[bool]) -> Self {
+        let mut of_row = vec![NONE; graph.rows()];
+        let mut count = 0;
+        let neighbours = |row: u32| {
+            let all = graph.neighbours(row as usize).iter();
+            all.map(|&other| other as usize).filter(|&other| included[other])
+        };
+        for &row in order {
+            let is_founder = included[row as usize]
+                && of_row[row as usize] == NONE
+                && neighbours(row).next().is_some()
+                && neighbours(row).all(|other| of_row[other] == NONE);
+            if is_founder {
+                of_row[row as usize] = count;
+                neighbours(row).for_each(|other| of_row[other] = count);
+                count += 1;
+            }
+        }
+        let founded = of_row.clone();
+        for &row in order {
+            if included[row as usize] && of_row[row as usize] == NONE {
+                let mut around: Vec<u32> = neighbours(row)
+                    .map(|other| founded[other])
+                    .filter(|&aggregate| aggregate != NONE)
+                    .collect();
+                around.sort_unstable();
+                let most = around
+                    .chunk_by(|a, b| a == b)
+                    .max_by_key(|same| (same.len(), std::cmp::Reverse(same[0])));
+                of_row[row as usize] = most.map_or(NONE, |same| same[0]);
+            }
+        }
+        Self { of_row, count: count as usize }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The aggregate of a row, if it has one.
+    pub(super) fn of(&self, row: usize) -> Option<usize> {
+        (self.of_row[row] != NONE).then(|| self.of_row[row] as usize)
+    }
+}

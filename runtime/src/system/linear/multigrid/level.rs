@@ -1,0 +1,388 @@
+//! A level: a matrix, what damps the errors that it can carry, and the way to the next level and back.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::aggregation::Aggregates;
+use super::rows::{Columns, Rows, WholeRows, coarse_rows, graph_of};
+use crate::system::graph::Graph;
+use crate::system::linear::LinearError;
+use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+
+/// Rows that one thread takes without a further division.
+pub(super) const ROWS: usize = 1024;
+
+/// Degree of the polynomials.
+const DEGREE: usize = 2;
+
+/// Smallest eigenvalue that a polynomial damps, relative to the largest.
+const DAMPED: f32 = 0.1;
+
+/// Iterations of the power method, for the first matrix and for each later one, and what its result may miss.
+const FIRST_POWERS: usize = 12;
+const POWERS: usize = 3;
+const MARGIN: f64 = 1.1;
+
+/// A motion of an aggregate that is smaller than this beside its parts in others is one of them.
+const DEPENDENT: f64 = 1e-6;
+
+/// A matrix in f32 and memory for a cycle.
+#[derive(Clone)]
+pub(super) struct Level<const N: usize> {
+    matrix: SymmetricBlocks<f32, N>,
+    /// Inverses of the blocks on the diagonal; zero for rows that are not included.
+    inverses: Vec<[[f32; N]; N]>,
+    /// Bound of the eigenvalues of D⁻¹A.
+    largest: f32,
+    /// The eigenvector of the largest of them, as far as it is known.
+    roughest: Vec<[f32; N]>,
+    prolongation: Rows<f32, N, 6>,
+    columns: Columns,
+    x: Vec<[f32; N]>,
+    /// b − A x.
+    residual: Vec<[f32; N]>,
+    step: Vec<[f32; N]>,
+    product: Vec<[f32; N]>,
+}
+
+/// Matrix, graph and motions that the next level is made of.
+pub(super) struct Coarse {
+    pub(super) matrix: SymmetricBlocks<f64, 6>,
+    pub(super) graph: Graph,
+    /// Rigid motions of the body as motions of the aggregates.
+    pub(super) motions: Vec<[[f64; 6]; 6]>,
+}
+
+impl<const N: usize> Level<N> {
+    /// The level of `scale` times a matrix, and the one after it.
+    pub(super) fn new(
+        matrix: &SymmetricBlocks<f64, N>,
+        scale: f64,
+        graph: &Graph,
+        order: &[u32],
+        included: &[bool],
+        motions: &[[[f64; 6]; N]],
+    ) -> Result<(Self, Coarse), LinearError> {
+        let zeros = || vec![[0.0; N]; included.len()];
+        let mut level = Self {
+            matrix: SymmetricBlocks::new(matrix.pattern().clone())?,
+            inverses: vec![[[0.0; N]; N]; included.len()],
+            largest: 0.0,
+            roughest: (0..included.len()).map(anything).collect(),
+            prolongation: Rows::new(),
+            columns: Columns::new(&Rows::<f32, N, 6>::new(), 0),
+            x: zeros(),
+            residual: zeros(),
+            step: zeros(),
+            product: zeros(),
+        };
+        level.replace(matrix, scale, included);
+        level.find_largest(FIRST_POWERS);
+
+        let aggregates = Aggregates::new(graph, order, included);
+        let (tentative, motions) = orthonormal(&aggregates, motions);
+        let whole = WholeRows::new(matrix.pattern());
+        let mut prolongation = whole.multiply(matrix, included, &tentative, aggregates.len());
+        let damping = scale * MARGIN * 4.0 / (3.0 * f64::from(level.largest));
+        prolongation.for_each_row(|row, blocks| {
+            let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
+            for (column, block) in blocks {
+                let product = *block;
+                *block = match tentative.row(row).next() {
+                    Some((aggregate, tentative)) if aggregate == column => *tentative,
+                    _ => [[0.0; 6]; N],
+                };
+                for r in 0..N {
+                    for k in 0..N {
+                        for c in 0..6 {
+                            block[r][c] -= inverse[r][k] * product[k][c];
+                        }
+                    }
+                }
+            }
+        });
+        let product = whole.multiply(matrix, included, &prolongation, aggregates.len());
+        let columns = Columns::new(&prolongation, aggregates.len());
+        let upper = coarse_rows(&prolongation, &columns, &product);
+        let graph = graph_of(&upper);
+        let order: Vec<u32> = (0..graph.rows() as u32).collect();
+        let pattern = Arc::new(Pattern::new(&graph, &order)?);
+        let mut coarse = SymmetricBlocks::new(pattern.clone())?;
+        for row in 0..graph.rows() {
+            for (block, column) in pattern.upper(row) {
+                if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
+                    coarse.blocks_mut()[block] = *entries;
+                }
+            }
+        }
+        keep_regular(&mut coarse);
+        level.prolongation = prolongation.map(|entry| entry as f32);
+        level.columns = columns;
+        Ok((level, Coarse { matrix: coarse, graph, motions }))
+    }
+
+    /// Takes `scale` times a matrix of the same pattern.
+    pub(super) fn take(&mut self, matrix: &SymmetricBlocks<f64, N>, scale: f64, included: &[bool]) {
+        self.replace(matrix, scale, included);
+        self.find_largest(POWERS);
+    }
+
+    fn replace(&mut self, matrix: &SymmetricBlocks<f64, N>, scale: f64, included: &[bool]) {
+        self.matrix.for_each_chunk(|_, first, blocks| {
+            for (single, block) in blocks.iter_mut().zip(&matrix.blocks()[first..]) {
+                *single = block.map(|row| row.map(|entry| (scale * entry) as f32));
+            }
+        });
+        self.inverses.par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, single)| {
+            *single = match included[row] {
+                true => inverse(&matrix.diagonal(row).map(|row| row.map(|entry| scale * entry)))
+                    .map(|row| row.map(|entry| entry as f32)),
+                false => [[0.0; N]; N],
+            };
+        });
+    }
+
+    /// Bounds the eigenvalues of D⁻¹A by so many iterations of the power method.
+    fn find_largest(&mut self, iterations: usize) {
+        let Self { matrix, roughest, product, inverses, .. } = self;
+        let mut largest = 1.0;
+        for _ in 0..iterations {
+            matrix.multiply(roughest, product);
+            let rows = roughest.par_iter_mut().zip(&*product).zip(&*inverses).with_min_len(ROWS);
+            rows.for_each(|((x, product), inverse)| *x = times(inverse, product));
+            let square: f64 = roughest.as_flattened().iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+            if square > 0.0 && square.is_finite() {
+                largest = square.sqrt();
+                let unit = (1.0 / largest) as f32;
+                roughest.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = x.map(|x| unit * x));
+            }
+        }
+        self.largest = (MARGIN * largest) as f32;
+    }
+
+    pub(super) fn coarse_rows(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Damps the error of x = 0 for a right side, and hands the residual on.
+    pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]]) {
+        self.x.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = [0.0; N]);
+        self.residual.copy_from_slice(b);
+        self.smooth(true);
+        let Self { residual, prolongation, columns, .. } = self;
+        coarse.par_iter_mut().with_min_len(ROWS / 16).enumerate().for_each(|(column, coarse)| {
+            let mut sum = [0.0; 6];
+            for (row, index) in columns.column(column) {
+                let (block, residual) = (prolongation.block(index), &residual[row]);
+                for k in 0..N {
+                    for c in 0..6 {
+                        sum[c] += block[k][c] * residual[k];
+                    }
+                }
+            }
+            *coarse = sum;
+        });
+    }
+
+    /// Adds the correction of the next level, and damps what it has roughened.
+    pub(super) fn up(&mut self, coarse: &[[f32; 6]]) {
+        let Self { step, prolongation, .. } = self;
+        step.par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, step)| {
+            let mut sum = [0.0; N];
+            for (column, block) in prolongation.row(row) {
+                for r in 0..N {
+                    for c in 0..6 {
+                        sum[r] += block[r][c] * coarse[column][c];
+                    }
+                }
+            }
+            *step = sum;
+        });
+        self.follow();
+        self.smooth(false);
+    }
+
+    /// The solution.
+    pub(super) fn x(&self) -> &[[f32; N]] {
+        &self.x
+    }
+
+    /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is kept up to date on demand.
+    fn smooth(&mut self, keep_residual: bool) {
+        let (theta, delta) = (0.5 * (1.0 + DAMPED) * self.largest, 0.5 * (1.0 - DAMPED) * self.largest);
+        let sigma = theta / delta;
+        let mut rho = 1.0 / sigma;
+        self.advance(0.0, 1.0 / theta);
+        for step in 1..=DEGREE {
+            if step < DEGREE || keep_residual {
+                self.follow();
+            } else {
+                self.add_step();
+            }
+            if step < DEGREE {
+                let next = 1.0 / (2.0 * sigma - rho);
+                self.advance(next * rho, 2.0 * next / delta);
+                rho = next;
+            }
+        }
+    }
+
+    /// step = a step + b D⁻¹ r.
+    fn advance(&mut self, a: f32, b: f32) {
+        let Self { step, residual, inverses, .. } = self;
+        let rows = step.par_iter_mut().zip(residual).zip(inverses).with_min_len(ROWS);
+        rows.for_each(|((step, residual), inverse)| {
+            let damped = times(inverse, residual);
+            for c in 0..N {
+                // The first step may be anything, but is to be forgotten.
+                step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
+            }
+        });
+    }
+
+    /// x += step, r −= A step.
+    fn follow(&mut self) {
+        self.matrix.multiply(&self.step, &mut self.product);
+        let Self { residual, product, .. } = self;
+        residual.par_iter_mut().zip(product).with_min_len(ROWS).for_each(|(residual, product)| {
+            for c in 0..N {
+                residual[c] -= product[c];
+            }
+        });
+        self.add_step();
+    }
+
+    fn add_step(&mut self) {
+        let Self { x, step, .. } = self;
+        x.par_iter_mut().zip(step).with_min_len(ROWS).for_each(|(x, step)| {
+            for c in 0..N {
+                x[c] += step[c];
+            }
+        });
+    }
+}
+
+/// A vector with a part in every direction: one without symmetry.
+fn anything<const N: usize>(row: usize) -> [f32; N] {
+    std::array::from_fn(|c| {
+        let hash = (N * row + c + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        hash as f32 / (1 << 23) as f32 - 1.0
+    })
+}
+
+fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
+    let mut product = [0.0; N];
+    for r in 0..N {
+        for c in 0..N {
+            product[r] += matrix[r][c] * x[c];
+        }
+    }
+    product
+}
+
+/// The rigid motions of each aggregate, orthonormal, as those of its rows, and those of the body as
+/// combinations of them. A motion that an aggregate of few rows cannot make is zero in both.
+fn orthonormal<const N: usize>(
+    aggregates: &Aggregates,
+    motions: &[[[f64; 6]; N]],
+) -> (Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>) {
+    let mut blocks = motions.to_vec();
+    let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
+    let mut squares = vec![[0.0; 6]; aggregates.len()];
+    let members = || (0..motions.len()).filter_map(|row| Some((row, aggregates.of(row)?)));
+    // Gram and Schmidt, twice, for all aggregates at once.
+    for c in 0..6 {
+        for k in 0..6 {
+            squares.iter_mut().for_each(|square| square[k] = 0.0);
+        }
+        for (row, aggregate) in members() {
+            squares[aggregate][c] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
+        }
+        let before: Vec<f64> = squares.iter().map(|square| square[c]).collect();
+        for _ in 0..2 {
+            let mut along = vec![[0.0; 6]; aggregates.len()];
+            for (row, aggregate) in members() {
+                for k in 0..c {
+                    along[aggregate][k] += (0..N).map(|r| blocks[row][r][k] * blocks[row][r][c]).sum::<f64>();
+                }
+            }
+            for (row, aggregate) in members() {
+                for k in 0..c {
+                    for r in 0..N {
+                        blocks[row][r][c] -= along[aggregate][k] * blocks[row][r][k];
+                    }
+                }
+            }
+            for (combination, along) in combinations.iter_mut().zip(&along) {
+                for k in 0..c {
+                    combination[k][c] += along[k];
+                }
+            }
+        }
+        let mut after = vec![0.0; aggregates.len()];
+        for (row, aggregate) in members() {
+            after[aggregate] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
+        }
+        for (aggregate, combination) in combinations.iter_mut().enumerate() {
+            let is_new = after[aggregate] > DEPENDENT * DEPENDENT * before[aggregate];
+            combination[c][c] = if is_new { after[aggregate].sqrt() } else { 0.0 };
+        }
+        for (row, aggregate) in members() {
+            let length = combinations[aggregate][c][c];
+            for r in 0..N {
+                blocks[row][r][c] = if length > 0.0 { blocks[row][r][c] / length } else { 0.0 };
+            }
+        }
+    }
+    let mut rows = Rows::new();
+    for (row, block) in blocks.into_iter().enumerate() {
+        if let Some(aggregate) = aggregates.of(row) {
+            rows.push(aggregate, block);
+        }
+        rows.end_row();
+    }
+    (rows, combinations)
+}
+
+/// Gives motions that an aggregate cannot make a diagonal, so that there is an inverse.
+fn keep_regular(matrix: &mut SymmetricBlocks<f64, 6>) {
+    for row in 0..matrix.pattern().rows() {
+        let at = matrix.pattern().diagonal(row);
+        let block = &mut matrix.blocks_mut()[at];
+        let largest = (0..6).fold(0.0, |largest: f64, c| largest.max(block[c][c]));
+        for c in 0..6 {
+            if block[c][c] == 0.0 {
+                block[c][c] = if largest > 0.0 { largest } else { 1.0 };
+            }
+        }
+    }
+}
+
+/// The inverse of a symmetric block; if that is not positive definite, that of the unit matrix times its
+/// norm.
+fn inverse<const N: usize>(block: &[[f64; N]; N]) -> [[f64; N]; N] {
+    // Gauss and Jordan without pivoting, which a positive definite block does not need.
+    let mut a = *block;
+    let mut inverse: [[f64; N]; N] = std::array::from_fn(|r| std::array::from_fn(|c| f64::from(r == c)));
+    for k in 0..N {
+        let pivot = a[k][k];
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            let norm = block.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt();
+            let diagonal = if norm > 0.0 && norm.is_finite() { 1.0 / norm } else { 1.0 };
+            return std::array::from_fn(|r| std::array::from_fn(|c| if r == c { diagonal } else { 0.0 }));
+        }
+        for c in 0..N {
+            a[k][c] /= pivot;
+            inverse[k][c] /= pivot;
+        }
+        for r in (0..N).filter(|&r| r != k) {
+            let factor = a[r][k];
+            for c in 0..N {
+                a[r][c] -= factor * a[k][c];
+                inverse[r][c] -= factor * inverse[k][c];
+            }
+        }
+    }
+    inverse
+}

@@ -1,0 +1,290 @@
+//! Sparse matrices of blocks by their rows, and the products that make the matrix of the next level.
+
+use rayon::prelude::*;
+
+use crate::system::graph::Graph;
+use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+
+/// Rows that one thread makes without a further division.
+const ROWS: usize = 512;
+
+/// A matrix of R×C blocks, row by row.
+#[derive(Clone)]
+pub(super) struct Rows<E, const R: usize, const C: usize> {
+    /// Start of each row among the blocks, and the end of the last.
+    starts: Vec<usize>,
+    columns: Vec<u32>,
+    blocks: Vec<[[E; C]; R]>,
+}
+
+impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
+    /// No rows.
+    pub(super) fn new() -> Self {
+        Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
+    }
+
+    /// Ends the row that `push` has filled.
+    pub(super) fn end_row(&mut self) {
+        self.starts.push(self.columns.len());
+    }
+
+    pub(super) fn push(&mut self, column: usize, block: [[E; C]; R]) {
+        self.columns.push(column as u32);
+        self.blocks.push(block);
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The columns and blocks of a row.
+    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[E; C]; R])> {
+        let range = self.starts[row]..self.starts[row + 1];
+        self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
+    }
+
+    pub(super) fn block(&self, index: usize) -> &[[E; C]; R] {
+        &self.blocks[index]
+    }
+
+    /// Hands the columns and blocks of each row to a thread, to change them.
+    pub(super) fn for_each_row(
+        &mut self,
+        change: impl Fn(usize, &mut dyn Iterator<Item = (usize, &mut [[E; C]; R])>) + Sync,
+    ) where
+        E: Send + Sync,
+    {
+        let Self { starts, columns, blocks } = self;
+        let mut rest = blocks.as_mut_slice();
+        let mut parts = Vec::with_capacity(starts.len() / ROWS + 1);
+        let rows = starts.len() - 1;
+        for first in (0..rows).step_by(ROWS) {
+            let end = rows.min(first + ROWS);
+            let (part, after) = rest.split_at_mut(starts[end] - starts[first]);
+            parts.push((first..end, part));
+            rest = after;
+        }
+        parts.into_par_iter().for_each(|(range, mut part)| {
+            for row in range {
+                let (blocks, after) = std::mem::take(&mut part).split_at_mut(starts[row + 1] - starts[row]);
+                let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
+                change(row, &mut columns.zip(blocks));
+                part = after;
+            }
+        });
+    }
+
+    /// Replaces each entry by a function of it.
+    pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
+        let Self { starts, columns, blocks } = self;
+        let blocks = blocks.iter().map(|block| block.map(|row| row.map(&change))).collect();
+        Rows { starts, columns, blocks }
+    }
+
+    /// Makes rows in parallel, in chunks of fixed size.
+    fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<E, R, C>) + Sync, zero: E) -> Self
+    where
+        E: Send + Sync,
+    {
+        let parts: Vec<Self> = (0..rows.div_ceil(ROWS))
+            .into_par_iter()
+            .map_init(
+                || Sum { place: vec![u32::MAX; columns], columns: Vec::new(), blocks: Vec::new(), zero },
+                |sum, part| {
+                    let mut made = Self::new();
+                    for row in part * ROWS..rows.min((part + 1) * ROWS) {
+                        make(row, sum);
+                        sum.finish(&mut made);
+                    }
+                    made
+                },
+            )
+            .collect();
+        let mut all = Self::new();
+        let total = parts.iter().map(|part| part.columns.len()).sum();
+        all.columns.reserve_exact(total);
+        all.blocks.reserve_exact(total);
+        all.starts.reserve_exact(rows);
+        for part in parts {
+            let first = all.columns.len();
+            all.starts.extend(part.starts[1..].iter().map(|end| first + end));
+            all.columns.extend(part.columns);
+            all.blocks.extend(part.blocks);
+        }
+        all
+    }
+}
+
+/// A row that is being summed up.
+struct Sum<E, const R: usize, const C: usize> {
+    /// The place of each column of the matrix in the row; `u32::MAX` where it has none.
+    place: Vec<u32>,
+    columns: Vec<u32>,
+    blocks: Vec<[[E; C]; R]>,
+    zero: E,
+}
+
+impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
+    /// The block of a column, of zeros at first.
+    fn block(&mut self, column: usize) -> &mut [[E; C]; R] {
+        let place = &mut self.place[column];
+        if *place == u32::MAX {
+            *place = self.columns.len() as u32;
+            self.columns.push(column as u32);
+            self.blocks.push([[self.zero; C]; R]);
+        }
+        &mut self.blocks[*place as usize]
+    }
+
+    /// Moves the row to the end of a matrix.
+    fn finish(&mut self, to: &mut Rows<E, R, C>) {
+        self.columns.iter().for_each(|&column| self.place[column as usize] = u32::MAX);
+        to.columns.append(&mut self.columns);
+        to.blocks.append(&mut self.blocks);
+        to.end_row();
+    }
+}
+
+/// All blocks of each row of a symmetric matrix: its column, its index, whether it is transposed.
+pub(super) struct WholeRows {
+    starts: Vec<usize>,
+    blocks: Vec<(u32, u32, bool)>,
+}
+
+impl WholeRows {
+    pub(super) fn new(pattern: &Pattern) -> Self {
+        let rows = pattern.rows();
+        let mut starts = vec![0; rows + 1];
+        let stored =
+            || (0..rows).flat_map(|row| pattern.upper(row).map(move |(block, column)| (row, block, column)));
+        for (row, _, column) in stored() {
+            starts[row + 1] += 1;
+            if column != row {
+                starts[column + 1] += 1;
+            }
+        }
+        for row in 0..rows {
+            starts[row + 1] += starts[row];
+        }
+        let mut next = starts.clone();
+        let mut blocks = vec![(0, 0, false); starts[rows]];
+        for (row, block, column) in stored() {
+            blocks[next[row]] = (column as u32, block as u32, false);
+            next[row] += 1;
+            if column != row {
+                blocks[next[column]] = (row as u32, block as u32, true);
+                next[column] += 1;
+            }
+        }
+        Self { starts, blocks }
+    }
+
+    /// A symmetric matrix with these rows, where they are `included`, times another.
+    pub(super) fn multiply<const N: usize, const C: usize>(
+        &self,
+        matrix: &SymmetricBlocks<f64, N>,
+        included: &[bool],
+        right: &Rows<f64, N, C>,
+        columns: usize,
+    ) -> Rows<f64, N, C> {
+        let make = |row: usize, sum: &mut Sum<f64, N, C>| {
+            if !included[row] {
+                return;
+            }
+            for &(other, block, transposed) in &self.blocks[self.starts[row]..self.starts[row + 1]] {
+                let block = &matrix.blocks()[block as usize];
+                let block = if transposed {
+                    std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]))
+                } else {
+                    *block
+                };
+                for (column, factor) in right.row(other as usize) {
+                    let sum = sum.block(column);
+                    for r in 0..N {
+                        for k in 0..N {
+                            for c in 0..C {
+                                sum[r][c] += block[r][k] * factor[k][c];
+                            }
+                        }
+                    }
+                }
+            }
+        };
+        Rows::make(self.starts.len() - 1, columns, make, 0.0)
+    }
+}
+
+/// The blocks of each column of a matrix by rows: the row, and the index of the block.
+#[derive(Clone)]
+pub(super) struct Columns {
+    starts: Vec<usize>,
+    blocks: Vec<(u32, u32)>,
+}
+
+impl Columns {
+    pub(super) fn new<E: Copy, const R: usize, const C: usize>(
+        matrix: &Rows<E, R, C>,
+        columns: usize,
+    ) -> Self {
+        let mut starts = vec![0; columns + 1];
+        matrix.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
+        for column in 0..columns {
+            starts[column + 1] += starts[column];
+        }
+        let mut next = starts.clone();
+        let mut blocks = vec![(0, 0); matrix.columns.len()];
+        for row in 0..matrix.len() {
+            for index in matrix.starts[row]..matrix.starts[row + 1] {
+                let next = &mut next[matrix.columns[index] as usize];
+                blocks[*next] = (row as u32, index as u32);
+                *next += 1;
+            }
+        }
+        Self { starts, blocks }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Rows and indices of the blocks of a column.
+    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.starts[column]..self.starts[column + 1];
+        self.blocks[range].iter().map(|&(row, index)| (row as usize, index as usize))
+    }
+}
+
+/// The upper half of the symmetric matrix Pᵀ (A P), row by row.
+pub(super) fn coarse_rows<const N: usize, const C: usize>(
+    prolongation: &Rows<f64, N, C>,
+    columns: &Columns,
+    product: &Rows<f64, N, C>,
+) -> Rows<f64, C, C> {
+    let make = |coarse: usize, sum: &mut Sum<f64, C, C>| {
+        // On the diagonal first, also where nothing adds up to it.
+        sum.block(coarse);
+        for (row, index) in columns.column(coarse) {
+            let left = prolongation.block(index);
+            for (column, right) in product.row(row).filter(|&(column, _)| column >= coarse) {
+                let sum = sum.block(column);
+                for k in 0..N {
+                    for r in 0..C {
+                        for c in 0..C {
+                            sum[r][c] += left[k][r] * right[k][c];
+                        }
+                    }
+                }
+            }
+        }
+    };
+    Rows::make(columns.len(), columns.len(), make, 0.0)
+}
+
+/// The graph of a symmetric matrix by the rows of its upper half.
+pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Graph {
+    let above = |row: usize| {
+        upper.row(row).map(|(column, _)| column as u32).filter(move |&column| column as usize != row)
+    };
+    let rows: Vec<Vec<u32>> = (0..upper.len()).map(|row| above(row).collect()).collect();
+    Graph::of_upper(&rows)
+}

@@ -1,0 +1,204 @@
+//! The stiffness of a body as a matrix of one 3×3 block for each two nodes that share an element, for
+//! products.
+//!
+//! Assembled in waves: the stiffnesses of some thousand elements, 720 bytes each, are evaluated into a
+//! buffer that stays in the cache, and each chunk of the matrix gathers its part of them in a fixed order
+//! (see [assembly](super::assemble)) before the next wave. So nothing but the matrix grows with the body,
+//! and the sums have the same bits for any number of threads.
+//!
+//! Pinned nodes have rows too, so that what moves them enters the right side; this module knows no pins.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::assemble::Elastic;
+use super::body::Body;
+use super::element::{Evaluated, Stiffness, pair};
+use super::graph::Graph;
+use super::linear::LinearError;
+use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use super::memory::reserved;
+use super::stiffnesses::ElementStiffnesses;
+use crate::batch::element::TILE;
+use crate::point::Filter;
+
+/// Tiles of a wave: 2.9 MB of stiffnesses.
+const WAVE: usize = 64;
+
+/// The stiffness of a body, N/m: zero at first.
+#[derive(Clone)]
+pub(crate) struct NodalStiffness {
+    shape: Arc<Shape>,
+    matrix: SymmetricBlocks<f64, 3>,
+    wave: Vec<[Stiffness; TILE]>,
+}
+
+/// Graph, order and places, which depend on the mesh alone.
+struct Shape {
+    graph: Graph,
+    order: Vec<u32>,
+    /// The element blocks that each chunk of the matrix gathers.
+    gather: Vec<Gather>,
+}
+
+/// The element blocks that add up to a chunk of the matrix.
+struct Gather {
+    /// The wave and the index of its first contribution, for each wave that has one.
+    waves: Vec<(u32, u32)>,
+    contributions: Vec<Contribution>,
+}
+
+/// A block of an element, and the block of a chunk that it is added to.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Contribution {
+    block: u32,
+    /// Index of the element in its wave.
+    element: u16,
+    pair: u8,
+    transposed: bool,
+}
+
+impl NodalStiffness {
+    /// Finds the places of all blocks, and allocates all memory that is needed.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn new(body: &Body) -> Result<Self, LinearError> {
+        let nodes = body.rest().len();
+        let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes))?;
+        let order = along_a_curve(body.rest());
+        let pattern = Arc::new(Pattern::new(&graph, &order)?);
+        let matrix = SymmetricBlocks::new(pattern.clone())?;
+        let gather = gather(body, &pattern)?;
+        let tiles = body.groups().count().min(WAVE);
+        let mut wave = reserved(tiles)?;
+        wave.resize(tiles, [[[[0.0; 3]; 3]; 10]; TILE]);
+        Ok(Self { shape: Arc::new(Shape { graph, order, gather }), matrix, wave })
+    }
+
+    pub(crate) fn matrix(&self) -> &SymmetricBlocks<f64, 3> {
+        &self.matrix
+    }
+
+    pub(crate) fn matrix_mut(&mut self) -> &mut SymmetricBlocks<f64, 3> {
+        &mut self.matrix
+    }
+
+    pub(crate) fn graph(&self) -> &Graph {
+        &self.shape.graph
+    }
+
+    /// The nodes in an order that keeps neighbours together.
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.shape.order
+    }
+
+    /// Takes gradients and the filtered stiffness where the energies were evaluated last, plus `more` of
+    /// some of the tiles.
+    pub(crate) fn linearise(
+        &mut self,
+        body: &Body,
+        elastic: &mut Elastic,
+        filter: Filter,
+        more: impl Fn(Range<usize>, &mut [[Stiffness; TILE]]),
+    ) -> Evaluated {
+        let Self { shape, matrix, wave } = self;
+        matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
+        let groups = body.groups().count();
+        for (number, first) in (0..groups).step_by(WAVE).enumerate() {
+            let range = first..groups.min(first + WAVE);
+            let tiles = &mut wave[..range.len()];
+            elastic.linearise_groups::<ElementStiffnesses>(body, filter, range.clone(), tiles);
+            more(range, tiles);
+            let elements = tiles.as_flattened();
+            matrix.for_each_chunk(|chunk, _, blocks| {
+                for &Contribution { block, element, pair, transposed } in shape.gather[chunk].of_wave(number)
+                {
+                    let part = &elements[usize::from(element)][usize::from(pair)];
+                    let block = &mut blocks[block as usize];
+                    for r in 0..3 {
+                        for c in 0..3 {
+                            block[r][c] += if transposed { part[c][r] } else { part[r][c] };
+                        }
+                    }
+                }
+            });
+        }
+        elastic.survey()
+    }
+}
+
+impl Gather {
+    fn of_wave(&self, wave: usize) -> &[Contribution] {
+        let at = self.waves.partition_point(|&(other, _)| (other as usize) < wave);
+        let first =
+            |at: usize| self.waves.get(at).map_or(self.contributions.len(), |&(_, first)| first as usize);
+        match self.waves.get(at) {
+            Some(&(other, _)) if other as usize == wave => &self.contributions[first(at)..first(at + 1)],
+            _ => &[],
+        }
+    }
+}
+
+/// Sorts the blocks of all elements by chunk, wave, block and element.
+fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
+    let mut all: Vec<Gather> = reserved(pattern.chunks())?;
+    all.resize_with(pattern.chunks(), || Gather { waves: Vec::new(), contributions: Vec::new() });
+    for (group, (_, elements)) in body.groups().enumerate() {
+        let (wave, tile) = ((group / WAVE) as u32, group % WAVE);
+        for (lane, element) in body.elements()[elements].iter().enumerate() {
+            for i in 0..4 {
+                for j in 0..=i {
+                    // The graph holds each pair of an element's nodes.
+                    let Some((block, transposed)) = pattern.block(element.nodes[i], element.nodes[j]) else {
+                        continue;
+                    };
+                    let chunk = pattern.chunk_of(block);
+                    let gather = &mut all[chunk];
+                    if gather.waves.last().is_none_or(|&(last, _)| last != wave) {
+                        gather.waves.push((wave, gather.contributions.len() as u32));
+                    }
+                    gather.contributions.push(Contribution {
+                        block: (block - pattern.first_block(chunk)) as u32,
+                        element: (tile * TILE + lane) as u16,
+                        pair: pair(i, j) as u8,
+                        transposed,
+                    });
+                }
+            }
+        }
+    }
+    for gather in &mut all {
+        for at in 0..gather.waves.len() {
+            let end =
+                gather.waves.get(at + 1).map_or(gather.contributions.len(), |&(_, first)| first as usize);
+            gather.contributions[gather.waves[at].1 as usize..end].sort_unstable();
+        }
+    }
+    Ok(all)
+}
+
+/// The nodes along a Z-order curve through the body at rest, which keeps neighbours together [Mor66].
+///
+/// [Mor66] Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
+fn along_a_curve(positions: &[[f64; 3]]) -> Vec<u32> {
+    let bound =
+        |c: usize, of: fn(f64, f64) -> f64, start: f64| positions.iter().fold(start, |b, x| of(b, x[c]));
+    let min: [f64; 3] = std::array::from_fn(|c| bound(c, f64::min, f64::INFINITY));
+    let max: [f64; 3] = std::array::from_fn(|c| bound(c, f64::max, f64::NEG_INFINITY));
+    let size = (0..3).fold(0.0, |size: f64, c| size.max(max[c] - min[c]));
+    let unit = if size > 0.0 { f64::from((1_u32 << 20) - 1) / size } else { 0.0 };
+    let spread = |x: f64| {
+        // Two zeros after each bit.
+        let x = x as u64;
+        (0..20).fold(0, |code: u64, bit| code | (x >> bit & 1) << (3 * bit))
+    };
+    let code = |x: &[f64; 3]| (0..3).fold(0, |code, c| code | spread(unit * (x[c] - min[c])) << c);
+    let codes: Vec<u64> = positions.iter().map(code).collect();
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_unstable_by_key(|&node| (codes[node as usize], node));
+    order
+}
+
+#[cfg(test)]
+mod tests;

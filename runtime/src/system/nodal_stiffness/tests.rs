@@ -1,0 +1,74 @@
+use super::*;
+use crate::mesh::tetrahedral_box;
+use crate::random::Random;
+use crate::system::testing::{KIRCHHOFF, shake};
+
+/// A shaken box of more elements than a wave holds.
+fn shaken() -> (Body, Elastic) {
+    let mesh = tetrahedral_box([10, 9, 9], [1.0, 0.9, 0.9]).expect("a box");
+    let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
+    assert!(body.elements().len() > WAVE * TILE);
+    let mut elastic = Elastic::new(&body);
+    elastic.evaluate(&body, &shake(&mut Random::new(3), &mesh.positions, 0.01));
+    (body, elastic)
+}
+
+#[test]
+fn the_product_is_the_sum_of_those_of_the_elements() {
+    let (body, mut elastic) = shaken();
+    let nodes = body.rest().len();
+    let mut random = Random::new(4);
+    let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
+    let mut elements = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::Clamp, &mut elements);
+    let mut expected = vec![[0.0; 3]; nodes];
+    elements.add_product(&body, 1.5, |node| x[node], &mut expected);
+
+    let mut stiffness = NodalStiffness::new(&body).expect("small");
+    let mut found = vec![[f64::NAN; 3]; nodes];
+    // Twice, since nothing may be left from the first time.
+    for _ in 0..2 {
+        let more = |tiles: Range<usize>, to: &mut [[Stiffness; TILE]]| elements.add_tiles_to(0.5, tiles, to);
+        let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp, more);
+        assert!(evaluated.survey.is_clean(), "{evaluated:?}");
+        stiffness.matrix_mut().multiply(&x, &mut found);
+    }
+    let largest = expected.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+        // Sums of some 24 elements times 12 terms, in different orders, which cancel.
+        assert!((found - expected).abs() <= 600.0 * f64::EPSILON * largest, "{found} for {expected}");
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let (body, mut elastic) = shaken();
+            let mut stiffness = NodalStiffness::new(&body).expect("small");
+            stiffness.linearise(&body, &mut elastic, Filter::None, |_, _| {});
+            stiffness.matrix().blocks().to_vec()
+        })
+    };
+    let one = run(1);
+    assert!(one == run(2) && one == run(3));
+}
+
+#[test]
+fn the_curve_keeps_neighbours_together() {
+    let mesh = tetrahedral_box([7, 7, 7], [1.0; 3]).expect("a box");
+    let order = along_a_curve(&mesh.positions);
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    assert!(sorted.iter().enumerate().all(|(at, &node)| at == node as usize), "each node once");
+    // The first 64 of 512 nodes of a cube fill one of its octants.
+    for &node in &order[..64] {
+        assert!(
+            mesh.positions[node as usize].iter().all(|&x| x < 0.5),
+            "{:?}",
+            mesh.positions[node as usize]
+        );
+    }
+    assert_eq!(along_a_curve(&[[2.0; 3]; 3]), [0, 1, 2]);
+}
