@@ -47,8 +47,8 @@ crate::chained::chained!(SimulationSettings {
 /// ```
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
-/// solver, except for the small lists of a report. The same input gives the same bits for any number of
-/// threads of the rayon pool in which `step` is called.
+/// solver, except for the small lists of a report and the levels of multigrid. The same state gives the same
+/// bits for any number of threads of the rayon pool in which `step` is called, and whatever was before it.
 ///
 /// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
 /// takes as much memory again, but for the materials and the symbolic factorisation, which are shared; to
@@ -248,7 +248,14 @@ impl Simulation {
     }
 
     /// A step of any length, infinity included.
+    ///
+    /// Handed to rayon's threads as a whole: a caller that is none of them would otherwise wait for one at
+    /// each of the hundreds of parallel loops.
     fn advance(&mut self, dt: f64) -> Result<StepReport, StepError> {
+        rayon::scope(|_| self.advance_here(dt))
+    }
+
+    fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         self.next.copy_from_slice(&self.positions);
         let mut pins_move = false;
         for &node in self.pins.nodes() {
