@@ -45,9 +45,6 @@ use level::{Coarse, Level, ROWS};
 /// number of their nodes: its factor takes less time than the finest level all the same.
 const FEW: usize = 64;
 
-/// A level that would shrink by less than this is the last.
-const SHRINKS: usize = 2;
-
 /// Growth of the diagonal of the last level, relative to its largest entry, where the factor fails: a
 /// hundredfold more each time.
 const FIRST_GROWTH: f64 = 1e-12;
@@ -98,15 +95,13 @@ impl Multigrid {
         let scale = scale_of(matrix);
         let (finest, mut next) = Level::new(matrix, scale, graph, order, included, &rigid(positions))?;
         let mut coarse = Vec::new();
+        // An aggregate has two rows at least, so that each level halves the one before it.
         let few = FEW.max(positions.len().isqrt() / 2);
         while next.graph.rows() > few {
             let Coarse { matrix, graph, motions } = &next;
             let all = vec![true; graph.rows()];
             let order: Vec<u32> = (0..graph.rows() as u32).collect();
             let (level, after) = Level::new(matrix, scale, graph, &order, &all, motions)?;
-            if SHRINKS * after.graph.rows() > graph.rows() {
-                break;
-            }
             coarse.push(level);
             next = after;
         }
