@@ -1,10 +1,11 @@
 //! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
 //!
-//! This is the interface for finite-element codes that have their own elements: it knows points, not meshes.
-//! A [`Batch`] holds the material, the filter, the instructions and the layout of the slices; its methods are
-//! the kernels. They allocate nothing, but for some 80 kB of room on the first call in each thread. Points go
-//! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
-//! registers hold, and what lies between the stages stays in the inner caches.
+//! This is the interface for finite-element codes that have their own elements: it knows points, and of
+//! meshes the nodes of linear tetrahedra alone ([`Batch::stiffnesses_at`]). A [`Batch`] holds the material,
+//! the filter, the instructions and the layout of the slices; its methods are the kernels. They allocate
+//! nothing, but for some 80 kB of room on the first call in each thread. Points go through in tiles of 64:
+//! decomposition, energy, outputs, each stage with as many points side by side as the registers hold, and
+//! what lies between the stages stays in the inner caches.
 //!
 //! ```
 //! use piola::batch::Batch;
@@ -73,6 +74,7 @@ pub(crate) mod rest;
 mod sink;
 mod stage;
 mod svd_tile;
+mod tetrahedra;
 mod tile;
 mod workspace;
 
@@ -81,6 +83,7 @@ pub use point_by_point::PointBatch;
 pub use sink::Layout;
 pub use stage::Stages;
 pub use svd_tile::SvdTile;
+pub use tetrahedra::{NoSuchNode, Tetrahedra};
 pub use tile::Rows;
 
 #[cfg(all(test, feature = "bodies"))]
@@ -88,13 +91,13 @@ pub(crate) use form::MAX_STIFFNESS_RATIO;
 #[cfg(any(feature = "bodies", test))]
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
-use sink::{Line, Sink, Source};
+use sink::{Sink, Source};
 use stage::{
-    Decompose, Forces, Invariants, Judge, Product, Respond, RespondByInvariants, StiffnessForm, Stress,
-    StressByInvariants, TangentForm,
+    Decompose, Deform, Forces, Invariants, Judge, Product, Respond, RespondByInvariants, StiffnessForm,
+    Stress, StressByInvariants, TangentForm,
 };
 use tile::first_bits;
-use workspace::Workspace;
+use workspace::{Rooms, Workspace};
 
 /// A material with the settings to evaluate it at many points at once.
 #[derive(Clone, Copy)]
@@ -175,11 +178,10 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln()
     /// }
     ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let rubber = Rubber::new(1e6)?;
-    /// let (rest, inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]);
-    /// let statuses: [StatusCell; 2] = Default::default();
-    /// let survey = Batch::new(&rubber).with_statuses(&statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> { let rubber = Rubber::new(1e6)?; let (rest,
+    /// inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0,
+    /// 0.0, -1.0]); let statuses: [StatusCell; 2] = Default::default(); let survey =
+    /// Batch::new(&rubber).with_statuses(&statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
     /// assert_eq!((survey.refused, statuses.map(|status| status.get().refused)), (1, [false, true]));
     /// # Ok(())
     /// # }
@@ -346,6 +348,66 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond_elements(StiffnessForm::Packed, F, rest, gradients, (stiffnesses, 78))
     }
 
+    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], for tetrahedra whose nodes are at `positions`,
+    /// m: F = Ds Dm⁻¹ is made on the way.
+    ///
+    /// `rest` says how many there are. In [`Layout::Lines`] it goes on to the end of the last line; what
+    /// stands there is for tetrahedra with edges of length 1 along the axes.
+    ///
+    /// ```
+    /// use piola::batch::{Batch, Tetrahedra};
+    /// use piola::material;
+    ///
+    /// /// Rubber.
+    /// #[material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let rubber = Rubber::new(1e6, 4e6)?;
+    /// let corners = [[0, 1, 2, 3]];
+    /// let tetrahedra = Tetrahedra::new(4, &corners)?;
+    /// // Dm⁻¹ and the volume; node 1 is drawn away by a tenth of its edge.
+    /// let rest = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
+    /// let positions = [[0.0, 0.0, 0.0], [1.1, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let (mut gradients, mut stiffnesses) = ([0.0; 12], [0.0; 144]);
+    /// Batch::new(&rubber).stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
+    /// let P11 = 1e6 * (1.1 - 1.0 / 1.1) + 4e6 * f64::ln(1.1) / 1.1;
+    /// assert!((gradients[3] - P11 / 6.0).abs() < 1e-9);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn stiffnesses_at(
+        &self,
+        tetrahedra: Tetrahedra<'_>,
+        positions: &[[E; 3]],
+        rest: &[E],
+        gradients: &mut [E],
+        stiffnesses: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.respond_at(StiffnessForm::Full, tetrahedra, positions, rest, gradients, (stiffnesses, 144))
+    }
+
+    /// Gradients and packed stiffnesses as of [`Batch::packed_stiffnesses`], for tetrahedra whose nodes are
+    /// at `positions`, m; see [`Batch::stiffnesses_at`].
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn packed_stiffnesses_at(
+        &self,
+        tetrahedra: Tetrahedra<'_>,
+        positions: &[[E; 3]],
+        rest: &[E],
+        gradients: &mut [E],
+        stiffnesses: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        self.respond_at(StiffnessForm::Packed, tetrahedra, positions, rest, gradients, (stiffnesses, 78))
+    }
+
     fn respond(
         &self,
         form: TangentForm,
@@ -372,38 +434,49 @@ impl<'a, E: Stages> Batch<'a, E> {
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
         self.run(inputs, outputs, |batch, tile| {
             let Tile { workspace, start, count, inputs: [F, rest], outputs: [gradients, stiffnesses] } = tile;
-            let fence = NonTemporal::new();
-            let Workspace { F: lines, points, invariants, derivatives, blocks, rest: shapes, line, .. } =
-                workspace;
+            let (lines, shapes, rooms) = workspace.for_elements();
             let F = Source::new(batch.backend, batch.layout, F, lines);
             let rest = Source::new(batch.backend, batch.layout, rest, shapes);
-            let mut served = batch.derivatives_by_invariants(F, start, count, invariants, derivatives);
-            if served != 0 {
-                let kernel = RespondByInvariants {
-                    F,
-                    invariants,
-                    derivatives,
-                    has_second_invariant: batch.properties.has_second_invariant,
-                    rest,
-                    count,
-                    line,
-                    first: batch.sink(gradients, 0),
-                    second: batch.large_sink(stiffnesses, &fence, 0),
-                };
-                served &= E::stiffness_by_invariants(batch.backend, form, kernel);
-            }
-            if served == first_bits(count) {
-                return Status::default();
-            }
-            batch.decompose(F, count, points);
-            let judged = batch.blocks(points, start, count, blocks);
-            let to = batch.sink(gradients, served);
-            let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
-            let forced = E::forces(batch.backend, kernel);
-            let (has_pole, to) = (batch.properties.has_pole, batch.large_sink(stiffnesses, &fence, served));
-            let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
-            (E::stiffness(batch.backend, form, kernel) | forced | judged) & !served
+            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
         })
+    }
+
+    fn respond_at(
+        &self,
+        form: StiffnessForm,
+        tetrahedra: Tetrahedra<'_>,
+        positions: &[[E; 3]],
+        rest: &[E],
+        gradients: &mut [E],
+        (stiffnesses, components): (&mut [E], usize),
+    ) -> Result<Survey, LengthError> {
+        let group = self.group();
+        let (nodes, points) = (tetrahedra.nodes(), tetrahedra.corners().len().next_multiple_of(group));
+        if positions.len() != nodes {
+            let found = 3 * positions.len();
+            return Err(LengthError { slice: "positions", found, components: 3, points: nodes, group: 1 });
+        }
+        if rest.len() != REST * points {
+            let found = rest.len();
+            return Err(LengthError { slice: "rest", found, components: REST, points, group });
+        }
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
+        self.run([("rest", rest, REST)], outputs, |batch, tile| {
+            let Tile { workspace, start, count, inputs: [rest], outputs: [gradients, stiffnesses] } = tile;
+            let (edges, shapes, rooms) = workspace.for_elements();
+            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
+            tetrahedra.set_edges(start, count, positions, edges);
+            E::deform(batch.backend, Deform { edges, rest, count });
+            batch.respond_elements(form, edges.source(), rest, start, count, rooms, gradients, stiffnesses)
+        })
+    }
+
+    /// Number of points that the layout keeps together.
+    fn group(&self) -> usize {
+        match self.layout {
+            Layout::Points => 1,
+            Layout::Lines => E::LINE,
+        }
     }
 
     /// Computes every tile of slices, each given with its name and the components it holds for a point.
@@ -415,10 +488,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let properties = self.material.properties();
         let (_, first, components) = inputs[0];
-        let group = match self.layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        };
+        let group = self.group();
         let count = first.len() / components / group * group;
         let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
         let lengths =
@@ -460,21 +530,10 @@ struct Call<'a, E> {
     streams: bool,
 }
 
-/// Memory between the stages of a tile for stresses and tangents.
-struct Rooms<'w, E> {
-    points: &'w mut SvdTile<E>,
-    invariants: &'w mut Rows<E, 3>,
-    derivatives: &'w mut Rows<E, 9>,
-    energies: &'w mut Rows<E, 1>,
-    blocks: &'w mut Rows<E, 15>,
-    line: &'w mut Line<E>,
-}
-
 impl<E: Stages> Call<'_, E> {
     /// The deformation gradients of a tile, and room for what comes of them.
     fn enter<'w>(&self, workspace: &'w mut Workspace<E>, F: &'w [E]) -> (Source<'w, E, 9>, Rooms<'w, E>) {
-        let Workspace { F: lines, points, invariants, derivatives, energies, blocks, line, .. } = workspace;
-        let rooms = Rooms { points, invariants, derivatives, energies, blocks, line };
+        let (lines, _, rooms) = workspace.for_elements();
         (Source::new(self.backend, self.layout, F, lines), rooms)
     }
 
@@ -600,6 +659,49 @@ impl<E: Stages> Call<'_, E> {
         let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &fence, served));
         let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
         (E::tangent(self.backend, form, kernel) | stressed | status) & !served
+    }
+
+    /// Gradients and stiffnesses of a tile of elements.
+    #[expect(clippy::too_many_arguments, reason = "a tile with its rooms and its outputs")]
+    fn respond_elements(
+        &self,
+        form: StiffnessForm,
+        F: Source<'_, E, 9>,
+        rest: Source<'_, E, REST>,
+        start: usize,
+        count: usize,
+        rooms: Rooms<'_, E>,
+        gradients: &mut [E],
+        stiffnesses: &mut [E],
+    ) -> Status<u64> {
+        let Rooms { points, invariants, derivatives, blocks, line, .. } = rooms;
+        let fence = NonTemporal::new();
+        let mut served = self.derivatives_by_invariants(F, start, count, invariants, derivatives);
+        if served != 0 {
+            let kernel = RespondByInvariants {
+                F,
+                invariants,
+                derivatives,
+                has_second_invariant: self.properties.has_second_invariant,
+                rest,
+                count,
+                line,
+                first: self.sink(gradients, 0),
+                second: self.large_sink(stiffnesses, &fence, 0),
+            };
+            served &= E::stiffness_by_invariants(self.backend, form, kernel);
+        }
+        if served == first_bits(count) {
+            return Status::default();
+        }
+        self.decompose(F, count, points);
+        let judged = self.blocks(points, start, count, blocks);
+        let to = self.sink(gradients, served);
+        let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
+        let forced = E::forces(self.backend, kernel);
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(stiffnesses, &fence, served));
+        let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
+        (E::stiffness(self.backend, form, kernel) | forced | judged) & !served
     }
 
     /// The filtered blocks of a tile.

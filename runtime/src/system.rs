@@ -7,6 +7,7 @@
 pub(crate) mod assemble;
 mod block_matrix;
 mod body;
+mod csr;
 pub(crate) mod element;
 pub(crate) mod factored;
 mod fill;
@@ -23,6 +24,7 @@ pub(crate) mod testing;
 
 pub use block_matrix::BlockMatrix;
 pub use body::{Body, BodyError, Part};
+pub use csr::{CsrError, CsrPlaces};
 pub use element::Tetrahedron;
 pub use linear::{Cholesky, LinearError};
 pub use operator::StiffnessOperator;

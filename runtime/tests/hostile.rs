@@ -6,7 +6,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use piola::batch::{Batch, FACTORS, Layout, PointBatch, REST};
+use piola::batch::{Batch, FACTORS, Layout, PointBatch, REST, Tetrahedra};
 use piola::mesh::{
     Anchor, Bounds, Embedding, Group, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, tetrahedral_box,
@@ -18,7 +18,7 @@ use piola::step::{
     Damping, Equilibrium, Filtering, InitialGuess, LineSearchSettings, LinearSolver, NewtonSettings,
     Simulation, SimulationSettings, Spring,
 };
-use piola::system::{BlockMatrix, Body, Cholesky, Part, Pattern, Pins, StiffnessOperator};
+use piola::system::{BlockMatrix, Body, Cholesky, CsrPlaces, Part, Pattern, Pins, StiffnessOperator};
 use piola::{Inversion, StatusCell, material};
 
 /// Neo-Hookean solid.
@@ -332,6 +332,40 @@ fn batches() {
         let _ = batch.measured_stresses(measure, &deformations, &mut six);
         let _ = batch.measured_tangents(measure, &deformations, &mut six, &mut tangents);
     });
+}
+
+#[test]
+fn tetrahedra_of_ones_own() {
+    let mut added = 0;
+    check(|hostile| {
+        let (rubber, count, nodes) =
+            (hostile.rubber(), hostile.one_of(&[0_usize, 1, 8, 65]), hostile.node(9));
+        let corners: Vec<[usize; 4]> = (0..count).map(|_| [(); 4].map(|()| hostile.0.below(9))).collect();
+        let Ok(tetrahedra) = Tetrahedra::new(nodes, &corners) else { return };
+        let layout = hostile.one_of(&[Layout::Points, Layout::Lines]);
+        let batch = Batch::new(&rubber).with_layout(layout).with_threads(hostile.0.once_in(2));
+        let points = if layout == Layout::Lines { count.next_multiple_of(8) } else { count };
+        let positions = hostile.points(&vec![[0.5; 3]; nodes.min(20)]);
+        let (rest, mut gradients) = (hostile.numbers(REST * points), hostile.numbers(12 * points));
+        let [mut full, mut packed] = [144, 78].map(|size| hostile.numbers(size * points));
+        let _ = batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut full);
+        let _ = batch.packed_stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut packed);
+
+        let rows = hostile.length(3 * 9).min(100);
+        let mut starts: Vec<i64> = (0..=rows as i64).map(|row| row * rows as i64).collect();
+        let mut columns: Vec<i64> = (0..rows * rows).map(|at| (at % rows) as i64).collect();
+        if hostile.0.once_in(4) && !columns.is_empty() {
+            let (row, at) = (hostile.0.below(starts.len()), hostile.0.below(columns.len()));
+            starts[row] = hostile.one_of(&[-1, 3, i64::MAX]);
+            columns[at] = hostile.one_of(&[-1, 3, i64::MAX]);
+        }
+        let far = hostile.0.once_in(8);
+        let unknowns = |node: usize| (node != 3).then_some(if far { usize::MAX - node } else { 3 * node });
+        let Ok(places) = CsrPlaces::new(tetrahedra, unknowns, &starts, &columns) else { return };
+        let mut values = vec![0.0; hostile.length(columns.len())];
+        added += u64::from(places.add(&full, layout, &mut values).is_ok());
+    });
+    assert!(added > SEEDS / 20, "{added} sums succeed");
 }
 
 #[test]

@@ -5,10 +5,11 @@
 
 use super::material::{Arguments, TileMaterial};
 use super::operator::StiffnessFactors;
-use super::rest::{RestShapes, by_elements, set_edges};
+use super::rest::{RestShapes, by_elements};
 use super::sink::Sink;
 use super::stage::{Decompose, Deform, Forces, Judge, Respond, Stages, StiffnessForm};
 use super::svd_tile::SvdTile;
+use super::tetrahedra::set_edges;
 use super::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;

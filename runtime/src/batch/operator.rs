@@ -16,9 +16,10 @@
 
 use super::form::{Factored, put, put_at_nodes};
 use super::material::{Arguments, TileMaterial};
-use super::rest::{RestShapes, by_elements, set_edges};
+use super::rest::{RestShapes, by_elements};
 use super::sink::{Line, Lines, Sink, Source};
 use super::stage::{Decompose, Deform, Judge, Respond, Stages, StiffnessForm};
+use super::tetrahedra::set_edges;
 use super::tile::for_each_group;
 use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};

@@ -1,4 +1,4 @@
-//! Shapes at rest of a tile's tetrahedra, and how their nodes come into lines and out of them.
+//! Shapes at rest of a tile's tetrahedra, and how what belongs to their nodes comes out of lines.
 
 use super::sink::{Layout, Lines, Sink, Source};
 use crate::mesh::RestShape;
@@ -21,16 +21,6 @@ impl RestShapes {
 
     pub(super) fn source(&self) -> Source<'_, f64, 10> {
         self.0.source()
-    }
-}
-
-/// Stores Ds: row a, column k is coordinate a of corner k + 1 less that of corner 0.
-#[inline]
-pub(super) fn set_edges(edges: &mut Lines<f64, 9>, lane: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) {
-    for a in 0..3 {
-        edges.set(lane, 3 * a, x1[a] - x0[a]);
-        edges.set(lane, 3 * a + 1, x2[a] - x0[a]);
-        edges.set(lane, 3 * a + 2, x3[a] - x0[a]);
     }
 }
 

@@ -78,7 +78,6 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
         Self([[E::default(); N]; TILE])
     }
 
-    #[cfg(feature = "bodies")]
     pub(super) fn set(&mut self, point: usize, k: usize, number: E) {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
     }

@@ -21,7 +21,23 @@ pub struct Workspace<E> {
     pub(super) line: Line<E>,
 }
 
+/// Memory between the stages of a tile for stresses and tangents.
+pub(super) struct Rooms<'w, E> {
+    pub(super) points: &'w mut SvdTile<E>,
+    pub(super) invariants: &'w mut Rows<E, 3>,
+    pub(super) derivatives: &'w mut Rows<E, 9>,
+    pub(super) energies: &'w mut Rows<E, 1>,
+    pub(super) blocks: &'w mut Rows<E, 15>,
+    pub(super) line: &'w mut Line<E>,
+}
+
 impl<E: Scalar> Workspace<E> {
+    /// Room for deformation gradients and for shapes at rest, and what lies between the stages.
+    pub(super) fn for_elements(&mut self) -> (&mut Lines<E, 9>, &mut Lines<E, 10>, Rooms<'_, E>) {
+        let Self { F, rest, points, invariants, derivatives, energies, blocks, line, .. } = self;
+        (F, rest, Rooms { points, invariants, derivatives, energies, blocks, line })
+    }
+
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             F: Lines::zero(),
