@@ -178,10 +178,11 @@ impl<'a, E: Stages> Batch<'a, E> {
     ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln()
     /// }
     ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> { let rubber = Rubber::new(1e6)?; let (rest,
-    /// inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0,
-    /// 0.0, -1.0]); let statuses: [StatusCell; 2] = Default::default(); let survey =
-    /// Batch::new(&rubber).with_statuses(&statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let rubber = Rubber::new(1e6)?;
+    /// let (rest, inside_out) = ([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0]);
+    /// let statuses: [StatusCell; 2] = Default::default();
+    /// let survey = Batch::new(&rubber).with_statuses(&statuses).energies(&[rest, inside_out].concat(), &mut [0.0; 2])?;
     /// assert_eq!((survey.refused, statuses.map(|status| status.get().refused)), (1, [false, true]));
     /// # Ok(())
     /// # }

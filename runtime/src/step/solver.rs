@@ -82,8 +82,8 @@ impl LinearSolver {
     /// The solver that [`LinearSolver::Automatic`] chooses: [`Cholesky`](Self::Cholesky) up to 4000 elements,
     /// beyond that [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000 iterations.
     ///
-    /// This limit is what `cargo speed-report` finds for compact bodies on one thread; thin ones, whose
-    /// factors stay sparse, are served well by a factor beyond it.
+    /// The limit is that of compact bodies on one thread (`cargo speed-report --only growth`); thin ones,
+    /// whose factors stay sparse, are served well by a factor beyond it.
     #[must_use]
     pub fn for_elements(elements: usize) -> Self {
         match elements {

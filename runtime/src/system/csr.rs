@@ -43,8 +43,8 @@ pub struct CsrPlaces {
 }
 
 impl CsrPlaces {
-    /// Finds the places in a matrix whose row r holds the columns `columns[row_starts[r]..row_starts[r +
-    /// 1]]`, in any order.
+    /// Finds the places in a matrix whose row r holds the columns
+    /// `columns[row_starts[r]..row_starts[r + 1]]`, in any order.
     ///
     /// `unknowns` gives the first of the three successive unknowns of a node, or `None` for a node that has
     /// none.
