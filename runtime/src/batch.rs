@@ -225,9 +225,15 @@ impl<'a, E: Stages> Batch<'a, E> {
             if served != 0 {
                 let arguments = batch.arguments(invariants, start, count);
                 served &= !batch.material.tile_gradients_by_invariants(arguments, gradients).refused;
-                let P = batch.sink(&mut *P, 0);
-                let has_second_invariant = batch.properties.has_second_invariant;
-                let kernel = StressByInvariants { F, gradients, has_second_invariant, count, line, P };
+                let kernel = StressByInvariants {
+                    F,
+                    gradients,
+                    has_second_invariant: batch.properties.has_second_invariant,
+                    rest: Source::NONE,
+                    count,
+                    line,
+                    to: batch.sink(&mut *P, 0),
+                };
                 served &= E::stress_by_invariants(batch.backend, kernel);
             }
             if served == first_bits(count) {

@@ -3,6 +3,8 @@
 //! The point and the contract must be testable without the code generator, and against something it has not
 //! written.
 
+#![expect(non_snake_case, reason = "I1, J, W1 as in the literature")]
+
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, Inversion, Material, PAIRS};
 use crate::quotient::{Pair, pole_floor};
@@ -103,6 +105,57 @@ impl Material for NeoHookean {
 
     fn ends_at_zero_volume(&self) -> bool {
         true
+    }
+}
+
+/// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
+pub(crate) struct NeoHookeanByInvariants;
+
+impl Material for NeoHookeanByInvariants {
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        NeoHookean.energy(stretches)
+    }
+
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        NeoHookean.gradient(stretches)
+    }
+
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        NeoHookean.blocks(stretches)
+    }
+
+    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+        NeoHookean.admits(stretches)
+    }
+
+    const HAS_INVARIANTS: bool = true;
+    const HAS_SECOND_INVARIANT: bool = false;
+
+    fn energy_by_invariants<R: Real>(&self, [I1, _, J]: [R; 3]) -> R {
+        let log = J.ln();
+        let volumetric = log * (R::splat(0.5 * LAMBDA) * log - R::splat(MU));
+        R::splat(0.5 * MU) * (I1 - R::splat(3.0)) + volumetric
+    }
+
+    fn gradient_by_invariants<R: Real>(&self, [_, _, J]: [R; 3]) -> [R; 3] {
+        [R::splat(0.5 * MU), R::splat(0.0), (R::splat(LAMBDA) * J.ln() - R::splat(MU)) / J]
+    }
+
+    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
+        let ([W1, W2, WJ], J, zero) = (self.gradient_by_invariants(invariants), invariants[2], R::splat(0.0));
+        [W1, W2, WJ, zero, zero, (R::splat(LAMBDA) / J - WJ) / J, zero, zero, zero]
+    }
+
+    fn admits_invariants<R: Real>(&self, [_, _, J]: [R; 3]) -> R::Mask {
+        R::splat(0.0).less(J)
+    }
+
+    fn has_pole(&self) -> bool {
+        NeoHookean.has_pole()
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        NeoHookean.ends_at_zero_volume()
     }
 }
 

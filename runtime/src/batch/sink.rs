@@ -82,6 +82,12 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
     }
 
+    /// The components of a point.
+    #[cfg(feature = "bodies")]
+    pub(super) fn get(&self, point: usize) -> [E; N] {
+        std::array::from_fn(|k| self.0.as_flattened()[Layout::Lines.index::<E>(point, N, k)])
+    }
+
     /// The numbers of the points from `at` on.
     #[inline(always)]
     pub(super) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, numbers: [R; N]) {

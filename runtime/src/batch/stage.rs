@@ -24,7 +24,9 @@ use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
-use crate::point::{Filter, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite};
+use crate::point::{
+    Filter, Matrix3, Svd, Tangent, entries_are_finite, judge, multiply, stress, stress_is_finite,
+};
 use crate::status::Status;
 
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
@@ -93,36 +95,67 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
     }
 }
 
-/// Kernel from F and W1, W2, WJ to P.
-pub(super) struct StressByInvariants<'a, E> {
+/// Kernel from F and W1, W2, WJ to P, or to the gradients of elements, N, if there are shapes at rest.
+pub(super) struct StressByInvariants<'a, E, const REST: usize> {
     pub(super) F: Source<'a, E, 9>,
     pub(super) gradients: &'a Rows<E, 3>,
     pub(super) has_second_invariant: bool,
+    pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
-    pub(super) P: Sink<'a, E>,
+    pub(super) to: Sink<'a, E>,
 }
 
 /// [`StressByInvariants`] with or without terms in I2.
-struct StressOf<'a, E, const HAS_SECOND: bool>(StressByInvariants<'a, E>);
+struct StressOf<'a, E, const HAS_SECOND: bool, const REST: usize>(StressByInvariants<'a, E, REST>);
 
-impl<E: Scalar, const HAS_SECOND: bool> Kernel<E> for StressOf<'_, E, HAS_SECOND> {
-    /// The points whose stress is finite.
+impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressOf<'_, E, HAS_SECOND, REST> {
+    /// The points whose result is finite.
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let StressByInvariants { F, gradients, count, line, mut P, .. } = self.0;
+        let StressByInvariants { F, gradients, rest, count, line, mut to, .. } = self.0;
         let mut finite = 0;
         for_each_group!(R, count, |at| {
             let F = to_matrix(F.get_all::<R>(at));
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradients.get_all(at));
-            finite |= R::bits(entries_are_finite(&stress)) << at;
-            put_all(to_row_major(stress), P.place::<R, 9>(line, at));
-            P.finish::<R, 9>(line, at, count);
+            let stays_finite = put_stress(&stress, &rest.get_all(at), &mut to, line, at, count);
+            finite |= R::bits(entries_are_finite(&stress) & stays_finite) << at;
         });
         finite & first_bits(count)
     }
+}
+
+/// Runs a kernel with or without terms in I2.
+fn stress_of<E: Scalar, const REST: usize>(backend: Backend, kernel: StressByInvariants<'_, E, REST>) -> u64 {
+    if kernel.has_second_invariant {
+        backend.run(StressOf::<_, true, REST>(kernel))
+    } else {
+        backend.run(StressOf::<_, false, REST>(kernel))
+    }
+}
+
+/// Puts P, or the gradient if there is a shape at rest. Returns where the latter cannot overflow.
+#[inline(always)]
+fn put_stress<R: Lanes, const REST: usize>(
+    stress: &Matrix3<R>,
+    rest: &[R; REST],
+    to: &mut Sink<'_, R::Scalar>,
+    line: &mut Line<R::Scalar>,
+    at: usize,
+    count: usize,
+) -> R::Mask {
+    if REST == 0 {
+        put_all(to_row_major(*stress), to.place::<R, 9>(line, at));
+        to.finish::<R, 9>(line, at, count);
+        return R::Mask::splat(true);
+    }
+    let mut shape = [R::splat(0.0); 10];
+    shape[..REST].copy_from_slice(rest);
+    put_gradient(stress, &shape, to.place::<R, 12>(line, at));
+    to.finish::<R, 12>(line, at, count);
+    gradient_is_finite(stress, &shape)
 }
 
 /// Kernel from the edges of a tile's tetrahedra to their deformation gradients, in place: F = Ds Dm⁻¹.
@@ -318,18 +351,9 @@ where
             Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             second.finish::<R, N>(line, at, count);
             let stress = terms.stress();
-            let mut is_served = terms.keeps_digits() & Form::stays_finite(terms.bound(), &rest);
-            if REST == 0 {
-                put_all(to_row_major(stress), first.place::<R, 9>(line, at));
-                first.finish::<R, 9>(line, at, count);
-            } else {
-                let mut shape = [R::splat(0.0); 10];
-                shape[..REST].copy_from_slice(&rest);
-                put_gradient(&stress, &shape, first.place::<R, 12>(line, at));
-                first.finish::<R, 12>(line, at, count);
-                is_served = is_served & gradient_is_finite(&stress, &shape);
-            }
-            served |= R::bits(is_served) << at;
+            let keeps_digits = terms.keeps_digits() & Form::stays_finite(terms.bound(), &rest);
+            let stays_finite = put_stress(&stress, &rest, &mut first, line, at, count);
+            served |= R::bits(keeps_digits & stays_finite) << at;
         });
         served & first_bits(count)
     }
@@ -405,7 +429,10 @@ pub trait Stages: Scalar {
     #[doc(hidden)]
     fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64;
     #[doc(hidden)]
-    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64;
+    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64;
+    #[cfg(feature = "bodies")]
+    #[doc(hidden)]
+    fn forces_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64;
     #[doc(hidden)]
     fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
@@ -457,12 +484,13 @@ macro_rules! stages {
                 backend.run(kernel)
             }
 
-            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self>) -> u64 {
-                if kernel.has_second_invariant {
-                    backend.run(StressOf::<_, true>(kernel))
-                } else {
-                    backend.run(StressOf::<_, false>(kernel))
-                }
+            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64 {
+                stress_of(backend, kernel)
+            }
+
+            #[cfg(feature = "bodies")]
+            fn forces_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64 {
+                stress_of(backend, kernel)
             }
 
             fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64> {

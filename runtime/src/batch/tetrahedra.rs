@@ -95,7 +95,7 @@ mod tests {
 
     use super::*;
     use crate::batch::{Batch, Layout, LengthError, REST, TileMaterial};
-    use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
+    use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, SaintVenantKirchhoff};
     use crate::lanes::{Backend, Real};
     use crate::point::Filter;
     use crate::random::Random;
@@ -224,6 +224,8 @@ mod tests {
         check::<f64>(&SaintVenantKirchhoff, Filter::None);
         check::<f32>(&SaintVenantKirchhoff, Filter::None);
         check::<f64>(&NeoHookean, Filter::Clamp);
+        check::<f64>(&NeoHookeanByInvariants, Filter::None);
+        check::<f32>(&NeoHookeanByInvariants, Filter::None);
     }
 
     #[test]

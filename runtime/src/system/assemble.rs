@@ -33,7 +33,7 @@ use super::body::Body;
 use super::element::{ElementGroup, Evaluated, Tetrahedron};
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
-use crate::point::Filter;
+use crate::point::{Filter, svd};
 use crate::status::{Status, Survey};
 
 /// Energies and gradients of all elements at the positions evaluated last.
@@ -166,7 +166,8 @@ impl Elastic {
         for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {
             let stiffness = material.rest_stiffness().abs();
             for (lane, element) in body.elements()[elements].iter().enumerate() {
-                let square: f64 = state.group.stretches(lane).iter().map(|stretch| stretch * stretch).sum();
+                let gradient = state.group.deformation_gradient(lane);
+                let square: f64 = gradient.as_flattened().iter().map(|entry| entry * entry).sum();
                 let scale = element.shape.volume * stiffness * square.max(1.0);
                 noise += scale + state.group.energies[lane].abs() + base[lane].abs();
             }
@@ -176,7 +177,9 @@ impl Elastic {
 
     /// The principal stretches of each element where the energies were evaluated last.
     pub(crate) fn stretches(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.groups.iter().flat_map(|state| (0..state.elements.len()).map(|lane| state.group.stretches(lane)))
+        let lanes =
+            self.groups.iter().flat_map(|state| (0..state.elements.len()).map(move |lane| (state, lane)));
+        lanes.map(|(state, lane)| svd(&state.group.deformation_gradient(lane)).stretches)
     }
 
     /// The gradients of each element in the positions of its nodes, N, where they were evaluated last.

@@ -6,9 +6,9 @@
 //! changes when all move alike. **The nodal force is minus that gradient.**
 //!
 //! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages
-//! that share one singular value decomposition per element: the energy decomposes, and gradients and
+//! that share at most one singular value decomposition per element: the energy decomposes, and gradients and
 //! stiffnesses start from what it found. A line search thus pays for one decomposition per trial and the next
-//! Newton iteration for none.
+//! Newton iteration for none. Energies of I1, I2 and J alone need it for filtered stiffnesses only.
 //!
 //! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the
 //! eigenvalues of the 12×12 stiffness instead, as some codes do, gives another matrix on irregular elements;
@@ -28,7 +28,7 @@ use crate::batch::element::{ElementTile, TILE};
 use crate::batch::operator::StiffnessFactors;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
-use crate::point::{Filter, stretches_in_range};
+use crate::point::{Filter, Matrix3, stretches_in_range, svd};
 use crate::status::{Status, Survey};
 
 /// Linear tetrahedron of a body.
@@ -111,8 +111,9 @@ impl ElementGroup {
         }
     }
 
-    pub(crate) fn stretches(&self, lane: usize) -> [f64; 3] {
-        self.tile.stretches(lane)
+    /// F of an element, as evaluated last.
+    pub(crate) fn deformation_gradient(&self, lane: usize) -> Matrix3<f64> {
+        self.tile.deformation_gradient(lane)
     }
 
     /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as
@@ -127,11 +128,11 @@ impl ElementGroup {
         let mut status = self.tile.evaluate(material, corners, &mut self.energies);
         let mut min_det = f64::INFINITY;
         for lane in 0..elements.len() {
-            let stretches = self.tile.stretches(lane);
-            min_det = min_det.min(stretches.iter().product());
+            let F = self.tile.deformation_gradient(lane);
+            min_det = min_det.min(determinant(&F));
             // The energy of a refused element need not be finite.
             let is_refused = status.refused >> lane & 1 == 1;
-            if is_refused && stretches_in_range(stretches) {
+            if is_refused && stretches_in_range(svd(&F).stretches) {
                 status.nonfinite &= !(1 << lane);
             }
         }
@@ -173,6 +174,10 @@ impl ElementGroup {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         of_derivatives(self.tile.factored_stiffnesses(material, filter, gradients, factors))
     }
+}
+
+fn determinant([[a, b, c], [d, e, f], [g, h, i]]: &Matrix3<f64>) -> f64 {
+    a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
 }
 
 /// The status of derivatives alone: the evaluation of the energies has reported refused elements before.

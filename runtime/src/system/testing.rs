@@ -1,6 +1,6 @@
 //! Materials and meshes for the tests of bodies: the runtime knows no particular material.
 
-use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 pub(crate) use crate::material::Scaled;
 use crate::mesh::{TetMesh, tetrahedral_box};
 use crate::random::Random;
@@ -10,6 +10,9 @@ pub(crate) const KIRCHHOFF: Scaled<SaintVenantKirchhoff> =
     Scaled { material: SaintVenantKirchhoff, factor: 3.0e4 };
 pub(crate) const ROTATED: Scaled<RotatedLinear> = Scaled { material: RotatedLinear, factor: 3.0e4 };
 pub(crate) const NEO_HOOKEAN: Scaled<NeoHookean> = Scaled { material: NeoHookean, factor: 3.0e3 };
+
+pub(crate) const BY_INVARIANTS: Scaled<NeoHookeanByInvariants> =
+    Scaled { material: NeoHookeanByInvariants, factor: 3.0e3 };
 
 /// A beam of `cells` cubes along x with sides of 0.1 m, each cut into six tetrahedra around a diagonal.
 pub(crate) fn beam(cells: usize) -> TetMesh {

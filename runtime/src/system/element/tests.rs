@@ -3,7 +3,7 @@ use crate::batch::MAX_STIFFNESS_RATIO;
 use crate::point::svd;
 use crate::random::Random;
 use crate::system::Body;
-use crate::system::testing::{KIRCHHOFF, ROTATED, beam, shake};
+use crate::system::testing::{BY_INVARIANTS, KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 /// A tetrahedron of a beam with its nodes moved at random.
 fn sample(seed: u64, amplitude: f64) -> (Tetrahedron, Vec<[f64; 3]>) {
@@ -95,6 +95,61 @@ fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients()
 fn positions_are_tame(element: &Tetrahedron, positions: &[[f64; 3]]) -> bool {
     let [_, second, third] = svd(&element.deformation_gradient(positions)).stretches;
     second + third > 0.3
+}
+
+#[test]
+fn invariants_give_what_a_decomposition_gives() {
+    let mut refused = 0;
+    for seed in 0..40 {
+        let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.08 });
+        let evaluate = |material: &dyn TileMaterial<f64>| {
+            let mut group = ElementGroup::new(&[element]);
+            let (status, min_det) = group.evaluate(material, &[element], &positions);
+            (Survey::of(status, 0), min_det, group.energies[0])
+        };
+        let (survey, det, energy) = evaluate(&BY_INVARIANTS);
+        let (exact_survey, exact_det, exact_energy) = evaluate(&NEO_HOOKEAN);
+        // Some thirty roundings of sums that are ten times their largest entry.
+        let close = |x: f64, exact: f64, scale: f64| (x - exact).abs() <= 300.0 * f64::EPSILON * scale;
+        assert!(survey == exact_survey && close(det, exact_det, 1.0), "{det} beside {exact_det}");
+        if survey.refused == 1 {
+            refused += 1;
+            continue;
+        }
+        for filter in [Filter::None, Filter::Clamp] {
+            let (gradient, stiffness, survey) = derivatives(&BY_INVARIANTS, &element, &positions, filter);
+            let (exact_gradient, exact_stiffness, exact_survey) =
+                derivatives(&NEO_HOOKEAN, &element, &positions, filter);
+            assert_eq!(survey, exact_survey);
+            let scale = exact_stiffness.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            // Edges of 0.1 m.
+            assert!(close(energy, exact_energy, 0.01 * scale), "{energy} beside {exact_energy}");
+            for (x, exact) in gradient.as_flattened().iter().zip(exact_gradient.as_flattened()) {
+                assert!(close(*x, *exact, 0.1 * scale), "{x} beside {exact}");
+            }
+            for (x, exact) in stiffness.as_flattened().iter().zip(exact_stiffness.as_flattened()) {
+                assert!(close(*x, *exact, scale), "{x} beside {exact}");
+            }
+        }
+    }
+    assert!((1..30).contains(&refused), "{refused} of 40 are inside out");
+}
+
+/// Elements that the invariants do not serve take all of their tile along, and their digits are kept.
+#[test]
+fn an_element_out_of_range_is_decomposed() {
+    let (element, positions) = sample(0, 0.02);
+    let mut elements = [element; 3];
+    // Stretches of 1e60 have no invariants in range.
+    elements[1].shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * 1e60));
+    let mut group = ElementGroup::new(&elements);
+    let (status, _) = group.evaluate(&BY_INVARIANTS, &elements, &positions);
+    let alone = energy(&BY_INVARIANTS, &element, &positions);
+    assert!(Survey::of(status, 0).is_clean(), "{status:?}");
+    assert!(
+        (group.energies[0] - alone).abs() <= 1e-12 * alone.abs() && group.energies[0] == group.energies[2]
+    );
+    assert!(group.energies[1].is_finite() && group.energies[1] > alone);
 }
 
 #[test]

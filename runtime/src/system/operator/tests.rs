@@ -7,7 +7,7 @@ use crate::system::Pins;
 use crate::system::assemble::Elastic;
 use crate::system::pattern::Pattern;
 use crate::system::stiffnesses::ElementStiffnesses;
-use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
+use crate::system::testing::{BY_INVARIANTS, KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
@@ -86,6 +86,7 @@ fn check_against_matrix(material: impl TileMaterial<f64> + 'static, amplitude: f
 fn products_and_diagonal_are_those_of_the_assembled_matrix() {
     check_against_matrix(KIRCHHOFF, 0.01);
     check_against_matrix(NEO_HOOKEAN, 0.005);
+    check_against_matrix(BY_INVARIANTS, 0.005);
     check_against_matrix(ROTATED, 0.01);
     // Moved by more than their size: many elements are inverted.
     check_against_matrix(KIRCHHOFF, 0.2);
