@@ -3,8 +3,6 @@
 //! The point and the contract must be testable without the code generator, and against something it has not
 //! written.
 
-#![expect(non_snake_case, reason = "I1, J, W1 as in the literature")]
-
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, Inversion, Material, PAIRS};
 use crate::quotient::{Pair, pole_floor};
@@ -109,8 +107,10 @@ impl Material for NeoHookean {
 }
 
 /// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
+#[cfg(feature = "batch")]
 pub(crate) struct NeoHookeanByInvariants;
 
+#[cfg(feature = "batch")]
 impl Material for NeoHookeanByInvariants {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         NeoHookean.energy(stretches)
@@ -131,23 +131,23 @@ impl Material for NeoHookeanByInvariants {
     const HAS_INVARIANTS: bool = true;
     const HAS_SECOND_INVARIANT: bool = false;
 
-    fn energy_by_invariants<R: Real>(&self, [I1, _, J]: [R; 3]) -> R {
-        let log = J.ln();
+    fn energy_by_invariants<R: Real>(&self, [i1, _, j]: [R; 3]) -> R {
+        let log = j.ln();
         let volumetric = log * (R::splat(0.5 * LAMBDA) * log - R::splat(MU));
-        R::splat(0.5 * MU) * (I1 - R::splat(3.0)) + volumetric
+        R::splat(0.5 * MU) * (i1 - R::splat(3.0)) + volumetric
     }
 
-    fn gradient_by_invariants<R: Real>(&self, [_, _, J]: [R; 3]) -> [R; 3] {
-        [R::splat(0.5 * MU), R::splat(0.0), (R::splat(LAMBDA) * J.ln() - R::splat(MU)) / J]
+    fn gradient_by_invariants<R: Real>(&self, [_, _, j]: [R; 3]) -> [R; 3] {
+        [R::splat(0.5 * MU), R::splat(0.0), (R::splat(LAMBDA) * j.ln() - R::splat(MU)) / j]
     }
 
     fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
-        let ([W1, W2, WJ], J, zero) = (self.gradient_by_invariants(invariants), invariants[2], R::splat(0.0));
-        [W1, W2, WJ, zero, zero, (R::splat(LAMBDA) / J - WJ) / J, zero, zero, zero]
+        let ([w1, w2, wj], j, zero) = (self.gradient_by_invariants(invariants), invariants[2], R::splat(0.0));
+        [w1, w2, wj, zero, zero, (R::splat(LAMBDA) / j - wj) / j, zero, zero, zero]
     }
 
-    fn admits_invariants<R: Real>(&self, [_, _, J]: [R; 3]) -> R::Mask {
-        R::splat(0.0).less(J)
+    fn admits_invariants<R: Real>(&self, [_, _, j]: [R; 3]) -> R::Mask {
+        R::splat(0.0).less(j)
     }
 
     fn has_pole(&self) -> bool {

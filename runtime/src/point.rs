@@ -3,12 +3,12 @@
 //! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ
 //! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF
 //! as a block-diagonal map between the frames ([`tangent`], which derives it), made semidefinite on request
-//! ([`mod@project`]). Bodies that hardly
-//! deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that have their
-//! own elements find other [`measures`] of stress here, with their tangents, the [`split`](mod@split) into
-//! shape and volume, and points in the [`plane`]. Everything is generic over the real type, and what cannot
-//! be computed is reported in a [`Status`] instead of an error, because a point may be one of many in a
-//! batch.
+//! ([`mod@project`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where there is one. Bodies
+//! that hardly deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that
+//! have their own elements find other [`measures`] of stress here, with their tangents, the
+//! [`split`](mod@split) into shape and volume, and points in the [`plane`]. Everything is generic over the
+//! real type, and what cannot be computed is reported in a [`Status`] instead of an error, because a point
+//! may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
@@ -23,6 +23,7 @@ use crate::material::{Blocks, Response};
 use crate::quotient::pole_floor;
 use crate::status::Status;
 
+mod dense;
 pub mod gradient;
 pub(crate) mod invariants;
 pub(crate) mod matrix;
@@ -40,6 +41,7 @@ mod tests;
 #[cfg(test)]
 mod twice;
 
+pub use dense::{DensePoint, evaluate_dense};
 pub use gradient::{SvdGradient, svd_gradient};
 use invariants::{invariants, stress_by_invariants};
 #[cfg(feature = "batch")]

@@ -8,12 +8,18 @@
 use piola::Real;
 use piola::Status;
 use piola::material::Material;
-use piola::point::{self, Filter, Matrix3, Point, Svd};
+use piola::point::{self, DensePoint, Filter, Matrix3, Point, Svd};
 
 /// [`point::evaluate`].
 #[inline(never)]
 pub fn evaluate<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> Point<R> {
     point::evaluate(material, F, filter)
+}
+
+/// [`point::evaluate_dense`].
+#[inline(never)]
+pub fn evaluate_dense<R: Real>(material: &impl Material, F: &Matrix3<R>, filter: Filter) -> DensePoint<R> {
+    point::evaluate_dense(material, F, filter)
 }
 
 /// [`point::evaluate_energy`].

@@ -23,7 +23,7 @@ use piola::point::project::Filter;
 use piola::{Inversion, Real, Status, Survey};
 use piola_materials::{CATALOGUE, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, Visitor};
 use piola_tests::cases::{Case, Quantity};
-use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
+use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
 use piola_tests::declared;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
@@ -263,6 +263,7 @@ impl Judge<'_> {
         let (stress, of_stress) = evaluate_stress(material, &deformation);
         let plain = evaluate(material, &deformation, Filter::None);
         let clamped = evaluate(material, &deformation, Filter::Clamp);
+        let dense = evaluate_dense(material, &deformation, Filter::None);
         let wide = |values: &[R]| values.iter().map(|&x| widen(x)).collect::<Vec<_>>();
         let results = [
             (Quantity::Energy, of_energy, wide(&[energy])),
@@ -270,6 +271,8 @@ impl Judge<'_> {
             (Quantity::Stress, plain.status, wide(plain.stress.as_flattened())),
             (Quantity::Tangent, plain.status, wide(plain.tangent.to_matrix().as_flattened())),
             (Quantity::Projected, clamped.status, wide(clamped.tangent.to_matrix().as_flattened())),
+            (Quantity::Stress, dense.status, wide(dense.stress.as_flattened())),
+            (Quantity::Tangent, dense.status, wide(dense.tangent.as_flattened())),
         ];
         self.verdicts(precision, R::UNIT_ROUNDOFF, |x| R::splat(x).is_finite(), results)
     }
@@ -315,40 +318,41 @@ impl Judge<'_> {
         Backend::available().flat_map(judge).collect()
     }
 
-    /// `holds` is whether the format has a finite number near one.
-    fn verdicts(
+    /// `holds` is whether the format has a finite number near one. The first two results are energy and
+    /// stress, each computed alone; the others are of points with both stress and tangent.
+    fn verdicts<const N: usize>(
         &self,
         precision: &'static str,
         unit_roundoff: f64,
         holds: impl Fn(f64) -> bool,
-        results: [(Quantity, Status<bool>, Vec<f64>); 5],
+        results: [(Quantity, Status<bool>, Vec<f64>); N],
     ) -> Vec<Judgement> {
         let leaves = |quantity| !self.case.reference(quantity).into_iter().all(&holds);
-        // A point with a tangent computes the stress too, and its one status speaks for both.
-        let point_leaves = leaves(Quantity::Stress) || leaves(Quantity::Tangent);
-        let something_leaves =
-            [leaves(Quantity::Energy), leaves(Quantity::Stress), point_leaves, point_leaves, point_leaves];
-        let judgement =
-            |((quantity, status, values), something_leaves): ((_, Status<bool>, Vec<f64>), bool)| {
-                let verdict = match status {
-                    Status { refused: true, .. } => Verdict::Status("refused, though inside the domain"),
-                    Status { nonfinite: true, .. } if !something_leaves => {
-                        Verdict::Status("flagged, though the format holds it")
-                    }
-                    Status { nonfinite, .. } if leaves(quantity) => {
-                        if nonfinite {
-                            Verdict::Flagged
-                        } else {
-                            Verdict::Status("not flagged as beyond the format")
-                        }
-                    }
-                    _ => {
-                        let noise = if quantity == Quantity::Energy { self.terms } else { 0.0 };
-                        Verdict::Error(self.case.error(quantity, &values, noise, unit_roundoff))
-                    }
-                };
-                Judgement { precision, quantity, verdict }
+        let judgement = |(index, (quantity, status, values)): (usize, (_, Status<bool>, Vec<f64>))| {
+            let something_leaves = match index {
+                0 | 1 => leaves(quantity),
+                // The one status of a point speaks for both.
+                _ => leaves(Quantity::Stress) || leaves(Quantity::Tangent),
             };
-        results.into_iter().zip(something_leaves).map(judgement).collect()
+            let verdict = match status {
+                Status { refused: true, .. } => Verdict::Status("refused, though inside the domain"),
+                Status { nonfinite: true, .. } if !something_leaves => {
+                    Verdict::Status("flagged, though the format holds it")
+                }
+                Status { nonfinite, .. } if leaves(quantity) => {
+                    if nonfinite {
+                        Verdict::Flagged
+                    } else {
+                        Verdict::Status("not flagged as beyond the format")
+                    }
+                }
+                _ => {
+                    let noise = if quantity == Quantity::Energy { self.terms } else { 0.0 };
+                    Verdict::Error(self.case.error(quantity, &values, noise, unit_roundoff))
+                }
+            };
+            Judgement { precision, quantity, verdict }
+        };
+        results.into_iter().enumerate().map(judgement).collect()
     }
 }

@@ -51,6 +51,8 @@ macro_rules! declare_response {
             )*
             /// [`Material::HAS_INVARIANTS`].
             fn has_invariants(&self) -> bool;
+            /// [`Material::HAS_SECOND_INVARIANT`].
+            fn has_second_invariant(&self) -> bool;
             /// [`Material::HAS_ENERGY_BY_INVARIANTS`].
             fn has_energy_by_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
@@ -75,6 +77,10 @@ macro_rules! declare_response {
             #[inline]
             fn has_invariants(&self) -> bool {
                 M::HAS_INVARIANTS
+            }
+            #[inline]
+            fn has_second_invariant(&self) -> bool {
+                M::HAS_SECOND_INVARIANT
             }
             #[inline]
             fn has_energy_by_invariants(&self) -> bool {

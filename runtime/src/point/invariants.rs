@@ -26,7 +26,6 @@ use super::svd::determinant;
 use super::{Matrix3, entries_are_finite};
 use crate::lanes::Real;
 
-#[cfg(feature = "batch")]
 pub(crate) mod tangent;
 
 /// I1, I2, J; and whether all of them, and what is computed from them, stay in range.

@@ -104,12 +104,14 @@ impl<R: Real> Coordinates<R> for Entries {
 }
 
 /// The rows of W as given.
+#[cfg(feature = "batch")]
 pub(crate) struct RowsOf<R> {
     rows: Matrix3<R>,
     normals: Matrix3<R>,
     metric: Matrix3<R>,
 }
 
+#[cfg(feature = "batch")]
 impl<R: Real> RowsOf<R> {
     #[inline(always)]
     pub(crate) fn new(W: Matrix3<R>) -> Self {
@@ -117,6 +119,7 @@ impl<R: Real> RowsOf<R> {
     }
 }
 
+#[cfg(feature = "batch")]
 impl<R: Real> Coordinates<R> for RowsOf<R> {
     #[inline(always)]
     fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
@@ -201,6 +204,7 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
     }
 
     /// A bound of the entries of dP/dF, Pa.
+    #[cfg(feature = "batch")]
     #[inline(always)]
     pub(crate) fn bound(&self) -> R {
         self.bounds.0
