@@ -37,6 +37,21 @@ type InTurns<R> = <R as Lanes>::Interleaved;
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 
+/// Decomposes the points of a tile on these lanes, but for exact axes.
+macro_rules! decompose {
+    ($R:ty, $F:ident, $count:ident, $is_signed:ident, $points:ident) => {
+        if $is_signed {
+            for_each_group!($R, $count, |at| {
+                $points.set(at, &unaligned_signed_by_determinant(&to_matrix($F.get_all::<$R>(at))));
+            });
+        } else {
+            for_each_group!($R, $count, |at| {
+                $points.set(at, &unaligned(&to_matrix($F.get_all::<$R>(at))));
+            });
+        }
+    };
+}
+
 /// Kernel from the deformation gradients of a tile to frames and stretches.
 pub(super) struct Decompose<'a, E> {
     pub(super) F: Source<'a, E, 9>,
@@ -52,14 +67,10 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
         let Self { F, count, is_signed, points } = self;
-        if is_signed {
-            for_each_group!(InTurns<R>, count, |at| {
-                points.set(at, &unaligned_signed_by_determinant(&to_matrix(F.get_all::<InTurns<R>>(at))));
-            });
+        if count <= R::LANES {
+            decompose!(R, F, count, is_signed, points);
         } else {
-            for_each_group!(InTurns<R>, count, |at| {
-                points.set(at, &unaligned(&to_matrix(F.get_all::<InTurns<R>>(at))));
-            });
+            decompose!(InTurns<R>, F, count, is_signed, points);
         }
         // Apart from the loops above, which need all registers.
         for_each_group!(R, count, |at| {
