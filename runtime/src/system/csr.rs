@@ -100,8 +100,9 @@ impl CsrPlaces {
     /// [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) writes them in this layout, to the values of
     /// the matrix, in the order of the tetrahedra.
     ///
-    /// # Errors [`LengthError`] if there are not as many stiffnesses as tetrahedra, or values as entries.
-    /// The values are then as they were.
+    /// # Errors
+    /// [`LengthError`] if there are not as many stiffnesses as tetrahedra, or values as entries. The values
+    /// are then as they were.
     pub fn add<E: Scalar>(
         &self,
         stiffnesses: &[E],
