@@ -12,6 +12,7 @@
 //!
 //! * [`invariants`]: \[TSIF05\], through tr C, C:C and det C;
 //! * [`direct`]: through I1, I2 and J, without a decomposition;
+//! * [`polar`]: rotated linear elasticity through F = R S;
 //! * [`automatic`]: by dual numbers;
 //! * [`differences`]: by central differences of P.
 //!
@@ -38,6 +39,7 @@ pub mod eigen;
 pub mod hand_written;
 pub mod invariants;
 mod matrix;
+pub mod polar;
 pub mod quotients;
 pub mod svd_gradients;
 #[cfg(test)]

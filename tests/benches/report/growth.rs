@@ -18,6 +18,10 @@ use rayon::ThreadPool;
 
 use crate::data::GrowthRow;
 
+mod compressed;
+
+use compressed::Stepper;
+
 /// Cells along an edge; a cell has six elements.
 const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 55];
 
@@ -29,6 +33,12 @@ const LARGE: usize = 200_000;
 
 pub(crate) const DIRECT: &str = "Cholesky f64";
 pub(crate) const ITERATIVE: &str = "CG 1e-3";
+pub(crate) const COMPRESSED_ROWS: &str = "CSR, Jacobi 1e-3";
+
+/// Relative residual that an inexact Newton's method asks for.
+const LOOSE: f64 = 1e-3;
+
+const GRAVITY: [f64; 3] = [0.0, -9.81, 0.0];
 
 const GIB: f64 = 1024.0 * 1024.0 * 1024.0;
 const MOST_BYTES: f64 = 2.0 * GIB;
@@ -37,7 +47,8 @@ const MOST_SECONDS: f64 = 60.0;
 /// Of a solver and a number of threads, from small to large.
 pub(crate) struct Series {
     solver: &'static str,
-    linear: LinearSolver,
+    /// `None` for the code with [compressed rows](compressed).
+    linear: Option<LinearSolver>,
     /// Whether it ends where it takes too much.
     is_limited: bool,
     threads: usize,
@@ -46,12 +57,13 @@ pub(crate) struct Series {
 
 /// What is to be measured.
 pub(crate) fn plan(is_quick: bool) -> Vec<Series> {
-    let iterative = |tolerance| LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 };
+    let iterative = |tolerance| Some(LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 });
     let solvers = [
-        (DIRECT, LinearSolver::Cholesky, true),
-        ("Cholesky f32", LinearSolver::RefinedCholesky { tolerance: 1e-6 }, true),
-        (ITERATIVE, iterative(1e-3), false),
+        (DIRECT, Some(LinearSolver::Cholesky), true),
+        ("Cholesky f32", Some(LinearSolver::RefinedCholesky { tolerance: 1e-6 }), true),
+        (ITERATIVE, iterative(LOOSE), false),
         ("CG 1e-6", iterative(1e-6), true),
+        (COMPRESSED_ROWS, None, true),
     ];
     let cells = if is_quick { &CELLS[..4] } else { &CELLS };
     let with = |threads| {
@@ -138,34 +150,52 @@ impl Series {
     ) -> Result<GrowthRow, Box<dyn std::error::Error>> {
         memory.reset_peak_usage();
         let before = memory.current_usage();
-        let mut simulation = self.simulation(cells)?;
         let mut row = self.row(cells);
-        row.unknowns = 3 * (simulation.positions().len() - simulation.pinned().len());
+        let (unknowns, mut step) = self.scene(cells)?;
+        row.unknowns = unknowns;
         (row.seconds_per_step, row.newton_iterations, row.linear_iterations) = (0.0, 0.0, 0.0);
         let steps = if row.elements > LARGE { 1 } else { STEPS };
-        for step in 0..=steps {
+        for index in 0..=steps {
             let clock = Instant::now();
-            let report = threads.install(|| simulation.step(TIME_STEP))?;
+            let (newton_iterations, linear_iterations) = threads.install(&mut step)?;
             // The first finds cold caches.
-            if step > 0 {
+            if index > 0 {
                 let share = 1.0 / steps as f64;
                 row.seconds_per_step += share * clock.elapsed().as_secs_f64();
-                row.newton_iterations += share * report.newton.iterations as f64;
-                row.linear_iterations += share * report.newton.linear_iterations as f64;
+                row.newton_iterations += share * newton_iterations as f64;
+                row.linear_iterations += share * linear_iterations as f64;
             }
         }
         row.peak_bytes = memory.peak_usage().saturating_sub(before) as f64;
         Ok(row)
     }
 
-    fn simulation(&self, cells: usize) -> Result<Simulation, Box<dyn std::error::Error>> {
+    /// The number of unknowns, and what makes a step.
+    fn scene(&self, cells: usize) -> Result<(usize, Step), Box<dyn std::error::Error>> {
         let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
         let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
-        let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
+        let rubber = StableNeoHookean::new(moduli.mu, moduli.lambda)?;
+        let body = Body::new(&mesh, rubber, 1000.0)?;
         let (min, max) = ([-1.0; 3], [1e-9, 2.0, 2.0]);
         let pins = Pins::in_box(&mesh, Bounds { min, max })?;
-        let newton = NewtonSettings::single().with_linear(self.linear);
-        let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
-        Ok(Simulation::new(body, &pins, settings)?)
+        let Some(linear) = self.linear else {
+            let pinned = pins.nodes();
+            let mut stepper = Stepper::new(&body, rubber, pinned)?;
+            let step =
+                move || Ok((1, stepper.step(TIME_STEP, GRAVITY, LOOSE).map_err(|error| error.to_string())?));
+            return Ok((3 * (mesh.positions.len() - pinned.len()), Box::new(step)));
+        };
+        let newton = NewtonSettings::single().with_linear(linear);
+        let settings = SimulationSettings::default().with_gravity(GRAVITY).with_newton(newton);
+        let mut simulation = Simulation::new(body, &pins, settings)?;
+        let unknowns = 3 * (simulation.positions().len() - simulation.pinned().len());
+        let step = move || {
+            let report = simulation.step(TIME_STEP).map_err(|error| error.to_string())?;
+            Ok((report.newton.iterations, report.newton.linear_iterations))
+        };
+        Ok((unknowns, Box::new(step)))
     }
 }
+
+/// Makes a step, and returns the iterations of Newton's method and of the linear solver.
+type Step = Box<dyn FnMut() -> Result<(usize, usize), String> + Send>;

@@ -61,7 +61,7 @@ pub(super) fn cofactor<R: Real>([a, b, c]: &Matrix3<R>) -> Matrix3<R> {
 
 /// x × y.
 #[inline(always)]
-fn cross<R: Real>(x: [R; 3], y: [R; 3]) -> [R; 3] {
+pub(super) fn cross<R: Real>(x: [R; 3], y: [R; 3]) -> [R; 3] {
     [
         x[1].mul_add(y[2], -(x[2] * y[1])),
         x[2].mul_add(y[0], -(x[0] * y[2])),

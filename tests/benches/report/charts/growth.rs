@@ -18,7 +18,7 @@ pub(super) fn draw(rows: &[GrowthRow]) -> Result<Chart, String> {
     ];
     let title = "A step of a box of rubber: time and memory against its size";
     let note = "One iteration of Newton's method a step of 1/100 s. Solid lines: one thread; dashed: two. CG: conjugate gradients to that \
-                residual. Cholesky f32: refined to 1e-6. n^k: growth between the largest two boxes.";
+                residual. Cholesky f32: refined to 1e-6. CSR: scalar entries in compressed rows, as other codes have them. n^k: growth between the largest two boxes.";
     let svg = sheet([1280, 620], 2, title, note, &panels)?;
     let caption = "Time and memory of a step from a thousand to a million elements".to_owned();
     Ok(Chart { file: "growth.svg".to_owned(), svg, caption })

@@ -3,12 +3,13 @@
 #![expect(non_snake_case, reason = "F, P, K, U, V as in the literature")]
 
 use piola::material::Blocks;
-use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate, project, stress, svd};
+use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate_dense, project, stress, svd};
 use piola::{Material, Real};
 use piola_tests::baselines::automatic::Potential;
 use piola_tests::baselines::clamped::Clamped;
 use piola_tests::baselines::direct::{self, DirectEnergy};
 use piola_tests::baselines::invariants::{self, InvariantEnergy};
+use piola_tests::baselines::polar;
 use piola_tests::baselines::quotients::{Naive, Switched};
 use piola_tests::baselines::svd_gradients::{self, Regularization};
 use piola_tests::baselines::{coincidences, decompositions, differences};
@@ -33,6 +34,7 @@ pub(crate) const DUAL_STRETCHES: &str = "hyper-dual ψ(λ)";
 pub(crate) const DUAL_DECOMPOSITION: &str = "hyper-dual ψ(F)";
 pub(crate) const DIFFERENCES: &str = "finite differences";
 pub(crate) const DIRECT: &str = "invariants without SVD";
+pub(crate) const POLAR: &str = "polar decomposition";
 pub(crate) const JACOBI: &str = "Jacobi SVD";
 pub(crate) const NALGEBRA: &str = "nalgebra SVD";
 pub(crate) const FAER: &str = "faer SVD";
@@ -110,6 +112,14 @@ pub(crate) fn by_invariants<E: Number>(
     all
 }
 
+/// The method for the energy that somebody has written in the polar decomposition.
+pub(crate) fn by_polar_decomposition<E: Number>(energy: polar::RotatedLinear, work: Work) -> Contestant<E> {
+    match work {
+        Work::Tangent => Contestant::on_lanes(Label::special(POLAR), Polar(energy)),
+        Work::Projected => entries(Label::special(POLAR), Polar(energy), work),
+    }
+}
+
 /// A method that knows the tangent by its entries: its projection is that of a 9×9 matrix.
 fn entries<E: Number>(label: Label, method: impl AtPoint<E> + 'static, work: Work) -> Contestant<E> {
     match work {
@@ -136,8 +146,8 @@ struct Ours<M> {
 impl<M: Material, E: Number> AtPoint<E> for Ours<M> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        let point = evaluate(&self.material, F, self.filter);
-        (point.stress, point.tangent.to_matrix())
+        let point = evaluate_dense(&self.material, F, self.filter);
+        (point.stress, point.tangent)
     }
 }
 
@@ -259,6 +269,22 @@ impl<T: DirectEnergy, E: Number> AtPoint<E> for Direct<T> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         direct::evaluate(&self.0, F)
+    }
+}
+
+struct Polar(polar::RotatedLinear);
+
+impl OnLanes for Polar {
+    #[inline(always)]
+    fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
+        self.0.evaluate(F)
+    }
+}
+
+impl<E: Number> AtPoint<E> for Polar {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        self.0.evaluate(F)
     }
 }
 

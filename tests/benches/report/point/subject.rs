@@ -4,7 +4,7 @@ use piola::Material;
 use piola::material::{Declared, Description};
 use piola_materials as catalogue;
 use piola_tests::baselines::automatic::{self, Potential};
-use piola_tests::baselines::invariants;
+use piola_tests::baselines::{invariants, polar};
 use piola_tests::cases::Case;
 
 use super::Work;
@@ -111,7 +111,15 @@ of_two_moduli!(
     }
 );
 
-of_two_moduli!(RotatedLinear, "rotated linear", "rotated_linear");
+of_two_moduli!(
+    RotatedLinear,
+    "rotated linear",
+    "rotated_linear",
+    fn special<E: Number>(&self, work: Work) -> Vec<Contestant<E>> {
+        let &Self { mu, lambda, .. } = self;
+        vec![methods::by_polar_decomposition(polar::RotatedLinear { mu, lambda }, work)]
+    }
+);
 
 of_two_moduli!(Hencky, "Hencky", "hencky");
 
