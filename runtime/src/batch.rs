@@ -567,7 +567,7 @@ impl<E: Stages> Call<'_, E> {
         derivatives: &mut Rows<E, 9>,
     ) -> u64 {
         // What a filter changes is seen in the principal frames alone.
-        if self.filter != Filter::None || self.properties.has_pole {
+        if self.filter != Filter::None {
             return 0;
         }
         let in_range = self.invariants(F, count, invariants);

@@ -137,8 +137,8 @@ pub trait Material: Send + Sync {
 
     /// Whether \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     ///
-    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1.
-    /// Elsewhere [`Material::admits`] decides.
+    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1, so that
+    /// no pole is near. Elsewhere [`Material::admits`] decides.
     #[inline(always)]
     fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
         R::Mask::splat(false)

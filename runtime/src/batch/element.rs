@@ -149,10 +149,9 @@ impl ElementTile {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> bool {
-        let Properties { has_invariants, has_second_invariant, has_pole, .. } = material.properties();
+        let Properties { has_invariants, has_second_invariant, .. } = material.properties();
         f64::with_workspace(|Workspace { invariants, derivatives, line, .. }| {
             let is_served = has_invariants
-                && !has_pole
                 && self.serves(invariants, |at| material.tile_derivatives_by_invariants(at, derivatives));
             let kernel = RespondByInvariants {
                 F: self.F.source(),

@@ -55,7 +55,7 @@ pub fn evaluate_dense<R: Real>(
     filter: Filter,
 ) -> DensePoint<R> {
     // What a filter changes is seen in the principal frames alone.
-    if filter != Filter::None || !material.has_invariants() || material.has_pole() {
+    if filter != Filter::None || !material.has_invariants() {
         return by_decomposition(material, F, filter);
     }
     let (served, mut dense) = if material.has_second_invariant() {
