@@ -30,13 +30,16 @@ pub(crate) fn table(effort: Effort, streaming_effort: Effort) -> String {
     decomposition::<f64>(effort, 24.0, &mut table);
     decomposition::<f32>(effort, 10.0, &mut table);
     for (task, filter, goals) in [
-        (Task::Tangents, Filter::None, [36.0, 37.0, 48.0]),
+        (Task::Stresses, Filter::None, [7.0, 7.0, 50.0]),
+        (Task::Tangents, Filter::None, [16.0, 12.0, 80.0]),
+        (Task::StiffnessesAt, Filter::None, [40.0, 36.0, 100.0]),
         (Task::Tangents, Filter::Clamp, [45.0, 46.0, 56.0]),
         (Task::Stiffnesses, Filter::Clamp, [50.0, 51.0, 60.0]),
         (Task::PackedStiffnesses, Filter::Clamp, [50.0, 51.0, 60.0]),
     ] {
         kernel::<f64>(effort, task, filter, goals, &mut table);
     }
+    few(effort, 8, [36.0, 32.0, 120.0], &mut table);
     kernel::<f32>(effort, Task::Tangents, Filter::None, [16.0, 17.0, 21.0], &mut table);
     product(effort, 3.0, &mut table);
     for task in [Task::Tangents, Task::Stiffnesses] {
@@ -49,7 +52,7 @@ pub(crate) fn table(effort: Effort, streaming_effort: Effort) -> String {
 fn decomposition<E: Stages>(effort: Effort, goal: f64, table: &mut String) {
     let mut decompositions = Decompositions::<E>::new();
     let times = time(effort, IN_CACHE, || decompositions.run(Backend::best(), false));
-    judged::<E>(table, "svd", goal, times, None);
+    judged::<E>(table, "svd", goal, Some(times), None);
 }
 
 fn kernel<E: Stages>(effort: Effort, task: Task, filter: Filter, goals: [f64; 3], table: &mut String) {
@@ -58,7 +61,16 @@ fn kernel<E: Stages>(effort: Effort, task: Task, filter: Filter, goals: [f64; 3]
         let [lines, points] =
             [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, task, layout, &batch));
         let figure = format!("{}, {name}", task.label(filter));
-        judged::<E>(table, &figure, goal, lines, Some(points));
+        judged::<E>(table, &figure, goal, Some(lines), Some(points));
+    }
+}
+
+/// Tangents of a call of few points.
+fn few(effort: Effort, points: usize, goals: [f64; 3], table: &mut String) {
+    for ((name, energy), goal) in materials::<f64>().iter().zip(goals) {
+        let mut arrays = Arrays::new(Task::Tangents, Layout::Points, points);
+        let times = time(effort, points, || arrays.run(&Batch::new(&**energy)));
+        judged::<f64>(table, &format!("tangents, {points} points a call, {name}"), goal, None, Some(times));
     }
 }
 
@@ -67,7 +79,7 @@ fn product(effort: Effort, goal: f64, table: &mut String) {
     let batch = Batch::new(&*energy);
     let [lines, points] =
         [Layout::Lines, Layout::Points].map(|layout| in_cache(effort, Task::Products, layout, &batch));
-    judged::<f64>(table, "products", goal, lines, Some(points));
+    judged::<f64>(table, "products", goal, Some(lines), Some(points));
 }
 
 /// The better way to store; the goal is [`STREAMING_SLACK`] times the larger of the time in cache and that of
@@ -78,21 +90,30 @@ fn streamed<E: Stages>(effort: Effort, streaming_effort: Effort, task: Task, tab
         let computed = in_cache(effort, task, Layout::Lines, &Batch::new(&**energy));
         let found = streaming(streaming_effort, &mut arrays, &**energy, Filter::None);
         let goal = STREAMING_SLACK * computed.least.max(found.traffic.least);
-        judged::<E>(table, &format!("streaming {}, {name}", task.name()), goal, found.best(), None);
+        judged::<E>(table, &format!("streaming {}, {name}", task.name()), goal, Some(found.best()), None);
     }
 }
 
-fn judged<E: Stages>(table: &mut String, figure: &str, goal: f64, lines: Times, points: Option<Times>) {
-    let met = if lines.least <= goal { "yes" } else { "no" };
+/// A row; the times in lines are judged, or, if there are none, those by points.
+fn judged<E: Stages>(
+    table: &mut String,
+    figure: &str,
+    goal: f64,
+    lines: Option<Times>,
+    points: Option<Times>,
+) {
+    let Some(Times { least, .. }) = lines.or(points) else { return };
+    let met = if least <= goal { "yes" } else { "no" };
+    let of = |times: Option<Times>| times.map_or_else(String::new, cell);
     row(
         table,
         &[
             figure.to_owned(),
             std::any::type_name::<E>().to_owned(),
             format!("{goal:.1}"),
-            cell(lines),
-            format!("{met}, {:.2}×", lines.least / goal),
-            points.map_or_else(String::new, cell),
+            of(lines),
+            format!("{met}, {:.2}×", least / goal),
+            of(points),
         ],
     );
 }

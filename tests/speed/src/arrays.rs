@@ -5,10 +5,10 @@
 use std::hint::black_box;
 use std::ops::{Deref, DerefMut};
 
-use piola::batch::{Batch, Layout, LengthError, Stages};
+use piola::batch::{Batch, Layout, LengthError, Stages, Tetrahedra};
 use piola::lanes::{Backend, Kernel, Lanes, Real, Scalar};
 
-use super::task::Task;
+use super::task::{CORNERS, Task};
 use piola::random::Random;
 
 /// Inputs and outputs of a task, for a multiple of 64 points.
@@ -19,6 +19,8 @@ pub struct Arrays<E> {
     points: usize,
     inputs: [Aligned<E>; 2],
     outputs: [Aligned<E>; 2],
+    positions: Vec<[E; 3]>,
+    tetrahedra: Vec<[usize; 4]>,
 }
 
 /// Points that are moved together.
@@ -39,7 +41,11 @@ impl<E: Stages> Arrays<E> {
             array
         });
         let outputs = task.outputs().map(|numbers| Aligned::new(points * numbers));
-        Self { task, layout, points, inputs, outputs }
+        // Four nodes in a row are a tetrahedron, whose first corner is a node 4 n.
+        let positions = (0..points + 3).map(|node| CORNERS[node % 4].map(E::splat)).collect();
+        let corner = |first: usize, k: usize| first + (k + 4 - first % 4) % 4;
+        let tetrahedra = (0..points).map(|first| [0, 1, 2, 3].map(|k| corner(first, k))).collect();
+        Self { task, layout, points, inputs, outputs, positions, tetrahedra }
     }
 
     /// Does the task with the material, filter and back end of a batch.
@@ -61,6 +67,11 @@ impl<E: Stages> Arrays<E> {
             Task::Products => batch.products(F, second, first),
             Task::Stiffnesses => batch.stiffnesses(F, second, first, large).map(drop),
             Task::PackedStiffnesses => batch.packed_stiffnesses(F, second, first, large).map(drop),
+            Task::StiffnessesAt => {
+                let tetrahedra = Tetrahedra::new(self.positions.len(), &self.tetrahedra);
+                let tetrahedra = tetrahedra.expect("nodes that exist");
+                batch.stiffnesses_at(tetrahedra, &self.positions, second, first, large).map(drop)
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! The kernels of a batch, and which numbers of a point each reads and writes.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
+
 use piola::batch::{FACTORS, REST};
 use piola::point::Filter;
 
@@ -24,11 +26,13 @@ pub enum Task {
     Stiffnesses,
     /// Gradients and packed symmetric stiffnesses of elements, 78 entries.
     PackedStiffnesses,
+    /// Gradients and stiffnesses of elements, 144 entries, from the positions of their nodes.
+    StiffnessesAt,
 }
 
 impl Task {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Energies,
         Self::Stresses,
         Self::Tangents,
@@ -37,6 +41,7 @@ impl Task {
         Self::Products,
         Self::Stiffnesses,
         Self::PackedStiffnesses,
+        Self::StiffnessesAt,
     ];
 
     /// The name of the method.
@@ -51,6 +56,7 @@ impl Task {
             Self::Products => "products",
             Self::Stiffnesses => "stiffnesses",
             Self::PackedStiffnesses => "packed_stiffnesses",
+            Self::StiffnessesAt => "stiffnesses_at",
         }
     }
 
@@ -85,6 +91,7 @@ impl Task {
         match self {
             Self::Products => [Input::Factors, Input::Increment],
             Self::Stiffnesses | Self::PackedStiffnesses => [Input::Deformation, Input::RestShape],
+            Self::StiffnessesAt => [Input::Nothing, Input::RestShapeAtNodes],
             _ => [Input::Deformation, Input::Nothing],
         }
     }
@@ -97,11 +104,15 @@ impl Task {
             Self::Tangents => [9, 81],
             Self::PackedTangents => [9, 45],
             Self::FactoredTangents => [9, FACTORS],
-            Self::Stiffnesses => [12, 144],
+            Self::Stiffnesses | Self::StiffnessesAt => [12, 144],
             Self::PackedStiffnesses => [12, 78],
         }
     }
 }
+
+/// The corners of every tetrahedron whose nodes are given.
+pub(super) const CORNERS: [[f64; 3]; 4] =
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 
 /// A quantity that is given at each point.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +122,8 @@ pub(super) enum Input {
     Deformation,
     /// Dm⁻¹, drawn like F, and a volume.
     RestShape,
+    /// Dm⁻¹ with which [`CORNERS`] have a deformation gradient as above, and a volume.
+    RestShapeAtNodes,
     /// Any numbers: nothing depends on them.
     Factors,
     Increment,
@@ -121,7 +134,7 @@ impl Input {
         match self {
             Self::Nothing => 0,
             Self::Deformation | Self::Increment => 9,
-            Self::RestShape => REST,
+            Self::RestShape | Self::RestShapeAtNodes => REST,
             Self::Factors => FACTORS,
         }
     }
@@ -131,6 +144,14 @@ impl Input {
             Self::Nothing => Vec::new(),
             Self::Deformation => deformation(random).to_vec(),
             Self::RestShape => [&deformation(random)[..], &[random.uniform(0.5, 1.5)]].concat(),
+            Self::RestShapeAtNodes => {
+                let F = deformation(random);
+                // Ds⁻¹ of the edges between `CORNERS`.
+                let inverse = |i: usize, j: usize| if i == j { 0.25 } else { -0.25 };
+                let entry = |k: usize| (0..3).map(|m| inverse(k / 3, m) * F[3 * m + k % 3]).sum();
+                let shape = (0..9).map(entry);
+                shape.chain([random.uniform(0.5, 1.5)]).collect()
+            }
             Self::Factors | Self::Increment => {
                 (0..self.numbers()).map(|_| random.uniform(-1.0, 1.0)).collect()
             }
