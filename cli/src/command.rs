@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use piola::Inversion;
+use piola::step::Integrator;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::Newton;
 use piola_scenes::run::{Existing, Output};
@@ -176,6 +178,11 @@ struct Choice {
     #[arg(long, value_name = "FILE", requires = "mesh")]
     surface: Option<PathBuf>,
 
+    /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work as
+    /// a step of implicit Euler, and errors of second and third order.
+    #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "euler")]
+    integrator: Integrator,
+
     /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
     #[arg(long, value_enum, default_value_t = Newton::Single)]
     newton: Newton,
@@ -277,9 +284,18 @@ impl Choice {
         Ok(settings
             .with_files(files)
             .with_pins(self.pins)
+            .with_integrator(self.integrator)
             .with_newton(self.newton)
             .with_threads(self.threads))
     }
+}
+
+fn integrators() -> impl TypedValueParser<Value = Integrator> {
+    PossibleValuesParser::new(["euler", "sdirk2", "sdirk3"]).map(|name| match name.as_str() {
+        "sdirk2" => Integrator::Sdirk2,
+        "sdirk3" => Integrator::Sdirk3,
+        _ => Integrator::ImplicitEuler,
+    })
 }
 
 /// The scene's start, with another seed or amplitude if it is a random one.

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 23] = [
     "scene",
     "material",
     "parameters",
@@ -27,6 +27,7 @@ const KEYS: [&str; 22] = [
     "energy",
     "ms_per_step_median",
     "steps_per_second",
+    "integrator",
     "newton",
     "recovered",
 ];
@@ -81,7 +82,7 @@ fn horse_collapses() {
     let summary = check(&["run", "horse", "--frames", "3"], "horse", 3);
     assert_eq!((&summary["tets"], &summary["nodes"]), (&2646.into(), &787.into()));
     assert_eq!(summary["newton_iterations_mean"], 1.0);
-    assert_eq!(summary["newton"], "single");
+    assert_eq!((&summary["integrator"], &summary["newton"]), (&"implicit_euler".into(), &"single".into()));
     assert_eq!(summary["recovered"], false);
     assert!(summary["min_det_f"].as_f64().is_some_and(|det| det < 1e-12), "flattened: {summary}");
 }
@@ -93,6 +94,15 @@ fn dinosaur_is_pulled() {
     assert_eq!(summary["newton"], "full");
     assert!(summary["newton_iterations_mean"].as_f64().is_some_and(|mean| mean > 1.0), "{summary}");
     assert!(summary["energy"].as_f64().is_some_and(|energy| energy > 0.0), "{summary}");
+}
+
+/// Two stages, with an iteration each.
+#[test]
+fn an_integrator_of_second_order_is_chosen() {
+    let arguments = ["run", "dinosaur", "--frames", "3", "--integrator", "sdirk2"];
+    let summary = check(&arguments, "dinosaur", 3);
+    assert_eq!(summary["integrator"], "sdirk2");
+    assert_eq!(summary["newton_iterations_mean"], 2.0);
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Time: implicit Euler steps as minimisations, by Newton's method with a line search; and statics.
+//! Time: implicit steps as minimisations, by Newton's method with a line search; and statics.
 //!
-//! From the public entry down: `implicit_euler` keeps the state of a body and steps it, `newton` minimises,
-//! `solver` solves its linear systems, `line_search` shortens steps, `objective` is the function that
-//! decreases. `equilibrium` classifies a body that has come to rest. Reports are values; nothing prints.
+//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of which
+//! minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
+//! shortens steps, `objective` is the function that decreases. `equilibrium` classifies a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!
@@ -17,17 +17,19 @@
 mod damping;
 mod equilibrium;
 mod filtering;
-mod implicit_euler;
+mod integrator;
 mod line_search;
 mod newton;
 mod objective;
+mod simulation;
 mod solver;
 
 pub use damping::Damping;
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
-pub use implicit_euler::{Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport};
+pub use integrator::Integrator;
 pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
 pub use objective::Spring;
+pub use simulation::{Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport};
 pub use solver::LinearSolver;

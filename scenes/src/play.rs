@@ -219,6 +219,7 @@ fn step_settings(settings: &Settings) -> step::SimulationSettings {
     step::SimulationSettings::default()
         .with_gravity(gravity)
         .with_damping(settings.scene.damping)
+        .with_integrator(settings.integrator)
         .with_newton(newton)
 }
 

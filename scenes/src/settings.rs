@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use piola::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -42,6 +43,9 @@ pub struct Settings {
     pub frames: usize,
     /// Boxes or names of groups to pin, in place of those of the scene.
     pub pins: Vec<String>,
+    /// Method by which steps advance in time.
+    #[serde(default)]
+    pub integrator: Integrator,
     /// How far each step is solved.
     pub newton: Newton,
     /// Threads for the solver; 0 for one per core.
@@ -84,6 +88,7 @@ impl Settings {
             dt: scene.dt,
             frames: scene.frames,
             pins: Vec::new(),
+            integrator: Integrator::ImplicitEuler,
             newton: Newton::Single,
             threads: 1,
         }
@@ -108,6 +113,8 @@ impl Settings {
         with_frames: frames = usize;
         /// Pins these boxes or groups in place of those of the scene, unless there are none.
         with_pins: pins = Vec<String>;
+        /// Replaces the integrator.
+        with_integrator: integrator = Integrator;
         /// Replaces how far each step is solved.
         with_newton: newton = Newton;
         /// Replaces the number of threads; 0 for one per core.

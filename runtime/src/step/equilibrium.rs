@@ -23,9 +23,9 @@ use crate::system::linear::symmetric_product;
 use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Cholesky, LinearError, Pattern, Pins, Tetrahedron};
 
-use super::implicit_euler::Simulation;
 use super::newton::{NewtonError, demand_admissible};
 use super::objective::{Objective, Quadratic};
+use super::simulation::Simulation;
 
 mod rigid;
 

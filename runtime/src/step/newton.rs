@@ -81,8 +81,8 @@ pub enum InitialGuess {
     Velocity,
 }
 
-/// Reason why Newton's method stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Reason why Newton's method stopped, from the best on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
     /// The gradient fell below the tolerance.
@@ -93,12 +93,12 @@ pub enum Convergence {
     Limit,
 }
 
-/// Report of a minimisation.
+/// Report of a minimisation, or of all those of a step of several stages together.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct NewtonReport {
-    /// Reason why it stopped.
+    /// Reason why it stopped; the worst one of several stages.
     pub convergence: Convergence,
     /// Number of directions that were found.
     pub iterations: usize,
@@ -256,7 +256,7 @@ impl Iteration<'_, '_> {
         let NewtonWorkspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
         direction.fill([0.0; 3]);
         for &node in solver.free_nodes() {
-            direction[node] = self.objective.quadratic.free_motion(node);
+            direction[node] = self.objective.quadratic.free_motion(node, x[node]);
         }
         let change = self.objective.along(x, direction, trial, gradient).change(1.0);
         match change {
@@ -413,6 +413,27 @@ impl NewtonReport {
             shift: 0.0,
             linear_iterations: 0,
             truncated: 0,
+        }
+    }
+
+    /// The report of this minimisation and those before it in a step.
+    pub(super) fn after(self, before: Option<Self>) -> Self {
+        let Some(before) = before else { return self };
+        let mut step_lengths = before.step_lengths;
+        step_lengths.extend(self.step_lengths);
+        Self {
+            convergence: before.convergence.max(self.convergence),
+            iterations: before.iterations + self.iterations,
+            first_residual: before.first_residual,
+            residual: self.residual,
+            change: before.change + self.change,
+            step_lengths,
+            refused_trials: before.refused_trials + self.refused_trials,
+            filtered: before.filtered.max(self.filtered),
+            bounded: before.bounded.max(self.bounded),
+            shift: before.shift.max(self.shift),
+            linear_iterations: before.linear_iterations + self.linear_iterations,
+            truncated: before.truncated + self.truncated,
         }
     }
 

@@ -1,4 +1,4 @@
-//! The function that a step of implicit Euler minimises.
+//! The function that a step of implicit Euler minimises, or a stage of another integrator.
 //!
 //! With M the lumped masses, h the time step, xₙ, vₙ the state before the step, and D the quadratic form of
 //! its [damping](super::damping), α M or β K:
@@ -96,9 +96,9 @@ impl Quadratic<'_> {
         self.diagonal(node) + self.masses[node] * self.guard
     }
 
-    /// Displacement h vₙ of a node without forces.
-    pub(crate) fn free_motion(&self, node: usize) -> [f64; 3] {
-        self.velocities[node].map(|v| self.dt * v)
+    /// Displacement from `x` to where a node would be without forces, xₙ + h vₙ.
+    pub(crate) fn free_motion(&self, node: usize, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|c| (self.start[node][c] - x[c]) + self.dt * self.velocities[node][c])
     }
 
     /// Diagonal shift of a node; multiples of it are added until the Hessian is positive definite.

@@ -7,6 +7,7 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 
 use piola::message::number;
+use piola::step::Integrator;
 
 /// How far each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -160,6 +161,8 @@ pub struct Summary {
     pub ms_per_step_median: Option<f64>,
     /// Steps per second of solver time; since the last interruption, `None` without a step.
     pub steps_per_second: Option<f64>,
+    /// Method by which steps advanced in time.
+    pub integrator: Integrator,
     /// How far each step was solved.
     pub newton: Newton,
     /// Whether the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].

@@ -250,6 +250,7 @@ impl<'a> Course<'a> {
             energy: progress.energy,
             ms_per_step_median: median(&times).map(|time| 1e3 * time.as_secs_f64()),
             steps_per_second: (!times.is_empty()).then(|| times.len() as f64 / total.as_secs_f64()),
+            integrator: settings.integrator,
             newton: settings.newton,
             recovered,
             reading,

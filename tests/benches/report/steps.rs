@@ -4,14 +4,15 @@
 //! The dinosaur is played as its scene says. So is the horse, but from a start at two thirds of its height:
 //! from the ground, where most elements are flat, each time step leads elsewhere, which is measured too. A
 //! further body flies free: the dinosaur without pins, pulls and damping, turning and stretching, whose
-//! momenta no force changes. The reference is the same motion with 1/64 of the scene's time step and Newton's
-//! method to a relative 10⁻¹⁰; that of 1/128 says how far the reference itself may be off.
+//! momenta no force changes. The reference is the same motion by the integrator of third order with 1/16 of the
+//! scene's time step and Newton's method to a relative 10⁻¹⁰; that of 1/32 says how far the reference itself
+//! may be off.
 
 use std::time::Instant;
 
 use indicatif::ProgressBar;
 use piola::point::Filter;
-use piola::step::{Damping, Filtering, LinearSolver, NewtonSettings, SimulationSettings};
+use piola::step::{Filtering, Integrator, LinearSolver, NewtonSettings, SimulationSettings};
 
 use crate::data::StepRow;
 
@@ -21,7 +22,14 @@ mod motion;
 use motion::{Motion, Track};
 
 /// How much finer than the scene the reference is.
-const FINE: usize = 64;
+const FINE: usize = 16;
+
+/// Settings over which the time step is varied: implicit Euler with Newton's method to the end and with one
+/// iteration, and integrators of higher order.
+pub(crate) const FULL: &str = "full Newton";
+pub(crate) const SINGLE: &str = "one iteration";
+pub(crate) const SECOND_ORDER: &str = "second order";
+pub(crate) const THIRD_ORDER: &str = "third order";
 
 /// A body and how long it is followed.
 pub(crate) struct Course {
@@ -58,7 +66,7 @@ struct Way {
     setting: String,
     /// By what the scene's time step is divided; less than one makes it longer.
     division: f64,
-    newton: NewtonSettings,
+    settings: SimulationSettings,
 }
 
 /// What is to be measured.
@@ -96,7 +104,7 @@ fn rows_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Vec<St
         progress.set_message(course.body.name());
         let reference = reference(course, FINE, progress)?;
         let finer = reference_row(course, &reference, progress)?;
-        let exact = NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100);
+        let exact = solved_by(NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100));
         let (solved, _) = follow(course, 1.0, exact).map_err(|error| named(course, &error))?;
         progress.inc(1);
         rows.push(finer);
@@ -129,15 +137,22 @@ impl Course {
     }
 }
 
-/// Full Newton unless the axis is another.
+/// Implicit Euler with full Newton unless the axis is another.
 fn ways() -> Vec<Way> {
     let full = NewtonSettings::default();
-    let way =
-        |axis, setting: &str, division, newton| Way { axis, setting: setting.to_owned(), division, newton };
+    let with = |axis, setting: &str, division, settings| Way {
+        axis,
+        setting: setting.to_owned(),
+        division,
+        settings,
+    };
+    let way = |axis, setting, division, newton| with(axis, setting, division, solved_by(newton));
     let mut ways = Vec::new();
     for division in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0] {
-        ways.push(way("h", "full Newton", division, full));
-        ways.push(way("h", "one iteration", division, NewtonSettings::single()));
+        ways.push(way("h", FULL, division, full));
+        ways.push(way("h", SINGLE, division, NewtonSettings::single()));
+        ways.push(with("h", SECOND_ORDER, division, solved_by(full).with_integrator(Integrator::Sdirk2)));
+        ways.push(with("h", THIRD_ORDER, division, solved_by(full).with_integrator(Integrator::Sdirk3)));
     }
     for iterations in [2, 4] {
         let newton = full.with_max_iterations(iterations).with_tolerance(0.0);
@@ -166,8 +181,8 @@ fn ways() -> Vec<Way> {
     ways
 }
 
-fn follow(course: &Course, division: f64, newton: NewtonSettings) -> Result<(Track, f64), String> {
-    let mut motion = Motion::new(course.body, division, newton)?;
+fn follow(course: &Course, division: f64, settings: SimulationSettings) -> Result<(Track, f64), String> {
+    let mut motion = Motion::new(course.body, division, settings)?;
     let steps = (course.frames as f64 * division).round() as usize;
     let clock = Instant::now();
     motion.follow(steps)?;
@@ -176,23 +191,24 @@ fn follow(course: &Course, division: f64, newton: NewtonSettings) -> Result<(Tra
 }
 
 fn reference(course: &Course, fine: usize, progress: &ProgressBar) -> Result<Track, String> {
-    let newton = NewtonSettings::default().with_tolerance(1e-10);
-    let (track, _) = follow(course, fine as f64, newton).map_err(|error| named(course, &error))?;
+    let settings =
+        solved_by(NewtonSettings::default().with_tolerance(1e-10)).with_integrator(Integrator::Sdirk3);
+    let (track, _) = follow(course, fine as f64, settings).map_err(|error| named(course, &error))?;
     progress.inc(1);
     Ok(track)
 }
 
 /// The reference itself, judged by one of half its time step.
 fn reference_row(course: &Course, reference: &Track, progress: &ProgressBar) -> Result<StepRow, String> {
-    let newton = NewtonSettings::default();
-    let way =
-        Way { axis: "reference", setting: "h/64 beside h/128".to_owned(), division: FINE as f64, newton };
+    let settings = SimulationSettings::default();
+    let setting = format!("h/{FINE} beside h/{}", 2 * FINE);
+    let way = Way { axis: "reference", setting, division: FINE as f64, settings };
     let finer = self::reference(course, 2 * FINE, progress)?;
     Ok(judged(course, &way, Ok((reference.clone(), f64::NAN)), &finer, reference))
 }
 
 fn row(course: &Course, way: &Way, reference: &Track, solved: &Track) -> StepRow {
-    judged(course, way, follow(course, way.division, way.newton), reference, solved)
+    judged(course, way, follow(course, way.division, way.settings), reference, solved)
 }
 
 fn judged(
@@ -246,7 +262,6 @@ impl StepRow {
     }
 }
 
-/// What the scenes ask for, with another Newton.
-fn step_settings(damping: Damping, newton: NewtonSettings) -> SimulationSettings {
-    SimulationSettings::default().with_damping(damping).with_newton(newton)
+fn solved_by(newton: NewtonSettings) -> SimulationSettings {
+    SimulationSettings::default().with_newton(newton)
 }

@@ -1,6 +1,6 @@
 //! Rigid motions that pins, springs and gravity leave to a body.
 
-use crate::step::implicit_euler::Simulation;
+use crate::step::simulation::Simulation;
 use crate::system::linear::LinearError;
 use crate::system::linear::dense::eigen;
 use crate::system::linear::lanczos::{add, dot, norm};

@@ -1,9 +1,12 @@
 //! Wall time of trajectories against their errors: a sheet for each body.
 
 use super::Chart;
-use super::panel::{BLUE, COLOURS, GREY, Line, Mark, Panel, Point, RGBColor, Series, VERMILION, sheet};
+use super::panel::{
+    BLUE, COLOURS, GREEN, GREY, Line, Mark, PURPLE, Panel, Point, RGBColor, Series, VERMILION, sheet,
+};
 use super::point::file_name;
 use crate::data::StepRow;
+use crate::steps::{FULL, SECOND_ORDER, SINGLE, THIRD_ORDER};
 
 /// With a panel of their own beside the time step.
 const AXES: [&str; 4] = ["newton", "filter", "solver", "precision"];
@@ -35,12 +38,15 @@ fn of(scene: &str, rows: &[StepRow]) -> Result<Chart, String> {
             .collect(),
     };
     let first = Panel {
-        title: "time steps: vermilion one iteration of Newton's method, blue as many as it takes".to_owned(),
+        title: "time steps: blue implicit Euler, vermilion one iteration, green second order, purple third"
+            .to_owned(),
         x_axis: "wall time, milliseconds per second of motion",
-        y_axis: "error beside h/64, body heights",
+        y_axis: "error beside third order with h/16, body heights",
         series: vec![
-            over_h("full Newton", BLUE, Line::Solid),
-            over_h("one iteration", VERMILION, Line::Dashed),
+            over_h(FULL, BLUE, Line::Solid),
+            over_h(SINGLE, VERMILION, Line::Dashed),
+            over_h(SECOND_ORDER, GREEN, Line::Solid),
+            over_h(THIRD_ORDER, PURPLE, Line::Solid),
         ],
     };
     let of_axis = |(axis, colour): (&str, RGBColor)| Series {
@@ -60,12 +66,8 @@ fn of(scene: &str, rows: &[StepRow]) -> Result<Chart, String> {
         line: Line::None,
         points: rows
             .iter()
-            .filter(|row| row.axis == "h" && row.setting == "one iteration" && row.algebraic_error > 0.0)
-            .map(|row| Point {
-                x: milliseconds(row),
-                y: row.algebraic_error,
-                label: "one iteration".to_owned(),
-            })
+            .filter(|row| row.axis == "h" && row.setting == SINGLE && row.algebraic_error > 0.0)
+            .map(|row| Point { x: milliseconds(row), y: row.algebraic_error, label: SINGLE.to_owned() })
             .collect(),
     });
     let second = Panel {

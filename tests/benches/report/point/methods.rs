@@ -34,6 +34,7 @@ pub(crate) const DUAL_STRETCHES: &str = "hyper-dual ψ(λ)";
 pub(crate) const DUAL_DECOMPOSITION: &str = "hyper-dual ψ(F)";
 pub(crate) const DIFFERENCES: &str = "finite differences";
 pub(crate) const DIRECT: &str = "invariants without SVD";
+pub(crate) const DIRECT_AS_A_SCALAR: &str = "invariants without SVD, point by point";
 pub(crate) const POLAR: &str = "polar decomposition";
 pub(crate) const JACOBI: &str = "Jacobi SVD";
 pub(crate) const NALGEBRA: &str = "nalgebra SVD";
@@ -106,7 +107,10 @@ pub(crate) fn by_invariants<E: Number>(
 ) -> Vec<Contestant<E>> {
     let mut all = vec![entries(Label::special(INVARIANTS), Invariants(energy), work)];
     match work {
-        Work::Tangent => all.push(Contestant::on_lanes(Label::special(DIRECT), Direct(energy))),
+        Work::Tangent => {
+            all.push(Contestant::on_lanes(Label::special(DIRECT), Direct(energy)));
+            all.push(Contestant::one_by_one(Label::special(DIRECT_AS_A_SCALAR), Direct(energy)));
+        }
         Work::Projected => all.push(entries(Label::special(DIRECT), Direct(energy), work)),
     }
     all

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use piola::batch::{Batch, Layout, Stages};
 use piola::point::Filter;
-use piola::step::NewtonSettings;
+use piola::step::SimulationSettings;
 use piola::system::{BlockMatrix, Body, Cholesky, Pins};
 use piola_materials::StableNeoHookean;
 use piola_scenes::geometry::Geometry;
@@ -29,8 +29,8 @@ const ITERATIONS: usize = 20;
 pub(super) fn rows(frames: usize, reference: &Track, solved: &Track) -> Result<Vec<StepRow>, String> {
     let course = |result: Result<(Track, f64), Box<dyn std::error::Error>>, setting: &str| {
         let (track, seconds) = result.map_err(|error| error.to_string())?;
-        let newton = NewtonSettings::default();
-        let way = Way { axis: "precision", setting: setting.to_owned(), division: 1.0, newton };
+        let settings = SimulationSettings::default();
+        let way = Way { axis: "precision", setting: setting.to_owned(), division: 1.0, settings };
         let mut row = empty_row(super::Body::Free, &way);
         row.fill(&track, seconds, reference, Some(solved));
         Ok::<_, String>(row)

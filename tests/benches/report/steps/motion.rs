@@ -2,7 +2,7 @@
 
 use piola::material::{MaterialError, Moduli};
 use piola::mesh::TetMesh;
-use piola::step::{Damping, NewtonSettings, Simulation};
+use piola::step::{Simulation, SimulationSettings};
 use piola::system::{self, Pins};
 use piola_materials::StableNeoHookean;
 use piola_scenes::geometry::Geometry;
@@ -10,7 +10,7 @@ use piola_scenes::play::Play;
 use piola_scenes::scene::{DINOSAUR, HORSE, Scene};
 use piola_scenes::settings::Settings;
 
-use super::{Body, step_settings};
+use super::Body;
 
 /// Of all scenes, s.
 pub(super) const TIME_STEP: f64 = 1.0 / 30.0;
@@ -66,8 +66,8 @@ pub(super) struct Drift {
 }
 
 impl Motion {
-    pub(super) fn new(body: Body, division: f64, newton: NewtonSettings) -> Result<Self, String> {
-        let (stage, height) = stage(body, division, newton).map_err(|error| error.to_string())?;
+    pub(super) fn new(body: Body, division: f64, settings: SimulationSettings) -> Result<Self, String> {
+        let (stage, height) = stage(body, division, settings).map_err(|error| error.to_string())?;
         let mut motion = Self { stage, division, dt: TIME_STEP / division, track: Track::new(height) };
         motion.note_momenta();
         Ok(motion)
@@ -110,20 +110,20 @@ impl Motion {
 fn stage(
     body: Body,
     division: f64,
-    newton: NewtonSettings,
+    settings: SimulationSettings,
 ) -> Result<(Stage, f64), Box<dyn std::error::Error>> {
     let scene = match body {
         Body::FlatHorse | Body::Horse => &HORSE,
         Body::Dinosaur | Body::Free => &DINOSAUR,
     };
-    let settings = Settings::new(scene).with_dt(TIME_STEP / division);
-    let geometry = Geometry::load(&settings)?;
+    let scene_settings = Settings::new(scene).with_dt(TIME_STEP / division);
+    let geometry = Geometry::load(&scene_settings)?;
     let mesh = &geometry.mesh;
     let stage = if body == Body::Free {
-        Stage::Free(free(mesh, scene, newton)?)
+        Stage::Free(free(mesh, scene, settings)?)
     } else {
-        let mut play = Play::new(&settings, &geometry)?;
-        play.set_step_settings(step_settings(scene.damping, newton))?;
+        let mut play = Play::new(&scene_settings, &geometry)?;
+        play.set_step_settings(settings.with_damping(scene.damping))?;
         if body == Body::Horse {
             let pressed = pressed(mesh, play.simulation().pinned());
             play.simulation_mut().set_positions(&pressed)?;
@@ -140,9 +140,13 @@ fn pressed(mesh: &TetMesh, pinned: &[usize]) -> Vec<[f64; 3]> {
     mesh.positions.iter().map(press).collect()
 }
 
-fn free(mesh: &TetMesh, scene: &Scene, newton: NewtonSettings) -> Result<Flight, Box<dyn std::error::Error>> {
+fn free(
+    mesh: &TetMesh,
+    scene: &Scene,
+    settings: SimulationSettings,
+) -> Result<Flight, Box<dyn std::error::Error>> {
     let body = system::Body::new(mesh, free_material()?, scene.density)?;
-    let mut simulation = Simulation::new(body, &Pins::none(), step_settings(Damping::None, newton))?;
+    let mut simulation = Simulation::new(body, &Pins::none(), settings)?;
     let rest_energy = simulation.energies().elastic;
     simulation.set_velocities(&turning_and_stretching(mesh))?;
     Ok(Flight { simulation, rest_energy })

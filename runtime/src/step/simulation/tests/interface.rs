@@ -105,6 +105,7 @@ fn no_setting_returns_nan() {
         let settings = SimulationSettings {
             gravity: [0.0, if case % 5 == 0 { number() } else { -9.81 }, 0.0],
             damping: damping[case % 3],
+            integrator: [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3][case / 4 % 3],
             newton: NewtonSettings {
                 filtering: if case % 2 == 0 { filters[case / 2 % 3] } else { filtering[case / 2 % 2] },
                 start: [InitialGuess::Position, InitialGuess::Velocity][case / 3 % 2],

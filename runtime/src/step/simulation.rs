@@ -1,4 +1,4 @@
-//! Simulation of a body by implicit Euler steps.
+//! Simulation of a body in steps of time.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,6 +10,7 @@ use crate::system::element::Evaluated;
 use crate::system::{Body, LinearError, Pins};
 
 use super::damping::{Damping, Viscosity};
+use super::integrator::{Integrator, Stages, Tableau};
 use super::line_search::LineSearchSettings;
 use super::newton::{NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, minimize};
 use super::objective::{Objective, Quadratic, Spring};
@@ -27,7 +28,9 @@ pub struct SimulationSettings {
     pub gravity: [f64; 3],
     /// Forces against velocity.
     pub damping: Damping,
-    /// Settings of the minimisation in each step.
+    /// Method by which steps advance in time.
+    pub integrator: Integrator,
+    /// Settings of the minimisation in each stage of a step.
     pub newton: NewtonSettings,
     /// Settings that shorten Newton steps.
     pub line_search: LineSearchSettings,
@@ -36,18 +39,19 @@ pub struct SimulationSettings {
 crate::chained::chained!(SimulationSettings {
     with_gravity(gravity: [f64; 3]),
     with_damping(damping: Damping),
+    with_integrator(integrator: Integrator),
     with_newton(newton: NewtonSettings),
     with_line_search(line_search: LineSearchSettings),
 });
 
-/// Body with its state, stepped by implicit Euler. In f64.
+/// Body with its state, stepped by implicit Euler or another [`Integrator`]. In f64.
 ///
 /// ```math
 /// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − damping + M g − springs
 /// ```
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
-/// solver, except for the small lists of a report and the levels of multigrid. The same state gives the same
+/// solver or integrator, except for the small lists of a report and the levels of multigrid. The same state gives the same
 /// bits for any number of threads of the rayon pool in which `step` is called, and whatever was before it.
 ///
 /// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
@@ -58,6 +62,8 @@ pub struct Simulation {
     body: Body,
     settings: SimulationSettings,
     springs: Vec<Spring>,
+    /// Targets of the springs where the next step starts.
+    targets_before: Vec<[f64; 3]>,
     positions: Vec<[f64; 3]>,
     velocities: Vec<[f64; 3]>,
     /// Positions of the pinned nodes, and only of them, after the next step.
@@ -69,6 +75,7 @@ pub struct Simulation {
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     next: Vec<[f64; 3]>,
+    stages: Stages,
     pins_move: Vec<[f64; 3]>,
     /// Survey of the elastic energies at `positions`, if these were evaluated last.
     evaluated: Option<Evaluated>,
@@ -100,6 +107,7 @@ impl Simulation {
         Ok(Self {
             settings,
             springs: Vec::new(),
+            targets_before: Vec::new(),
             positions: body.rest().to_vec(),
             velocities: vec![[0.0; 3]; nodes],
             targets: body.rest().to_vec(),
@@ -109,6 +117,7 @@ impl Simulation {
             viscosity: settings.damping.viscosity(&body),
             static_regularisation: static_regularisation(&body),
             next: vec![[0.0; 3]; nodes],
+            stages: Stages::new(settings.integrator, nodes),
             pins_move: vec![[0.0; 3]; nodes],
             evaluated: None,
             body,
@@ -177,7 +186,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces all springs.
+    /// Replaces all springs. A spring whose place in the list had one at the same anchor before has its target
+    /// moved: evenly in the course of the next step, as far as the integrator looks at what is between.
     ///
     /// # Errors
     /// [`SetupError::SpringAcrossElements`] if the nodes of a spring do not belong to one element,
@@ -185,6 +195,11 @@ impl Simulation {
     /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
+        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
+            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
+            _ => spring.target,
+        };
+        self.targets_before = springs.iter().enumerate().map(before).collect();
         self.springs.clear();
         self.springs.extend_from_slice(springs);
         Ok(())
@@ -213,6 +228,9 @@ impl Simulation {
         if (new.linear, new.filtering) != (old.linear, old.filtering) {
             self.workspace = NewtonWorkspace::new(&self.body, &self.pins, new)?;
         }
+        if settings.integrator != self.settings.integrator {
+            self.stages = Stages::new(settings.integrator, self.positions.len());
+        }
         if settings.damping != self.settings.damping {
             self.viscosity = settings.damping.viscosity(&self.body);
         }
@@ -221,6 +239,9 @@ impl Simulation {
     }
 
     /// Advances by `dt`, s.
+    ///
+    /// Pinned nodes move evenly to where they are prescribed to be. Damping by the stiffness takes that of the
+    /// state before the step.
     ///
     /// # Errors
     /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a
@@ -257,41 +278,92 @@ impl Simulation {
 
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         self.next.copy_from_slice(&self.positions);
-        let mut pins_move = false;
-        for &node in self.pins.nodes() {
-            for c in 0..3 {
-                self.pins_move[node][c] = self.targets[node][c] - self.positions[node][c];
-                pins_move |= self.pins_move[node][c] != 0.0;
-            }
-        }
-        let survey = match self.evaluated.take() {
+        let mut survey = match self.evaluated.take() {
             Some(survey) => survey,
             None => self.elastic.evaluate(&self.body, &self.positions),
         };
         let is_static = dt == f64::INFINITY;
-        let viscosity = self.viscosity.as_mut().filter(|_| !is_static).map(|viscosity| {
-            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / dt);
-            &*viscosity
-        });
-        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (dt * dt) };
+        let integrator = if is_static { Integrator::ImplicitEuler } else { self.settings.integrator };
+        let Tableau { diagonal, before, last } = integrator.tableau();
+        let length = diagonal * dt;
+        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| !is_static) {
+            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / length);
+        }
+        let mut stages_before: Option<NewtonReport> = None;
+        for (stage, coefficients) in before.iter().enumerate() {
+            self.stages.begin(coefficients, dt, &self.positions, &self.velocities);
+            let share = coefficients.iter().sum::<f64>() + diagonal;
+            self.stages.pull(&self.springs, &self.targets_before, share);
+            let report;
+            (report, survey) = self.minimize_stage(true, length, share, survey)?;
+            self.stages.end(stage, length, &self.next);
+            stages_before = Some(report.after(stages_before));
+        }
+        let has_stages = !before.is_empty();
+        if has_stages {
+            self.stages.begin(last, dt, &self.positions, &self.velocities);
+            self.stages.pull(&self.springs, &self.targets_before, 1.0);
+        }
+        let (report, survey) = self.minimize_stage(has_stages, length, 1.0, survey)?;
+
+        let start = if has_stages { &self.stages.start } else { &self.positions };
+        for (velocity, (next, start)) in self.velocities.iter_mut().zip(self.next.iter().zip(start)) {
+            for c in 0..3 {
+                velocity[c] = (next[c] - start[c]) / length;
+            }
+        }
+        std::mem::swap(&mut self.positions, &mut self.next);
+        for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
+            *before = spring.target;
+        }
+        self.evaluated = Some(survey);
+        let newton = report.after(stages_before);
+        Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
+    }
+
+    /// Moves `next` to the end of a stage: a step of implicit Euler of this length, which takes the pinned
+    /// nodes to this share of their way.
+    fn minimize_stage(
+        &mut self,
+        has_stages: bool,
+        length: f64,
+        share: f64,
+        survey: Evaluated,
+    ) -> Result<(NewtonReport, Evaluated), NewtonError> {
+        let mut pins_move = false;
+        for &node in self.pins.nodes() {
+            for c in 0..3 {
+                let way = self.targets[node][c] - self.positions[node][c];
+                let done = self.next[node][c] - self.positions[node][c];
+                self.pins_move[node][c] = share * way - done;
+                pins_move |= self.pins_move[node][c] != 0.0;
+            }
+        }
+        let is_static = length == f64::INFINITY;
+        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (length * length) };
         let may_drift = is_static && self.pins.nodes().len() < 3;
+        let (start, velocities, springs) = if has_stages {
+            (&self.stages.start, &self.stages.velocities, &self.stages.springs)
+        } else {
+            (&self.positions, &self.velocities, &self.springs)
+        };
         let mut objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
             quadratic: Quadratic {
                 masses: self.body.masses(),
-                start: &self.positions,
-                velocities: &self.velocities,
-                dt,
+                start,
+                velocities,
+                dt: length,
                 damping: self.settings.damping.rate(),
                 regularisation,
                 guard: if may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
-                springs: &self.springs,
+                springs,
             },
-            viscosity,
+            viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
-        let (newton, survey) = minimize(
+        minimize(
             &mut objective,
             &mut self.workspace,
             &mut self.next,
@@ -299,18 +371,7 @@ impl Simulation {
             survey,
             &self.settings.newton,
             &self.settings.line_search,
-        )?;
-
-        for (velocity, (next, position)) in
-            self.velocities.iter_mut().zip(self.next.iter().zip(&self.positions))
-        {
-            for c in 0..3 {
-                velocity[c] = (next[c] - position[c]) / dt;
-            }
-        }
-        std::mem::swap(&mut self.positions, &mut self.next);
-        self.evaluated = Some(survey);
-        Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
+        )
     }
 
     /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
@@ -378,7 +439,7 @@ fn static_regularisation(body: &Body) -> f64 {
 }
 
 fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
-    let SimulationSettings { gravity, damping, newton, line_search } = settings;
+    let SimulationSettings { gravity, damping, integrator: _, newton, line_search } = settings;
     let between = |x: f64, low: f64, high: f64| low < x && x < high;
     let checks = [
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
