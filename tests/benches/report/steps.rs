@@ -140,13 +140,11 @@ impl Course {
 /// Implicit Euler with full Newton unless the axis is another.
 fn ways() -> Vec<Way> {
     let full = NewtonSettings::default();
-    let with = |axis, setting: &str, division, settings| Way {
-        axis,
-        setting: setting.to_owned(),
-        division,
-        settings,
+    let with = |axis, setting: &str, division, settings| {
+        let setting = setting.to_owned();
+        Way { axis, setting, division, settings }
     };
-    let way = |axis, setting, division, newton| with(axis, setting, division, solved_by(newton));
+    let way = |axis, setting: &str, division, newton| with(axis, setting, division, solved_by(newton));
     let mut ways = Vec::new();
     for division in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0] {
         ways.push(way("h", FULL, division, full));
