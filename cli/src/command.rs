@@ -178,8 +178,8 @@ struct Choice {
     #[arg(long, value_name = "FILE", requires = "mesh")]
     surface: Option<PathBuf>,
 
-    /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work as
-    /// a step of implicit Euler, and errors of second and third order.
+    /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work
+    /// as a step of implicit Euler, and errors of second and third order.
     #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "euler")]
     integrator: Integrator,
 

@@ -148,17 +148,18 @@ fn assert_same(one: &Path, other: &Path) {
 #[test]
 fn a_run_goes_on_to_the_last_bit() {
     let scratch = tempfile::tempdir().expect("a scratch folder");
-    let dinosaur = |newton: &str, more: &[&str]| {
-        let whole = ["run", "dinosaur", "--newton", newton, "--material", "ogden", "--vtu"];
+    let dinosaur = |how: [&str; 2], more: &[&str]| {
+        let [newton, integrator] = how;
+        let whole = ["run", "dinosaur", "--newton", newton, "--integrator", integrator, "--vtu"];
         assert_code(&piola(scratch.path(), &[&whole[..], more].concat()), 0);
     };
-    for newton in ["single", "full"] {
-        let parts = format!("parts-{newton}");
-        dinosaur(newton, &["--frames", "3", "--out", &parts]);
-        dinosaur(newton, &["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
-        dinosaur(newton, &["--frames", "8", "--out", &parts, "--resume"]);
-        dinosaur(newton, &["--frames", "8", "--out", newton]);
-        assert_same(&scratch.path().join(parts), &scratch.path().join(newton));
+    for how in [["single", "euler"], ["full", "euler"], ["full", "sdirk2"]] {
+        let (whole, parts) = (how.join("-"), format!("{}-in-parts", how.join("-")));
+        dinosaur(how, &["--frames", "3", "--out", &parts]);
+        dinosaur(how, &["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
+        dinosaur(how, &["--frames", "8", "--out", &parts, "--resume"]);
+        dinosaur(how, &["--frames", "8", "--out", &whole]);
+        assert_same(&scratch.path().join(parts), &scratch.path().join(whole));
     }
 }
 

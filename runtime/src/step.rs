@@ -1,8 +1,9 @@
 //! Time: implicit steps as minimisations, by Newton's method with a line search; and statics.
 //!
-//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of which
-//! minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
-//! shortens steps, `objective` is the function that decreases. `equilibrium` classifies a body that has come to rest. Reports are values; nothing prints.
+//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
+//! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
+//! shortens steps, `objective` is the function that decreases. `equilibrium` classifies a body that has come
+//! to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!

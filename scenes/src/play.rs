@@ -48,7 +48,7 @@ impl Play {
         let young = info.moduli.young();
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let simulation = at_start(settings, geometry, info.elements)?;
-        Ok(Self {
+        let mut play = Self {
             simulation,
             material: info.name,
             parameters: info.parameters,
@@ -57,7 +57,9 @@ impl Play {
             moduli: info.moduli,
             stiffness: stiffness(young, mesh),
             clock: Clock::new(settings.dt),
-        })
+        };
+        play.pull(play.clock)?;
+        Ok(play)
     }
 
     /// Checks that the material is defined where the body is.
@@ -137,7 +139,7 @@ impl Play {
         self.simulation.set_positions(positions)?;
         self.simulation.set_velocities(velocities)?;
         self.clock = clock;
-        Ok(())
+        self.pull(clock)
     }
 
     /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
@@ -171,13 +173,18 @@ impl Play {
             let (quantity, value) = ("the time after the step", clock.time());
             return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
         }
-        let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
-        let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
-        self.simulation.set_springs(&springs)?;
+        self.pull(clock)?;
         let failed = |source| Error::Step { frame: clock.frame(), source };
         let report = self.simulation.step(clock.dt()).map_err(failed)?;
         self.clock = clock;
         Ok(report)
+    }
+
+    /// Draws the springs to where they are at this time: evenly, if there were springs before.
+    fn pull(&mut self, clock: Clock) -> Result<(), Error> {
+        let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
+        let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
+        Ok(self.simulation.set_springs(&springs)?)
     }
 }
 

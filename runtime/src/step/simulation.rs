@@ -51,8 +51,9 @@ crate::chained::chained!(SimulationSettings {
 /// ```
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
-/// solver or integrator, except for the small lists of a report and the levels of multigrid. The same state gives the same
-/// bits for any number of threads of the rayon pool in which `step` is called, and whatever was before it.
+/// solver or integrator, except for the small lists of a report and the levels of multigrid. The same state
+/// gives the same bits for any number of threads of the rayon pool in which `step` is called, and whatever
+/// was before it.
 ///
 /// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
 /// takes as much memory again, but for the materials and the symbolic factorisation, which are shared; to
@@ -186,8 +187,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces all springs. A spring whose place in the list had one at the same anchor before has its target
-    /// moved: evenly in the course of the next step, as far as the integrator looks at what is between.
+    /// Replaces all springs.
+    ///
+    /// A spring at the same index and anchor as one before has its target moved: evenly in the course of the
+    /// next step. Implicit Euler looks at the end of a step only, and other integrators at what is between.
     ///
     /// # Errors
     /// [`SetupError::SpringAcrossElements`] if the nodes of a spring do not belong to one element,
@@ -240,8 +243,8 @@ impl Simulation {
 
     /// Advances by `dt`, s.
     ///
-    /// Pinned nodes move evenly to where they are prescribed to be. Damping by the stiffness takes that of the
-    /// state before the step.
+    /// Pinned nodes move evenly to where they are prescribed to be. Damping by the stiffness takes that of
+    /// the state before the step.
     ///
     /// # Errors
     /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a

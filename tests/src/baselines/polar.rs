@@ -14,8 +14,8 @@
 //! ∂Pij/∂Fkl = 2 μ δik δjl + λ Rij Rkl + (λ (tr S − 3) − 2 μ) ∂Rij/∂Fkl
 //! ```
 //!
-//! R comes from Newton's iteration X ← ½ (γ X + X⁻ᵀ/γ), scaled by γ² = |X⁻¹|/|X| \[Higham86\]. It has the sign
-//! of det F, so that points turned inside out get another R than a rotation, and singular F get none.
+//! R comes from Newton's iteration X ← ½ (γ X + X⁻ᵀ/γ), scaled by γ² = |X⁻¹|/|X| \[Higham86\]. It has the
+//! sign of det F, so that points turned inside out get another R than a rotation, and singular F get none.
 //!
 //! \[Higham86\] Higham, *Computing the polar decomposition, with applications*, 1986.
 

@@ -6,7 +6,8 @@ use crate::system::{Body, Pins};
 
 const ALL: [Integrator; 3] = [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3];
 
-/// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, as far as the order goes.
+/// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, as far as the order
+/// goes.
 #[test]
 fn coefficients_have_their_order() {
     for (integrator, order) in ALL.into_iter().zip([1, 2, 3]) {

@@ -17,8 +17,8 @@ pub(super) fn draw(rows: &[GrowthRow]) -> Result<Chart, String> {
         panel("memory", "bytes at most", |row| row.peak_bytes, &[1]),
     ];
     let title = "A step of a box of rubber: time and memory against its size";
-    let note = "One iteration of Newton's method a step of 1/100 s. Solid lines: one thread; dashed: two. CG: conjugate gradients to that \
-                residual. Cholesky f32: refined to 1e-6. CSR: scalar entries in compressed rows, as other codes have them. n^k: growth between the largest two boxes.";
+    let note = "A step of 1/100 s, one iteration of Newton's method. Dashed: two threads. CG: conjugate gradients to that residual. \
+                CSR: so, on compressed rows. n^k: growth at the end.";
     let svg = sheet([1280, 620], 2, title, note, &panels)?;
     let caption = "Time and memory of a step from a thousand to a million elements".to_owned();
     Ok(Chart { file: "growth.svg".to_owned(), svg, caption })
