@@ -139,6 +139,8 @@ impl Play {
         self.simulation.set_positions(positions)?;
         self.simulation.set_velocities(velocities)?;
         self.clock = clock;
+        // From nowhere: they do not move there in the next step.
+        self.simulation.set_springs(&[])?;
         self.pull(clock)
     }
 
