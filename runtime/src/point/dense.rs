@@ -40,7 +40,8 @@ pub struct DensePoint<R: Real> {
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let rubber = Rubber::new(1e6, 4e6)?;
-/// let sheared = evaluate_dense(&rubber, &[[1.0, 0.3, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], Filter::None);
+/// let shear = [[1.0f64, 0.3, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let sheared = evaluate_dense(&rubber, &shear, Filter::None);
 /// assert!(sheared.status.is_clean());
 /// // The shear stress is μ γ, and its slope is μ.
 /// assert!((sheared.stress[0][1] - 3e5).abs() < 1e-9 && (sheared.tangent[1][1] - 1e6).abs() < 1e-9);
