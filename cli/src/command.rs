@@ -180,7 +180,7 @@ struct Choice {
 
     /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work
     /// as a step of implicit Euler, and errors of second and third order.
-    #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "euler")]
+    #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "implicit-euler")]
     integrator: Integrator,
 
     /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
@@ -291,7 +291,7 @@ impl Choice {
 }
 
 fn integrators() -> impl TypedValueParser<Value = Integrator> {
-    PossibleValuesParser::new(["euler", "sdirk2", "sdirk3"]).map(|name| match name.as_str() {
+    PossibleValuesParser::new(["implicit-euler", "sdirk2", "sdirk3"]).map(|name| match name.as_str() {
         "sdirk2" => Integrator::Sdirk2,
         "sdirk3" => Integrator::Sdirk3,
         _ => Integrator::ImplicitEuler,

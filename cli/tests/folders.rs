@@ -153,7 +153,7 @@ fn a_run_goes_on_to_the_last_bit() {
         let whole = ["run", "dinosaur", "--newton", newton, "--integrator", integrator, "--vtu"];
         assert_code(&piola(scratch.path(), &[&whole[..], more].concat()), 0);
     };
-    for how in [["single", "euler"], ["full", "euler"], ["full", "sdirk2"]] {
+    for how in [["single", "implicit-euler"], ["full", "implicit-euler"], ["full", "sdirk2"]] {
         let (whole, parts) = (how.join("-"), format!("{}-in-parts", how.join("-")));
         dinosaur(how, &["--frames", "3", "--out", &parts]);
         dinosaur(how, &["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
