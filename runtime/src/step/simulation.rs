@@ -4,16 +4,19 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::batch::TileMaterial;
-use crate::message::number;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::{Body, LinearError, Pins};
+use crate::system::{Body, Pins};
 
 use super::damping::{Damping, Viscosity};
 use super::integrator::{Integrator, Stages, Tableau};
 use super::line_search::LineSearchSettings;
 use super::newton::{NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, minimize};
 use super::objective::{Objective, Quadratic, Spring};
+
+mod error;
+
+pub use error::{SetupError, StepError};
 
 /// Settings of a [`Simulation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -251,7 +254,9 @@ impl Simulation {
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
-        let has_inertia = (heaviest / dt / dt).is_finite() && dt * dt >= f64::MIN_POSITIVE;
+        let shortest = self.settings.integrator.tableau().diagonal * dt;
+        let has_inertia =
+            (heaviest / shortest / shortest).is_finite() && shortest * shortest >= f64::MIN_POSITIVE;
         if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
         }
@@ -498,108 +503,6 @@ impl Energies {
         self.elastic + self.kinetic + self.gravity + self.springs
     }
 }
-
-/// Reason why a simulation cannot be set up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SetupError {
-    /// A pin or spring names a node that does not exist.
-    NoSuchNode {
-        /// The node, from 0.
-        node: usize,
-        /// Number of nodes.
-        nodes: usize,
-    },
-    /// A motion is prescribed for a node that is not pinned.
-    NotPinned {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// There is not one entry for each node.
-    Length {
-        /// Number of nodes.
-        expected: usize,
-        /// Number of entries given.
-        found: usize,
-    },
-    /// A position or velocity is infinite or NaN.
-    NotFinite {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// A spring has a negative or infinite stiffness, or an entry that is not finite.
-    Spring {
-        /// Index of the spring.
-        index: usize,
-    },
-    /// The nodes of a spring do not belong to one element.
-    SpringAcrossElements {
-        /// Index of the spring.
-        index: usize,
-    },
-    /// A setting is out of range.
-    Setting {
-        /// The rule that it breaks.
-        rule: &'static str,
-    },
-    /// The linear solver cannot be set up.
-    Linear(LinearError),
-}
-
-impl fmt::Display for SetupError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchNode { node, nodes } => write!(f, "there is no node {node} (from 0) among {nodes}"),
-            Self::NotPinned { node } => {
-                write!(f, "node {node} (from 0) is not pinned, so its motion cannot be prescribed")
-            }
-            Self::Length { expected, found } => {
-                write!(f, "expected one entry for each of {expected} nodes, found {found}")
-            }
-            Self::NotFinite { node } => write!(f, "the entry of node {node} (from 0) is not finite"),
-            Self::Spring { index } => {
-                write!(f, "spring {index} (from 0) has a negative stiffness or an entry that is not finite")
-            }
-            Self::SpringAcrossElements { index } => {
-                write!(f, "the nodes of spring {index} (from 0) do not belong to one element")
-            }
-            Self::Setting { rule } => write!(f, "{rule}"),
-            Self::Linear(error) => error.fmt(f),
-        }
-    }
-}
-
-crate::chained::wraps!(SetupError { Linear(LinearError) });
-
-/// Reason why a step failed. The state before the step is untouched.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum StepError {
-    /// The time step is not positive and finite, or so short that inertia, mass over its square, overflows.
-    TimeStep {
-        /// The time step, s.
-        dt: f64,
-    },
-    /// The minimisation failed.
-    Newton(NewtonError),
-}
-
-impl fmt::Display for StepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TimeStep { dt } if *dt > 0.0 && dt.is_finite() => write!(
-                f,
-                "the time step is {dt:e} s, so short that mass over its square overflows; take a longer one"
-            ),
-            Self::TimeStep { dt } => {
-                write!(f, "the time step is {} s; it must be positive and finite", number(*dt))
-            }
-            Self::Newton(error) => error.fmt(f),
-        }
-    }
-}
-
-crate::chained::wraps!(StepError { Newton(NewtonError) });
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
 use crate::random::Random;
 use crate::step::{Convergence, Filtering, InitialGuess, LinearSolver, NewtonSettings};
+use crate::system::LinearError;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 
 mod interface;

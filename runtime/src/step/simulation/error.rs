@@ -1,0 +1,109 @@
+//! Reasons why a simulation cannot be set up, or a step not be made.
+
+use std::fmt;
+
+use crate::message::number;
+use crate::step::newton::NewtonError;
+use crate::system::LinearError;
+
+/// Reason why a simulation cannot be set up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// A pin or spring names a node that does not exist.
+    NoSuchNode {
+        /// The node, from 0.
+        node: usize,
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// A motion is prescribed for a node that is not pinned.
+    NotPinned {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// There is not one entry for each node.
+    Length {
+        /// Number of nodes.
+        expected: usize,
+        /// Number of entries given.
+        found: usize,
+    },
+    /// A position or velocity is infinite or NaN.
+    NotFinite {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// A spring has a negative or infinite stiffness, or an entry that is not finite.
+    Spring {
+        /// Index of the spring.
+        index: usize,
+    },
+    /// The nodes of a spring do not belong to one element.
+    SpringAcrossElements {
+        /// Index of the spring.
+        index: usize,
+    },
+    /// A setting is out of range.
+    Setting {
+        /// The rule that it breaks.
+        rule: &'static str,
+    },
+    /// The linear solver cannot be set up.
+    Linear(LinearError),
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchNode { node, nodes } => write!(f, "there is no node {node} (from 0) among {nodes}"),
+            Self::NotPinned { node } => {
+                write!(f, "node {node} (from 0) is not pinned, so its motion cannot be prescribed")
+            }
+            Self::Length { expected, found } => {
+                write!(f, "expected one entry for each of {expected} nodes, found {found}")
+            }
+            Self::NotFinite { node } => write!(f, "the entry of node {node} (from 0) is not finite"),
+            Self::Spring { index } => {
+                write!(f, "spring {index} (from 0) has a negative stiffness or an entry that is not finite")
+            }
+            Self::SpringAcrossElements { index } => {
+                write!(f, "the nodes of spring {index} (from 0) do not belong to one element")
+            }
+            Self::Setting { rule } => write!(f, "{rule}"),
+            Self::Linear(error) => error.fmt(f),
+        }
+    }
+}
+
+crate::chained::wraps!(SetupError { Linear(LinearError) });
+
+/// Reason why a step failed. The state before the step is untouched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The time step is not positive and finite, or so short that inertia, mass over its square, overflows.
+    TimeStep {
+        /// The time step, s.
+        dt: f64,
+    },
+    /// The minimisation failed.
+    Newton(NewtonError),
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TimeStep { dt } if *dt > 0.0 && dt.is_finite() => write!(
+                f,
+                "the time step is {dt:e} s, so short that mass over its square overflows; take a longer one"
+            ),
+            Self::TimeStep { dt } => {
+                write!(f, "the time step is {} s; it must be positive and finite", number(*dt))
+            }
+            Self::Newton(error) => error.fmt(f),
+        }
+    }
+}
+
+crate::chained::wraps!(StepError { Newton(NewtonError) });
