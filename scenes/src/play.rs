@@ -139,7 +139,7 @@ impl Play {
         self.simulation.set_positions(positions)?;
         self.simulation.set_velocities(velocities)?;
         self.clock = clock;
-        // From nowhere: they do not move there in the next step.
+        // Springs that replace none are drawn from where they are now, as those of the run were.
         self.simulation.set_springs(&[])?;
         self.pull(clock)
     }
@@ -182,7 +182,7 @@ impl Play {
         Ok(report)
     }
 
-    /// Draws the springs to where they are at this time: evenly, if there were springs before.
+    /// Sets the springs of the scene as they are at this time, and those that act beside them.
     fn pull(&mut self, clock: Clock) -> Result<(), Error> {
         let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
         let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();

@@ -289,17 +289,18 @@ fn orthonormal<const N: usize>(
 ) -> (Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>) {
     let mut blocks = motions.to_vec();
     let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
-    let mut squares = vec![[0.0; 6]; aggregates.len()];
     let members = || (0..motions.len()).filter_map(|row| Some((row, aggregates.of(row)?)));
+    // Of one motion, for each aggregate.
+    let squared_lengths = |blocks: &[[[f64; 6]; N]], c: usize| {
+        let mut squares = vec![0.0; aggregates.len()];
+        for (row, aggregate) in members() {
+            squares[aggregate] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
+        }
+        squares
+    };
     // Gram and Schmidt, twice, for all aggregates at once.
     for c in 0..6 {
-        for k in 0..6 {
-            squares.iter_mut().for_each(|square| square[k] = 0.0);
-        }
-        for (row, aggregate) in members() {
-            squares[aggregate][c] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
-        }
-        let before: Vec<f64> = squares.iter().map(|square| square[c]).collect();
+        let before = squared_lengths(&blocks, c);
         for _ in 0..2 {
             let mut along = vec![[0.0; 6]; aggregates.len()];
             for (row, aggregate) in members() {
@@ -320,10 +321,7 @@ fn orthonormal<const N: usize>(
                 }
             }
         }
-        let mut after = vec![0.0; aggregates.len()];
-        for (row, aggregate) in members() {
-            after[aggregate] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
-        }
+        let after = squared_lengths(&blocks, c);
         for (aggregate, combination) in combinations.iter_mut().enumerate() {
             let is_new = after[aggregate] > DEPENDENT * DEPENDENT * before[aggregate];
             combination[c][c] = if is_new { after[aggregate].sqrt() } else { 0.0 };
