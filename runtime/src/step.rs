@@ -2,7 +2,8 @@
 //!
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
-//! shortens steps, `objective` is the function that decreases. `equilibrium` classifies a body that has come
+//! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts beside the
+//! material. `equilibrium` classifies a body that has come
 //! to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
@@ -24,6 +25,8 @@ mod newton;
 mod objective;
 mod simulation;
 mod solver;
+mod spring;
+mod term;
 
 pub use damping::Damping;
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
@@ -31,6 +34,7 @@ pub use filtering::Filtering;
 pub use integrator::Integrator;
 pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
-pub use objective::Spring;
 pub use simulation::{Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport};
-pub use solver::LinearSolver;
+pub use solver::{LinearSolver, SparseSolver};
+pub use spring::Spring;
+pub use term::{EnergyChange, NodeBlocks, Term};

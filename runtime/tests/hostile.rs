@@ -15,10 +15,13 @@ use piola::point::Filter;
 use piola::point::measures::Measure;
 use piola::random::Random;
 use piola::step::{
-    Damping, Equilibrium, Filtering, InitialGuess, LineSearchSettings, LinearSolver, NewtonSettings,
-    Simulation, SimulationSettings, Spring,
+    Damping, Equilibrium, Filtering, InitialGuess, Integrator, LineSearchSettings, LinearSolver,
+    NewtonSettings, NodeBlocks, Simulation, SimulationSettings, SparseSolver, Spring, Term,
 };
-use piola::system::{BlockMatrix, Body, Cholesky, CsrPlaces, Part, Pattern, Pins, StiffnessOperator};
+use piola::system::{
+    BlockMatrix, Body, Cholesky, CsrPlaces, ElasticResponse, LinearError, LowerTriangle, Part, Pattern, Pins,
+    StiffnessOperator,
+};
 use piola::{Inversion, StatusCell, material};
 
 /// Neo-Hookean solid.
@@ -204,7 +207,16 @@ impl Hostile {
             .with_sufficient_decrease(self.about(1e-4))
             .with_shrink(self.about(0.5))
             .with_max_trials(self.one_of(&[0, 1, 48, 48]));
+        let integrator = match self.0.below(6) {
+            0 => Integrator::Sdirk2,
+            1 => Integrator::Sdirk3,
+            2 => Integrator::ImplicitMidpoint,
+            3 => Integrator::Newmark,
+            4 => Integrator::GeneralizedAlpha { spectral_radius: self.about(0.8) },
+            _ => Integrator::ImplicitEuler,
+        };
         SimulationSettings::default()
+            .with_integrator(integrator)
             .with_gravity([self.about(0.0), self.about(-9.81), self.about(0.0)])
             .with_damping(damping)
             .with_newton(newton)
@@ -272,6 +284,10 @@ fn matrices_of_ones_own() {
         let (full, packed) = (hostile.numbers(144 * points), hostile.numbers(78 * points));
         let _ = matrix.assemble(&full, layout, |node| inertia + node as f64);
         let _ = matrix.assemble_packed(&packed, layout, |_| inertia);
+        let block = [(); 3].map(|()| hostile.point());
+        let _ = matrix.add_block(hostile.node(nodes), hostile.node(nodes), block);
+        let (x, mut product) = (hostile.numbers(3 * nodes.min(9)), hostile.numbers(3 * nodes.min(9)));
+        let _ = matrix.lower_triangle().multiply(&x, &mut product);
         let (starts, rows) = (matrix.pattern().column_starts(), matrix.pattern().row_indices());
         let mut cholesky = Cholesky::new(starts, rows).expect("a pattern of its own");
         let values = hostile.numbers(rows.len());
@@ -403,7 +419,7 @@ fn bodies() {
             density: hostile.about(1e3),
         });
         let parts = parts.collect();
-        let Ok(body) = Body::from_parts(&mesh, parts) else { return };
+        let Ok(mut body) = Body::from_parts(&mesh, parts) else { return };
         let mut stiffness = StiffnessOperator::new(&body);
         let positions = hostile.points(body.rest());
         let _ = stiffness.linearise(&body, &positions, Filter::Clamp);
@@ -412,7 +428,57 @@ fn bodies() {
         let mut blocks = vec![[[0.0; 3]; 3]; hostile.length(body.rest().len())];
         let _ = stiffness.diagonal_blocks(&mut blocks);
         let _ = Pattern::new(hostile.node(9), body.elements(), &Pins::none());
+        let mut response = ElasticResponse::new(&body);
+        let _ = response.energy(&body, &positions);
+        let _ = response.gradient(&body, &positions, &mut product);
+        if let Ok(mut matrix) = BlockMatrix::of_body(&body, &hostile.pins(body.rest().len())) {
+            let _ = response.stiffness(&body, &positions, Filter::Clamp, &mut product, &mut matrix);
+        }
+        let _ = body.set_material(hostile.node(2), hostile.rubber());
     });
+}
+
+/// A term of hostile numbers: it refuses, it is not finite, it names nodes that are missing or share no
+/// element.
+struct Nonsense {
+    energy: Option<f64>,
+    force: [f64; 3],
+    nodes: [usize; 2],
+    block: [[f64; 3]; 3],
+    longest: f64,
+}
+
+impl Term for Nonsense {
+    fn energy(&self, _: &[[f64; 3]]) -> Option<f64> {
+        self.energy
+    }
+
+    fn add_gradient(&self, _: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        (0..3).for_each(|c| gradient[0][c] += self.force[c]);
+    }
+
+    fn add_second_derivatives(&self, _: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        blocks.add(self.nodes[0], self.nodes[1], self.block);
+    }
+
+    fn longest_step(&self, _: &[[f64; 3]], _: &[[f64; 3]]) -> f64 {
+        self.longest
+    }
+}
+
+/// A solver that fails, or answers with hostile numbers.
+#[derive(Clone)]
+struct Wrong {
+    error: Option<LinearError>,
+    x: f64,
+}
+
+impl SparseSolver for Wrong {
+    fn solve(&mut self, _: LowerTriangle<'_>, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+        self.error.map_or(Ok(0), Err)?;
+        b.fill(self.x);
+        Ok(0)
+    }
 }
 
 /// A step that succeeds leaves numbers behind.
@@ -429,7 +495,32 @@ fn simulations() {
         let (pins, settings) = (hostile.pins(nodes), hostile.settings());
         let Ok(mut simulation) = Simulation::new(body, &pins, settings) else { return };
         for _ in 0..4 {
-            let _ = match hostile.0.below(5) {
+            let _ = match hostile.0.below(12) {
+                5 => simulation.set_accelerations(&hostile.points(&mesh.positions)),
+                6 => simulation.set_forces(&hostile.points(&vec![[0.0; 3]; nodes])),
+                7 => simulation.set_pins(&hostile.pins(nodes)),
+                8 => {
+                    let _ = simulation.set_material(hostile.node(1), hostile.rubber());
+                    Ok(())
+                }
+                9 => {
+                    simulation.set_terms(vec![std::sync::Arc::new(Nonsense {
+                        energy: (!hostile.0.once_in(8)).then(|| hostile.about(0.0)),
+                        force: [(); 3].map(|()| hostile.about(0.0)),
+                        nodes: [(); 2].map(|()| hostile.node(nodes)),
+                        block: [(); 3].map(|()| [(); 3].map(|()| hostile.about(0.0))),
+                        longest: hostile.about(1.0),
+                    })]);
+                    Ok(())
+                }
+                10 => {
+                    let error = hostile.one_of(&[
+                        None,
+                        Some(LinearError::NotPositive { column: usize::MAX }),
+                        Some(LinearError::NotFactored),
+                    ]);
+                    simulation.set_linear_solver(Wrong { error, x: hostile.about(0.0) })
+                }
                 0 => simulation.set_positions(&hostile.points(&mesh.positions)),
                 1 => simulation.set_velocities(&hostile.points(&mesh.positions)),
                 2 => simulation.prescribe(hostile.node(nodes), hostile.point()),
@@ -449,9 +540,10 @@ fn simulations() {
         let stepped = if hostile.0.once_in(3) { simulation.equilibrate() } else { simulation.step(dt) };
         if stepped.is_ok() {
             steps += 1;
-            let state = [simulation.positions(), simulation.velocities()];
+            let state = [simulation.positions(), simulation.velocities(), simulation.accelerations()];
             assert!(state.concat().as_flattened().iter().all(|x| x.is_finite()), "dt = {dt:e}: {state:?}");
         }
+        let _ = simulation.reactions();
         if let Ok(Equilibrium { smallest_eigenvalue: Some(eigenvalue), .. }) = Equilibrium::of(&simulation) {
             assert!(eigenvalue.value.is_finite() && eigenvalue.error.is_finite(), "{eigenvalue:?}");
         }

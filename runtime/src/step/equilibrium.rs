@@ -3,7 +3,7 @@
 //! A body may stay in another state than its rest shape: in a minimum of its energy elsewhere, at a saddle
 //! that nothing pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 +
 //! λ3 = 0 and no force vanishes. These differ in the forces and in the smallest eigenvalue of the stiffness
-//! K, unfiltered and with springs,
+//! K, unfiltered, with springs and other terms,
 //!
 //! ```text
 //! K v = ω² M v,   M the lumped masses,
@@ -23,9 +23,11 @@ use crate::system::linear::symmetric_product;
 use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Cholesky, LinearError, Pattern, Pins, Tetrahedron};
 
+use super::integrator::Stage;
 use super::newton::{NewtonError, demand_admissible};
 use super::objective::{Objective, Quadratic};
 use super::simulation::Simulation;
+use super::term::NodeBlocks;
 
 mod rigid;
 
@@ -49,7 +51,7 @@ const LAST_SHIFT: f64 = 1e3;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Equilibrium {
-    /// Norm of the forces on the free nodes, N: of elements, springs and gravity together.
+    /// Norm of the forces on the free nodes, N: all forces of statics together.
     pub residual: f64,
     /// The largest force of an element on one of its nodes, N.
     pub largest_force: f64,
@@ -110,25 +112,32 @@ impl Equilibrium {
         let tangents = elastic.linearise(body, Filter::None, &mut stiffnesses);
         demand_admissible(&tangents, body, &elastic)?;
 
+        let stage = Stage::at_rest(positions.len());
         let quadratic = Quadratic {
             masses: body.masses(),
-            start: positions,
-            velocities: simulation.velocities(),
-            dt: f64::INFINITY,
+            stage: &stage,
             damping: 0.0,
             regularisation: 0.0,
             guard: 0.0,
             gravity: simulation.settings().gravity,
-            springs: simulation.springs(),
+            forces: simulation.forces(),
         };
-        let objective = Objective { body, elastic: &mut elastic, quadratic, viscosity: None };
+        let mut blocks = NodeBlocks::default();
+        let terms = simulation.all_terms();
+        terms.linearise(positions, &mut blocks);
+        if let Some(node) = blocks.missing() {
+            return Err(NewtonError::NoSuchNode { node, nodes: positions.len() });
+        }
+        let objective =
+            Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks, viscosity: None };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 
         let pins = Pins::at(simulation.pinned().iter().copied());
-        let pattern = Pattern::new(positions.len(), body.elements(), &pins)?;
+        let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
+        let pattern = Pattern::with_pairs(positions.len(), body.elements(), &pairs, &pins)?;
         let rigid = rigid::motions(simulation, pattern.node_of_free())?;
-        let spectrum = Spectrum::new(&quadratic, &stiffnesses, pattern, &rigid);
+        let spectrum = Spectrum::new(body.masses(), &stiffnesses, &blocks, pattern, &rigid);
         let smallest_eigenvalue = spectrum.and_then(|spectrum| spectrum.smallest())?;
 
         let square = |x: &[f64; 3]| x.iter().map(|c| c * c).sum::<f64>();
@@ -187,18 +196,19 @@ struct Spectrum<'a> {
 
 impl<'a> Spectrum<'a> {
     fn new(
-        quadratic: &Quadratic<'_>,
+        masses: &[f64],
         stiffnesses: &ElementStiffnesses,
+        blocks: &NodeBlocks,
         pattern: Pattern,
         rigid: &'a [Vec<f64>],
     ) -> Result<Self, NewtonError> {
         let mut stiffness = vec![0.0; pattern.entries().row_idx().len()];
         stiffnesses.fill(&pattern, |_| 0.0, &mut stiffness);
-        quadratic.add_springs(&pattern, &mut stiffness);
+        blocks.add_to_entries(&pattern, &mut stiffness);
         if !stiffness.iter().all(|entry| entry.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
-        let masses = pattern.node_of_free().iter().flat_map(|&node| [quadratic.masses[node]; 3]).collect();
+        let masses = pattern.node_of_free().iter().flat_map(|&node| [masses[node]; 3]).collect();
         Ok(Self { pattern, stiffness, masses, rigid })
     }
 

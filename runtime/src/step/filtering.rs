@@ -93,7 +93,9 @@ impl Model {
         objective.elastic.linearise(objective.body, Filter::None, &mut self.stiffness);
         self.stiffness.multiply(direction, product_of);
         self.slope = slope;
-        self.curvature = product(product_of, direction) + objective.quadratic_curvature(direction);
+        self.curvature = product(product_of, direction)
+            + objective.quadratic_curvature(direction)
+            + objective.blocks.curvature(direction);
     }
 
     /// The ratio of an actual change of the objective to the predicted one.

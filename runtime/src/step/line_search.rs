@@ -10,6 +10,8 @@
 //!
 //! This module knows a function of one variable and nothing else.
 
+use super::term::EnergyChange;
+
 /// Settings of the line search: when to accept a step and how to shorten it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
@@ -25,11 +27,14 @@ pub struct LineSearchSettings {
     pub shrink: f64,
     /// Number of trials after which to give up.
     pub max_trials: usize,
+    /// Whether a step is accepted however the energy changes, unless it leaves the domain: Newton's method
+    /// without a line search, for comparisons.
+    pub accepts_increase: bool,
 }
 
 impl Default for LineSearchSettings {
     fn default() -> Self {
-        Self { sufficient_decrease: 1e-4, shrink: 0.5, max_trials: 48 }
+        Self { sufficient_decrease: 1e-4, shrink: 0.5, max_trials: 48, accepts_increase: false }
     }
 }
 
@@ -37,25 +42,17 @@ crate::chained::chained!(LineSearchSettings {
     with_sufficient_decrease(sufficient_decrease: f64),
     with_shrink(shrink: f64),
     with_max_trials(max_trials: usize),
+    with_accepts_increase(accepts_increase: bool),
 });
 
 /// An objective along a line, relative to its start.
 pub(crate) trait Line {
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
     /// the domain.
-    fn change(&mut self, step: f64) -> Option<Change>;
+    fn change(&mut self, step: f64) -> Option<EnergyChange>;
 
     /// The derivative at the step tried last.
     fn slope(&mut self) -> f64;
-}
-
-/// A difference of objectives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Change {
-    /// Objective at the step minus that at the start.
-    pub(super) difference: f64,
-    /// Bound for its rounding error.
-    pub(super) noise: f64,
 }
 
 /// Result of a line search.
@@ -83,19 +80,29 @@ pub(super) enum Outcome {
     },
 }
 
-/// Tries the steps 1, shrink, shrink², … until one is acceptable; `slope` < 0 is the derivative at the start.
-pub(super) fn backtrack(line: &mut impl Line, slope: f64, settings: &LineSearchSettings) -> Outcome {
+/// Tries the step `first`, then that times shrink, shrink², … until one is acceptable; `slope` < 0 is the
+/// derivative at the start.
+pub(super) fn backtrack(
+    line: &mut impl Line,
+    first: f64,
+    slope: f64,
+    settings: &LineSearchSettings,
+) -> Outcome {
     let delta = settings.sufficient_decrease;
-    let (mut step, mut refused) = (1.0, 0);
+    let (mut step, mut refused) = (first, 0);
+    if first <= 0.0 {
+        return Outcome::Failed { step, refused };
+    }
     for trials in 1..=settings.max_trials {
         match line.change(step) {
             None => refused += 1,
-            Some(Change { difference, noise }) => {
+            Some(EnergyChange { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
                 let noisy = difference.abs() <= noise;
                 // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without
                 // differences.
-                if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
+                let is_free = settings.accepts_increase && difference.is_finite();
+                if is_free || (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
                     return Outcome::Accepted { step, difference, trials, refused, by_slope: noisy };
                 }
             }
@@ -120,9 +127,9 @@ mod tests {
     }
 
     impl<F: Fn(f64) -> Option<f64>, G: Fn(f64) -> f64> Line for Function<F, G> {
-        fn change(&mut self, step: f64) -> Option<Change> {
+        fn change(&mut self, step: f64) -> Option<EnergyChange> {
             self.at = step;
-            (self.value)(step).map(|difference| Change { difference, noise: self.noise })
+            (self.value)(step).map(|difference| EnergyChange { difference, noise: self.noise })
         }
 
         fn slope(&mut self) -> f64 {
@@ -139,7 +146,7 @@ mod tests {
     ) {
         let slope = derivative(0.0);
         let mut line = Function { value, derivative, at: 0.0, noise };
-        assert_eq!(backtrack(&mut line, slope, &LineSearchSettings::default()), expected);
+        assert_eq!(backtrack(&mut line, 1.0, slope, &LineSearchSettings::default()), expected);
     }
 
     #[test]

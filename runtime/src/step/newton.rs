@@ -1,6 +1,6 @@
 //! Newton's method with filtered second derivatives and a line search.
 //!
-//! This module knows neither masses nor springs: it sees an objective of nodal positions.
+//! This module knows neither masses nor terms: it sees an objective of nodal positions.
 
 use std::fmt;
 
@@ -13,7 +13,8 @@ use crate::system::{Body, LinearError, Pins};
 use super::filtering::{Filtering, Model};
 use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
 use super::objective::{Objective, product};
-use super::solver::{Definiteness, LinearSolver, SolveError, Solver};
+use super::solver::{Choice, Definiteness, LinearSolver, SolveError, Solver};
+use super::term::NodeBlocks;
 
 /// Settings of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,7 +113,7 @@ pub struct NewtonReport {
     pub change: f64,
     /// Length of each step, 1 for a whole one.
     pub step_lengths: Vec<f64>,
-    /// Number of line-search trials that left the domain of a material.
+    /// Number of line-search trials that left the domain of a material or a term.
     pub refused_trials: usize,
     /// Largest number of elements in an iteration whose tangent the filter changed.
     pub filtered: usize,
@@ -131,7 +132,9 @@ pub struct NewtonReport {
 /// Memory of Newton's method.
 #[derive(Clone)]
 pub(crate) struct NewtonWorkspace {
-    pub(crate) solver: Box<dyn Solver>,
+    solver: Box<dyn Solver>,
+    choice: Choice,
+    pins: Pins,
     pub(super) model: Option<Model>,
     gradient: Vec<[f64; 3]>,
     direction: Vec<[f64; 3]>,
@@ -140,15 +143,47 @@ pub(crate) struct NewtonWorkspace {
 
 impl NewtonWorkspace {
     /// Allocates the memory for a body with these pins.
-    pub(crate) fn new(body: &Body, pins: &Pins, settings: &NewtonSettings) -> Result<Self, LinearError> {
+    pub(crate) fn new(
+        body: &Body,
+        pins: &Pins,
+        choice: Choice,
+        filtering: Filtering,
+    ) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         Ok(Self {
-            solver: settings.linear.set_up(body, pins)?,
-            model: settings.filtering.model(body),
+            solver: choice.set_up(body, pins, &[])?,
+            choice,
+            pins: pins.clone(),
+            model: filtering.model(body),
             gradient: vec![[0.0; 3]; nodes],
             direction: vec![[0.0; 3]; nodes],
             trial: vec![[0.0; 3]; nodes],
         })
+    }
+
+    /// Whether the linear solver is a caller's own.
+    pub(super) fn has_own_solver(&self) -> bool {
+        matches!(self.choice, Choice::Own(_))
+    }
+
+    /// Replaces the pins, with a solver that is set up anew where the old one cannot serve.
+    pub(super) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
+        if !self.solver.set_pins(pins) {
+            self.solver = self.choice.set_up(body, pins, &[])?;
+        }
+        self.pins = pins.clone();
+        Ok(())
+    }
+
+    /// Sets the solver up anew if the terms' blocks join nodes that its matrix does not.
+    fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
+        let is_free = |node: &usize| self.pins.nodes().binary_search(node).is_err();
+        let is_missing = |[a, b]: &[usize; 2]| is_free(a) && is_free(b) && !self.solver.joins(*a, *b);
+        if blocks.pairs().any(|pair| is_missing(&pair)) {
+            let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
+            self.solver = self.choice.set_up(body, &self.pins, &pairs)?;
+        }
+        Ok(())
     }
 
     /// Norm of the gradient over the free nodes.
@@ -172,6 +207,9 @@ pub(crate) fn minimize(
     line_search: &LineSearchSettings,
 ) -> Result<(NewtonReport, Evaluated), NewtonError> {
     demand_admissible(&survey, objective.body, objective.elastic)?;
+    if let Some(term) = objective.terms.refusing(x) {
+        return Err(NewtonError::TermRefuses { term });
+    }
     workspace.solver.begin();
     let report = NewtonReport::before(settings);
     Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
@@ -256,7 +294,7 @@ impl Iteration<'_, '_> {
         let NewtonWorkspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
         direction.fill([0.0; 3]);
         for &node in solver.free_nodes() {
-            direction[node] = self.objective.quadratic.free_motion(node, x[node]);
+            direction[node] = self.objective.quadratic.stage.free_motion(node, x[node]);
         }
         let change = self.objective.along(x, direction, trial, gradient).change(1.0);
         match change {
@@ -320,6 +358,11 @@ impl Iteration<'_, '_> {
         x: &[[f64; 3]],
         pins_move: Option<&[[f64; 3]]>,
     ) -> Result<(), NewtonError> {
+        self.objective.terms.linearise(x, self.objective.blocks);
+        if let Some(node) = self.objective.blocks.missing() {
+            return Err(NewtonError::NoSuchNode { node, nodes: x.len() });
+        }
+        self.workspace.join(self.objective.body, self.objective.blocks)?;
         let tangents = self.workspace.solver.linearise(self.objective, filter);
         demand_admissible(&tangents, self.objective.body, self.objective.elastic)?;
         self.report.filtered = self.report.filtered.max(tangents.survey.filtered);
@@ -358,6 +401,9 @@ impl Iteration<'_, '_> {
         self.survey = self.objective.evaluate(x);
         inadmissible(&self.survey, self.objective.body)
             .map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
+        if let Some(term) = self.objective.terms.refusing(x) {
+            return Err(NewtonError::TermRefuses { term });
+        }
         self.note_gradient(x)?;
         Ok(product(&self.workspace.gradient, &self.workspace.direction) < 0.0)
     }
@@ -372,8 +418,13 @@ impl Iteration<'_, '_> {
         if let Some(model) = model {
             model.take(self.objective, slope, direction, trial);
         }
-        let outcome =
-            backtrack(&mut self.objective.along(x, direction, trial, gradient), slope, self.line_search);
+        let first = self.objective.terms.longest_step(x, direction);
+        let outcome = backtrack(
+            &mut self.objective.along(x, direction, trial, gradient),
+            first,
+            slope,
+            self.line_search,
+        );
         match outcome {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {
                 x.copy_from_slice(trial);
@@ -387,7 +438,7 @@ impl Iteration<'_, '_> {
             Outcome::Failed { step, refused } => {
                 self.report.refused_trials += refused;
                 self.survey = self.objective.evaluate(x);
-                if -slope > self.objective.elastic.difference_noise(self.objective.body) {
+                if -slope > self.objective.noise(x) {
                     let residual = self.report.residual;
                     return Err(NewtonError::LineSearch { step, refused, residual });
                 }
@@ -471,7 +522,7 @@ pub(super) fn demand_admissible(
 }
 
 /// Tag of the first element without a meaningful energy, if any.
-fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
+pub(super) fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
     evaluated.survey.first.map(|element| body.elements()[element].tag)
 }
 
@@ -496,6 +547,18 @@ pub enum NewtonError {
     PinsMoveTooFar {
         /// Tag of the element.
         element: usize,
+    },
+    /// A term has no energy before the step, or where the pins move.
+    TermRefuses {
+        /// Index of the term, from 0.
+        term: usize,
+    },
+    /// A term names a node that does not exist.
+    NoSuchNode {
+        /// The node, from 0.
+        node: usize,
+        /// Number of nodes.
+        nodes: usize,
     },
     /// The matrix is not positive definite with any multiple of inertia added.
     NotPositive {
@@ -537,6 +600,14 @@ impl fmt::Display for NewtonError {
                 f,
                 "the motion of the pins takes element {element} out of the domain of its material; take shorter time steps"
             ),
+            Self::TermRefuses { term } => write!(
+                f,
+                "term {term} (from 0) has no finite energy before the step or where the pins move; set positions that it admits, \
+                 or take shorter time steps"
+            ),
+            Self::NoSuchNode { node, nodes } => {
+                write!(f, "a term names node {node} (from 0), but there are {nodes} nodes")
+            }
             Self::NotPositive { node, shift } => write!(
                 f,
                 "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added; \

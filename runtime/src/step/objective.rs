@@ -1,79 +1,39 @@
 //! The function that a step of implicit Euler minimises, or a stage of another integrator.
 //!
-//! With M the lumped masses, h the time step, xₙ, vₙ the state before the step, and D the quadratic form of
-//! its [damping](super::damping), α M or β K:
+//! With M the lumped masses, D the quadratic form of the [damping](super::damping), α M or β K, and with s, w
+//! and the lengths τ, σ of the stage, for which v = (x − s)/τ and a = (v − w)/σ:
 //!
 //! ```text
-//! E(x) = ½‖x − xₙ − h vₙ‖²_M / h² + 1/(2h) ‖x − xₙ‖²_D + Ψ(x) − Σ m g·x + Σ ½ k ‖p(x) − t‖²
+//! E(x) = ½‖x − s − τ w‖²_M / (τσ) + 1/(2τ) ‖x − s‖²_D + Ψ(x) − Σ (m g + f)·x + Σ terms
 //! ```
 //!
-//! Where its gradient vanishes, M (v − vₙ)/h = −∇Ψ(x) − D v + M g − (springs) with v = (x − xₙ)/h: implicit
-//! Euler, damping included. All but Ψ is quadratic, so that along a line it needs one slope and one curvature
-//! and no subtraction of close energies. Positions enter as displacements from xₙ.
+//! Where its gradient vanishes, M a = −∇Ψ(x) − D v + M g + f − ∇ terms. For implicit Euler s and w are the
+//! state before the step, and τ = σ is its length. Inertia, damping and given forces are quadratic, so that
+//! along a line they need one slope and one curvature and no subtraction of close energies. Positions enter
+//! as displacements from s.
 //!
-//! With h = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
+//! With τ = σ = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
+
+use std::iter;
+use std::sync::Arc;
 
 use crate::lanes::Real;
-use crate::mesh::Anchor;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
-use crate::system::pattern::Pattern;
 
 use super::damping::Viscosity;
-use super::line_search::{Change, Line};
-
-/// Spring of rest length zero from a point of the body to a point in space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
-pub struct Spring {
-    /// Point of the body.
-    pub anchor: Anchor,
-    /// Point in space, m.
-    pub target: [f64; 3],
-    /// Stiffness k, N/m: the energy is ½ k |point − target|².
-    pub stiffness: f64,
-}
-
-impl Spring {
-    /// Attaches a spring to a node.
-    #[must_use]
-    pub fn on_node(node: usize, target: [f64; 3], stiffness: f64) -> Self {
-        Self { anchor: Anchor { nodes: [node; 4], weights: [1.0, 0.0, 0.0, 0.0] }, target, stiffness }
-    }
-
-    /// Energy ½ k |point − target|², J, when the nodes are at `positions`.
-    ///
-    /// # Panics
-    /// If there is no position of a node of the anchor.
-    #[must_use]
-    pub fn energy(&self, positions: &[[f64; 3]]) -> f64 {
-        let point = self.anchor.position(positions);
-        (0..3).map(|c| 0.5 * self.stiffness * (point[c] - self.target[c]).powi(2)).sum()
-    }
-
-    /// The nodes with a nonzero weight.
-    pub(crate) fn weights(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
-        self.anchor
-            .nodes
-            .iter()
-            .copied()
-            .zip(self.anchor.weights.iter().copied())
-            .filter(|(_, weight)| *weight != 0.0)
-    }
-}
+use super::integrator::Stage;
+use super::line_search::Line;
+use super::spring::Spring;
+use super::term::{EnergyChange, NodeBlocks, Term};
 
 /// The quadratic part of the objective.
 #[derive(Clone, Copy)]
 pub(crate) struct Quadratic<'a> {
     pub(crate) masses: &'a [f64],
-    /// xₙ.
-    pub(crate) start: &'a [[f64; 3]],
-    /// vₙ.
-    pub(crate) velocities: &'a [[f64; 3]],
-    /// h, s.
-    pub(crate) dt: f64,
+    pub(crate) stage: &'a Stage,
     /// α of mass-proportional damping, 1/s.
     pub(crate) damping: f64,
     /// Diagonal that a unit of regularisation adds for each mass, 1/s².
@@ -82,23 +42,20 @@ pub(crate) struct Quadratic<'a> {
     pub(crate) guard: f64,
     /// g, m/s².
     pub(crate) gravity: [f64; 3],
-    pub(crate) springs: &'a [Spring],
+    /// f of each node, N; empty without any.
+    pub(crate) forces: &'a [[f64; 3]],
 }
 
 impl Quadratic<'_> {
-    /// Second derivative in each coordinate of a node, without springs: m (1/h² + α/h).
+    /// Second derivative in each coordinate of a node: m (1/σ + α)/τ.
     fn diagonal(&self, node: usize) -> f64 {
-        self.masses[node] * (1.0 / self.dt + self.damping) / self.dt
+        let [tau, sigma] = self.stage.lengths;
+        self.masses[node] * (1.0 / sigma + self.damping) / tau
     }
 
     /// Second derivative in each coordinate of a node, with the guard against drift.
     pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
         self.diagonal(node) + self.masses[node] * self.guard
-    }
-
-    /// Displacement from `x` to where a node would be without forces, xₙ + h vₙ.
-    pub(crate) fn free_motion(&self, node: usize, x: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|c| (self.start[node][c] - x[c]) + self.dt * self.velocities[node][c])
     }
 
     /// Diagonal shift of a node; multiples of it are added until the Hessian is positive definite.
@@ -109,18 +66,15 @@ impl Quadratic<'_> {
     /// Adds the gradient at `x`.
     fn add_gradient(&self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
         for node in 0..x.len() {
+            let [v, acceleration] = self.stage.motion(node, x[node]);
             for c in 0..3 {
-                let v = (x[node][c] - self.start[node][c]) / self.dt;
-                let acceleration = (v - self.velocities[node][c]) / self.dt;
-                total[node][c] += self.masses[node] * (acceleration + self.damping * v - self.gravity[c]);
+                total[node][c] +=
+                    self.masses[node] * (acceleration[c] + self.damping * v[c] - self.gravity[c]);
             }
         }
-        for spring in self.springs {
-            let point = spring.anchor.position(x);
-            for (node, weight) in spring.weights() {
-                for c in 0..3 {
-                    total[node][c] += spring.stiffness * weight * (point[c] - spring.target[c]);
-                }
+        for (total, force) in total.iter_mut().zip(self.forces) {
+            for c in 0..3 {
+                total[c] -= force[c];
             }
         }
     }
@@ -130,34 +84,6 @@ impl Quadratic<'_> {
         for node in 0..d.len() {
             for c in 0..3 {
                 total[node][c] += self.guarded_diagonal(node) * d[node][c];
-            }
-        }
-        for spring in self.springs {
-            let point = spring.anchor.position(d);
-            for (node, weight) in spring.weights() {
-                for c in 0..3 {
-                    total[node][c] += spring.stiffness * weight * point[c];
-                }
-            }
-        }
-    }
-
-    /// Adds the springs' second derivatives to the entries of a matrix.
-    pub(crate) fn add_springs(&self, pattern: &Pattern, values: &mut [f64]) {
-        for spring in self.springs {
-            let free =
-                spring.weights().filter_map(|(node, weight)| Some((pattern.free_of_node()[node]?, weight)));
-            for (row, row_weight) in free.clone() {
-                for (column, column_weight) in free.clone().filter(|&(column, _)| column <= row) {
-                    // The nodes of a spring belong to one element: the simulation has made sure that the
-                    // block exists.
-                    if let Some(block) = pattern.block(row, column) {
-                        for c in 0..3 {
-                            let entry = pattern.scalar(column, block, c, c);
-                            values[entry] += spring.stiffness * row_weight * column_weight;
-                        }
-                    }
-                }
             }
         }
     }
@@ -171,31 +97,57 @@ impl Quadratic<'_> {
                 block[c][c] += self.guarded_diagonal(node);
             }
         }
-        for spring in self.springs {
-            for (row, row_weight) in spring.weights() {
-                for (column, column_weight) in spring.weights().filter(|&(column, _)| column <= row) {
-                    // The nodes of a spring belong to one element: the simulation has made sure that the
-                    // block exists, but for pinned ones, which do not move.
-                    if let Some((block, _)) = pattern.block(row, column) {
-                        for c in 0..3 {
-                            matrix.blocks_mut()[block][c][c] += spring.stiffness * row_weight * column_weight;
-                        }
-                    }
-                }
-            }
-        }
     }
 
     /// Curvature dᵀ H d.
     fn curvature(&self, d: &[[f64; 3]]) -> f64 {
         let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-        let inertia: f64 = d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum();
-        inertia
-            + self
-                .springs
-                .iter()
-                .map(|spring| spring.stiffness * square(spring.anchor.position(d)))
-                .sum::<f64>()
+        d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum()
+    }
+}
+
+/// Springs and other terms of the energy.
+#[derive(Clone, Copy)]
+pub(crate) struct Terms<'a> {
+    pub(crate) springs: &'a Vec<Spring>,
+    pub(crate) others: &'a [Arc<dyn Term>],
+}
+
+impl<'a> Terms<'a> {
+    fn each(self) -> impl Iterator<Item = &'a dyn Term> {
+        iter::once(self.springs as &dyn Term).chain(self.others.iter().map(Arc::as_ref))
+    }
+
+    /// Energy of the terms but for the springs; NaN where one has none.
+    pub(super) fn energy_of_others(self, x: &[[f64; 3]]) -> f64 {
+        self.others.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum()
+    }
+
+    /// Index of the first term, springs aside, that refuses these positions.
+    pub(super) fn refusing(self, x: &[[f64; 3]]) -> Option<usize> {
+        self.others.iter().position(|term| term.energy(x).is_none_or(|energy| !energy.is_finite()))
+    }
+
+    pub(crate) fn add_gradient(self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        self.each().for_each(|term| term.add_gradient(x, total));
+    }
+
+    /// Replaces the blocks by those at `x`.
+    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        blocks.begin(x.len());
+        self.each().for_each(|term| term.add_second_derivatives(x, blocks));
+    }
+
+    /// The share of a displacement, 1 or less, with which a line search begins.
+    pub(super) fn longest_step(self, x: &[[f64; 3]], d: &[[f64; 3]]) -> f64 {
+        self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d)))
+    }
+
+    fn change(self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
+        self.each().try_fold(EnergyChange::default(), |sum, term| {
+            let EnergyChange { difference, noise } = term.change(from, to)?;
+            Some(EnergyChange { difference: sum.difference + difference, noise: sum.noise + noise })
+        })
     }
 }
 
@@ -204,6 +156,9 @@ pub(crate) struct Objective<'a> {
     pub(crate) body: &'a Body,
     pub(crate) elastic: &'a mut Elastic,
     pub(crate) quadratic: Quadratic<'a>,
+    pub(crate) terms: Terms<'a>,
+    /// Second derivatives of the terms, where they were linearised last.
+    pub(crate) blocks: &'a mut NodeBlocks,
     /// Stiffness-proportional damping, where there is any.
     pub(crate) viscosity: Option<&'a Viscosity>,
 }
@@ -217,21 +172,28 @@ impl Objective<'_> {
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
     pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         self.quadratic_gradient(x, gradient);
+        self.terms.add_gradient(x, gradient);
         self.elastic.add_gradient(self.body, gradient);
     }
 
-    /// The gradient of all but the elastic energy.
+    /// The gradient of inertia, damping and given forces.
     fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         gradient.fill([0.0; 3]);
         self.quadratic.add_gradient(x, gradient);
         if let Some(viscosity) = self.viscosity {
-            let start = self.quadratic.start;
+            let start = &self.quadratic.stage.start;
             let displacement = |node: usize| std::array::from_fn(|c| x[node][c] - start[node][c]);
             viscosity.add_product(self.body, displacement, gradient);
         }
     }
 
-    /// Curvature dᵀ H d of all but the elastic energy.
+    /// Rounding error of a difference of energies near `x`, where the energies were evaluated last, J.
+    pub(super) fn noise(&self, x: &[[f64; 3]]) -> f64 {
+        let of_terms = self.terms.change(x, x).map_or(0.0, |change| change.noise);
+        self.elastic.difference_noise(self.body) + of_terms
+    }
+
+    /// Curvature dᵀ H d of inertia and damping.
     pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
         let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
         self.quadratic.curvature(d) + viscosity
@@ -270,12 +232,13 @@ struct Along<'a, 'b> {
 }
 
 impl Line for Along<'_, '_> {
-    fn change(&mut self, step: f64) -> Option<Change> {
+    fn change(&mut self, step: f64) -> Option<EnergyChange> {
         for node in 0..self.x.len() {
             for c in 0..3 {
                 self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
             }
         }
+        let terms = self.objective.terms.change(self.x, self.trial)?;
         if !self.objective.evaluate(self.trial).survey.is_clean() {
             return None;
         }
@@ -283,8 +246,9 @@ impl Line for Along<'_, '_> {
         let elastic = &self.objective.elastic;
         // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
         let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic)
-            + elastic.difference_noise(self.objective.body);
-        Some(Change { difference: linear + quadratic + elastic.difference(), noise })
+            + elastic.difference_noise(self.objective.body)
+            + terms.noise;
+        Some(EnergyChange { difference: linear + quadratic + terms.difference + elastic.difference(), noise })
     }
 
     fn slope(&mut self) -> f64 {

@@ -2,17 +2,23 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::batch::TileMaterial;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::{Body, Pins};
+use crate::system::{Body, BodyError, Pins};
 
 use super::damping::{Damping, Viscosity};
-use super::integrator::{Integrator, Stages, Tableau};
+use super::integrator::{Integrator, Method, Stages, State};
 use super::line_search::LineSearchSettings;
-use super::newton::{NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, minimize};
-use super::objective::{Objective, Quadratic, Spring};
+use super::newton::{
+    NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, demand_admissible, inadmissible, minimize,
+};
+use super::objective::{Objective, Quadratic, Terms};
+use super::solver::{Choice, SparseSolver};
+use super::spring::Spring;
+use super::term::{NodeBlocks, Term};
 
 mod error;
 
@@ -50,7 +56,7 @@ crate::chained::chained!(SimulationSettings {
 /// Body with its state, stepped by implicit Euler or another [`Integrator`]. In f64.
 ///
 /// ```math
-/// v = (x − xₙ)/h,   M (v − vₙ)/h = −∇Ψ(x) − damping + M g − springs
+/// M a = −∇Ψ(x) − damping + M g + forces − springs − other terms
 /// ```
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
@@ -68,8 +74,14 @@ pub struct Simulation {
     springs: Vec<Spring>,
     /// Targets of the springs where the next step starts.
     targets_before: Vec<[f64; 3]>,
-    positions: Vec<[f64; 3]>,
-    velocities: Vec<[f64; 3]>,
+    terms: Vec<Arc<dyn Term>>,
+    /// Second derivatives of springs and terms, where they were linearised last.
+    blocks: NodeBlocks,
+    /// Given force on each node, N; empty without any.
+    forces: Vec<[f64; 3]>,
+    state: State,
+    /// Whether the accelerations of the state are those of its forces, or of the step before.
+    has_accelerations: bool,
     /// Positions of the pinned nodes, and only of them, after the next step.
     targets: Vec<[f64; 3]>,
     pins: Pins,
@@ -78,7 +90,7 @@ pub struct Simulation {
     viscosity: Option<Viscosity>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
-    next: Vec<[f64; 3]>,
+    next: State,
     stages: Stages,
     pins_move: Vec<[f64; 3]>,
     /// Survey of the elastic energies at `positions`, if these were evaluated last.
@@ -107,20 +119,24 @@ impl Simulation {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         check_settings(&settings)?;
-        let workspace = NewtonWorkspace::new(&body, pins, &settings.newton)?;
+        let choice = Choice::Setting(settings.newton.linear);
+        let workspace = NewtonWorkspace::new(&body, pins, choice, settings.newton.filtering)?;
         Ok(Self {
             settings,
             springs: Vec::new(),
             targets_before: Vec::new(),
-            positions: body.rest().to_vec(),
-            velocities: vec![[0.0; 3]; nodes],
+            terms: Vec::new(),
+            blocks: NodeBlocks::default(),
+            forces: Vec::new(),
+            state: State::at_rest(body.rest()),
+            has_accelerations: false,
             targets: body.rest().to_vec(),
             pins: pins.clone(),
             elastic: Elastic::new(&body),
             workspace,
             viscosity: settings.damping.viscosity(&body),
             static_regularisation: static_regularisation(&body),
-            next: vec![[0.0; 3]; nodes],
+            next: State::at_rest(body.rest()),
             stages: Stages::new(settings.integrator, nodes),
             pins_move: vec![[0.0; 3]; nodes],
             evaluated: None,
@@ -137,13 +153,21 @@ impl Simulation {
     /// Current position of each node, m.
     #[must_use]
     pub fn positions(&self) -> &[[f64; 3]] {
-        &self.positions
+        &self.state.x
     }
 
     /// Current velocity of each node, m/s.
     #[must_use]
     pub fn velocities(&self) -> &[[f64; 3]] {
-        &self.velocities
+        &self.state.v
+    }
+
+    /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: of
+    /// Runge–Kutta methods that of the last stage. Zero before the first step and after
+    /// [`Simulation::equilibrate`].
+    #[must_use]
+    pub fn accelerations(&self) -> &[[f64; 3]] {
+        &self.state.a
     }
 
     /// Indices of the pinned nodes, ascending.
@@ -159,9 +183,10 @@ impl Simulation {
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(positions)?;
-        self.positions.copy_from_slice(positions);
+        self.state.x.copy_from_slice(positions);
         self.targets.copy_from_slice(positions);
         self.evaluated = None;
+        self.has_accelerations = false;
         Ok(())
     }
 
@@ -171,8 +196,130 @@ impl Simulation {
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
-        self.velocities.copy_from_slice(velocities);
+        self.state.v.copy_from_slice(velocities);
+        self.has_accelerations = false;
         Ok(())
+    }
+
+    /// Sets the acceleration of each node, m/s², from which Newmark's method and generalised α go on: with
+    /// positions and velocities the whole state of a motion that is resumed.
+    ///
+    /// Without it, after positions or velocities have been set, they begin with the accelerations that the
+    /// forces give.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
+    /// node.
+    pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(accelerations)?;
+        self.state.a.copy_from_slice(accelerations);
+        self.has_accelerations = true;
+        Ok(())
+    }
+
+    /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
+    ///
+    /// Pins among nodes that were free when the linear solver was set up cost nothing but the next
+    /// factorisation; nodes let go that were pinned then cost a new symbolic analysis.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
+    pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
+        let nodes = self.state.x.len();
+        if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        self.workspace.set_pins(&self.body, pins)?;
+        for node in 0..nodes {
+            let was_pinned = self.pins.nodes().binary_search(&node).is_ok();
+            if !(was_pinned && pins.nodes().binary_search(&node).is_ok()) {
+                self.targets[node] = self.state.x[node];
+                self.pins_move[node] = [0.0; 3];
+            }
+        }
+        self.pins = pins.clone();
+        Ok(())
+    }
+
+    /// Replaces the material of a part of the body, counted as [`Body::from_parts`] took them, from the next
+    /// step on.
+    ///
+    /// # Errors
+    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    pub fn set_material(
+        &mut self,
+        part: usize,
+        material: impl TileMaterial<f64> + 'static,
+    ) -> Result<(), BodyError> {
+        self.body.set_material(part, material)?;
+        self.static_regularisation = static_regularisation(&self.body);
+        self.evaluated = None;
+        Ok(())
+    }
+
+    /// Sets a force on each node, N, that keeps its size and direction from the next step on; an empty slice
+    /// removes them.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
+    pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
+        if !forces.is_empty() {
+            self.check_nodal(forces)?;
+        }
+        self.forces.clear();
+        self.forces.extend_from_slice(forces);
+        Ok(())
+    }
+
+    /// Replaces all [terms](Term) of the energy but deformation, gravity and springs, from the next step on.
+    ///
+    /// ```
+    /// # use piola::step::{NodeBlocks, Term};
+    /// # struct Weight;
+    /// # impl Term for Weight {
+    /// #     fn energy(&self, x: &[[f64; 3]]) -> Option<f64> { Some(x.iter().map(|x| 10.0 * x[1]).sum()) }
+    /// #     fn add_gradient(&self, _: &[[f64; 3]], g: &mut [[f64; 3]]) { g.iter_mut().for_each(|g| g[1] += 10.0) }
+    /// #     fn add_second_derivatives(&self, _: &[[f64; 3]], _: &mut NodeBlocks) {}
+    /// # }
+    /// use std::sync::Arc;
+    /// use piola::mesh::tetrahedral_box;
+    /// use piola::step::{Simulation, SimulationSettings};
+    /// use piola::system::{Body, Pins};
+    ///
+    /// /// Rubber.
+    /// #[piola::material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    /// let mut simulation = Simulation::new(body, &Pins::none(), SimulationSettings::default())?;
+    /// simulation.set_terms(vec![Arc::new(Weight)]);
+    /// let report = simulation.step(0.01)?;
+    /// assert!(report.energies.terms < 10.0 * 8.0 * 0.1 && simulation.velocities()[0][1] < 0.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_terms(&mut self, terms: Vec<Arc<dyn Term>>) {
+        self.terms = terms;
+    }
+
+    /// The given force on each node, N; empty without any.
+    #[must_use]
+    pub fn forces(&self) -> &[[f64; 3]] {
+        &self.forces
+    }
+
+    /// Springs and other terms.
+    pub(super) fn all_terms(&self) -> Terms<'_> {
+        Terms { springs: &self.springs, others: &self.terms }
+    }
+
+    /// The terms of the energy but deformation, gravity and springs.
+    #[must_use]
+    pub fn terms(&self) -> &[Arc<dyn Term>] {
+        &self.terms
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
@@ -196,7 +343,6 @@ impl Simulation {
     /// next step. Implicit Euler looks at the end of a step only, and other integrators at what is between.
     ///
     /// # Errors
-    /// [`SetupError::SpringAcrossElements`] if the nodes of a spring do not belong to one element,
     /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
     /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
@@ -231,16 +377,29 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        if (new.linear, new.filtering) != (old.linear, old.filtering) {
-            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, new)?;
+        let is_other = (new.linear, new.filtering) != (old.linear, old.filtering);
+        if is_other || self.workspace.has_own_solver() {
+            let choice = Choice::Setting(new.linear);
+            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, new.filtering)?;
         }
         if settings.integrator != self.settings.integrator {
-            self.stages = Stages::new(settings.integrator, self.positions.len());
+            self.stages = Stages::new(settings.integrator, self.state.x.len());
         }
         if settings.damping != self.settings.damping {
             self.viscosity = settings.damping.viscosity(&self.body);
         }
         self.settings = settings;
+        Ok(())
+    }
+
+    /// Solves the linear systems of Newton's method by a solver that is not piola's own, until the settings
+    /// are replaced.
+    ///
+    /// # Errors
+    /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.
+    pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
+        let (choice, filtering) = (Choice::Own(Arc::new(solver)), self.settings.newton.filtering);
+        self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, filtering)?;
         Ok(())
     }
 
@@ -254,9 +413,8 @@ impl Simulation {
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
-        let shortest = self.settings.integrator.tableau().diagonal * dt;
-        let has_inertia =
-            (heaviest / shortest / shortest).is_finite() && shortest * shortest >= f64::MIN_POSITIVE;
+        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
+        let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
         if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
         }
@@ -285,42 +443,38 @@ impl Simulation {
     }
 
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        self.next.copy_from_slice(&self.positions);
-        let mut survey = match self.evaluated.take() {
-            Some(survey) => survey,
-            None => self.elastic.evaluate(&self.body, &self.positions),
-        };
         let is_static = dt == f64::INFINITY;
         let integrator = if is_static { Integrator::ImplicitEuler } else { self.settings.integrator };
-        let Tableau { diagonal, before, last } = integrator.tableau();
-        let length = diagonal * dt;
-        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| !is_static) {
-            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / length);
+        let method = integrator.method();
+        let mut survey = match self.evaluated.take() {
+            Some(survey) => survey,
+            None => self.elastic.evaluate(&self.body, &self.state.x),
+        };
+        if method.needs_accelerations() && !self.has_accelerations {
+            demand_admissible(&survey, &self.body, &self.elastic).map_err(StepError::Newton)?;
+            self.accelerate();
         }
+        self.next.x.copy_from_slice(&self.state.x);
+        let [tau, _] = method.lengths(dt);
+        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| !is_static) {
+            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / tau);
+        }
+        let last = method.stages() - 1;
         let mut stages_before: Option<NewtonReport> = None;
-        for (stage, coefficients) in before.iter().enumerate() {
-            self.stages.begin(coefficients, dt, &self.positions, &self.velocities);
-            let share = coefficients.iter().sum::<f64>() + diagonal;
-            self.stages.pull(&self.springs, &self.targets_before, share);
+        for stage in 0..last {
             let report;
-            (report, survey) = self.minimize_stage(true, length, share, survey)?;
-            self.stages.end(stage, length, &self.next);
+            (report, survey) = self.minimize_stage(&method, stage, dt, survey)?;
+            self.stages.end(stage, &self.next.x);
             stages_before = Some(report.after(stages_before));
         }
-        let has_stages = !before.is_empty();
-        if has_stages {
-            self.stages.begin(last, dt, &self.positions, &self.velocities);
-            self.stages.pull(&self.springs, &self.targets_before, 1.0);
+        let (report, mut survey) = self.minimize_stage(&method, last, dt, survey)?;
+        self.stages.finish(&method, dt, &self.state, &mut self.next);
+        if !method.ends_with_last_stage() {
+            survey = self.end_beyond_last_stage(dt)?;
         }
-        let (report, survey) = self.minimize_stage(has_stages, length, 1.0, survey)?;
 
-        let start = if has_stages { &self.stages.start } else { &self.positions };
-        for (velocity, (next, start)) in self.velocities.iter_mut().zip(self.next.iter().zip(start)) {
-            for c in 0..3 {
-                velocity[c] = (next[c] - start[c]) / length;
-            }
-        }
-        std::mem::swap(&mut self.positions, &mut self.next);
+        std::mem::swap(&mut self.state, &mut self.next);
+        self.has_accelerations = true;
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
         }
@@ -329,52 +483,107 @@ impl Simulation {
         Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
     }
 
-    /// Moves `next` to the end of a stage: a step of implicit Euler of this length, which takes the pinned
-    /// nodes to this share of their way.
-    fn minimize_stage(
-        &mut self,
-        has_stages: bool,
-        length: f64,
-        share: f64,
-        survey: Evaluated,
-    ) -> Result<(NewtonReport, Evaluated), NewtonError> {
-        let mut pins_move = false;
-        for &node in self.pins.nodes() {
+    /// Sets the accelerations that the forces at the current state give, zero at pinned nodes. The energies
+    /// must have been evaluated there last.
+    fn accelerate(&mut self) {
+        let forces = self.balance();
+        for (node, (a, force)) in self.state.a.iter_mut().zip(forces).enumerate() {
+            *a = force.map(|force| -force / self.body.masses()[node]);
+        }
+        self.pins.nodes().iter().for_each(|&node| self.state.a[node] = [0.0; 3]);
+        self.has_accelerations = true;
+    }
+
+    /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
+    /// energies must have been evaluated there last.
+    fn balance(&mut self) -> Vec<[f64; 3]> {
+        let State { x, v, .. } = &self.state;
+        let mut total = vec![[0.0; 3]; x.len()];
+        self.elastic.evaluate_gradients(&self.body);
+        self.elastic.add_gradient(&self.body, &mut total);
+        self.all_terms().add_gradient(x, &mut total);
+        if let Some(viscosity) = &mut self.viscosity {
+            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time());
+            viscosity.add_product(&self.body, |node| v[node], &mut total);
+        }
+        let (rate, gravity) = (self.settings.damping.rate(), self.settings.gravity);
+        for (node, (total, mass)) in total.iter_mut().zip(self.body.masses()).enumerate() {
             for c in 0..3 {
-                let way = self.targets[node][c] - self.positions[node][c];
-                let done = self.next[node][c] - self.positions[node][c];
-                self.pins_move[node][c] = share * way - done;
-                pins_move |= self.pins_move[node][c] != 0.0;
+                let force = self.forces.get(node).map_or(0.0, |force| force[c]);
+                total[c] += mass * (rate * v[node][c] - gravity[c]) - force;
             }
         }
-        let is_static = length == f64::INFINITY;
-        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (length * length) };
+        total
+    }
+
+    /// Sets how far the pinned nodes move in a stage that takes them to this share of their way; true if any
+    /// does.
+    fn drive_pins(&mut self, method: &Method, dt: f64, share: f64) -> bool {
+        let mut is_moving = false;
+        for &node in self.pins.nodes() {
+            let (target, before) = (self.targets[node], self.state.x[node]);
+            let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
+            for c in 0..3 {
+                self.pins_move[node][c] = share * way[c] - (self.next.x[node][c] - before[c]);
+                is_moving |= self.pins_move[node][c] != 0.0;
+            }
+            if method.needs_accelerations() {
+                self.stages.drive(node, dt, way, std::array::from_fn(|c| before[c] + share * way[c]));
+            }
+        }
+        is_moving
+    }
+
+    /// Evaluates the state after a step that lies beyond its last stage.
+    fn end_beyond_last_stage(&mut self, dt: f64) -> Result<Evaluated, StepError> {
+        for &node in self.pins.nodes() {
+            let before = self.state.x[node];
+            self.next.x[node] = self.targets[node];
+            self.next.v[node] = std::array::from_fn(|c| (self.targets[node][c] - before[c]) / dt);
+        }
+        let survey = self.elastic.evaluate(&self.body, &self.next.x);
+        match inadmissible(&survey, &self.body) {
+            Some(element) => Err(StepError::EndsBeyondDomain { element }),
+            None => Ok(survey),
+        }
+    }
+
+    /// Moves `next` to the end of a stage.
+    fn minimize_stage(
+        &mut self,
+        method: &Method,
+        stage: usize,
+        dt: f64,
+        survey: Evaluated,
+    ) -> Result<(NewtonReport, Evaluated), NewtonError> {
+        let share = method.share(stage);
+        self.stages.begin(method, stage, dt, &self.state);
+        self.stages.pull(&self.springs, &self.targets_before, share);
+        let pins_move = self.drive_pins(method, dt, share);
+        let [tau, sigma] = self.stages.current.lengths;
+        let is_static = tau == f64::INFINITY;
+        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
         let may_drift = is_static && self.pins.nodes().len() < 3;
-        let (start, velocities, springs) = if has_stages {
-            (&self.stages.start, &self.stages.velocities, &self.stages.springs)
-        } else {
-            (&self.positions, &self.velocities, &self.springs)
-        };
         let mut objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
             quadratic: Quadratic {
                 masses: self.body.masses(),
-                start,
-                velocities,
-                dt: length,
+                stage: &self.stages.current,
                 damping: self.settings.damping.rate(),
                 regularisation,
                 guard: if may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
-                springs,
+                forces: &self.forces,
             },
+            terms: Terms { springs: &self.stages.springs, others: &self.terms },
+            blocks: &mut self.blocks,
             viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
         minimize(
             &mut objective,
             &mut self.workspace,
-            &mut self.next,
+            &mut self.next.x,
             pins_move.then_some(&self.pins_move),
             survey,
             &self.settings.newton,
@@ -382,30 +591,50 @@ impl Simulation {
         )
     }
 
+    /// Force of the pins on each pinned node, N, in the order of [`Simulation::pinned`]: what the node needs
+    /// beside all other forces to have its acceleration, at the end of the last step.
+    ///
+    /// In statics their sum balances gravity, given forces and springs.
+    ///
+    /// # Errors
+    /// [`NewtonError::Inadmissible`] or [`NewtonError::ElementNotFinite`] for an element that has no forces at
+    /// the current positions.
+    pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
+        let survey = *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.state.x));
+        demand_admissible(&survey, &self.body, &self.elastic)?;
+        let forces = self.balance();
+        let reaction = |&node: &usize| {
+            std::array::from_fn(|c| forces[node][c] + self.body.masses()[node] * self.state.a[node][c])
+        };
+        Ok(self.pins.nodes().iter().map(reaction).collect())
+    }
+
     /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
     #[must_use]
     pub fn energies(&mut self) -> Energies {
-        let survey =
-            *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.positions));
+        let survey = *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.state.x));
         self.energies_of(if survey.survey.is_clean() { self.elastic.energy() } else { f64::NAN })
     }
 
     fn energies_of(&self, elastic: f64) -> Energies {
+        let State { x, v, .. } = &self.state;
         let mut energies = Energies { elastic, ..Energies::default() };
         for (node, mass) in self.body.masses().iter().enumerate() {
             for c in 0..3 {
-                energies.kinetic += 0.5 * mass * self.velocities[node][c].powi(2);
-                energies.gravity -=
-                    mass * self.settings.gravity[c] * (self.positions[node][c] - self.body.rest()[node][c]);
+                let displacement = x[node][c] - self.body.rest()[node][c];
+                energies.kinetic += 0.5 * mass * v[node][c].powi(2);
+                energies.gravity -= mass * self.settings.gravity[c] * displacement;
+                energies.forces -= self.forces.get(node).map_or(0.0, |force| force[c] * displacement);
             }
         }
-        energies.springs = self.springs.iter().map(|spring| spring.energy(&self.positions)).sum();
+        energies.springs += self.springs.iter().map(|spring| spring.energy(x)).sum::<f64>();
+        energies.terms += self.all_terms().energy_of_others(x);
         energies
     }
 
     fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        if vectors.len() != self.positions.len() {
-            return Err(SetupError::Length { expected: self.positions.len(), found: vectors.len() });
+        if vectors.len() != self.state.x.len() {
+            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
         }
         match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
             Some(node) => Err(SetupError::NotFinite { node }),
@@ -414,20 +643,13 @@ impl Simulation {
     }
 
     fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
-        let nodes = self.positions.len();
+        let nodes = self.state.x.len();
         if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
         if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
             return Err(SetupError::Spring { index });
-        }
-        let is_free = |node: &usize| self.pinned().binary_search(node).is_err();
-        let free = spring.weights().map(|(node, _)| node).filter(is_free);
-        for a in free.clone() {
-            if free.clone().any(|b| !self.workspace.solver.joins(a, b)) {
-                return Err(SetupError::SpringAcrossElements { index });
-            }
         }
         Ok(())
     }
@@ -447,7 +669,7 @@ fn static_regularisation(body: &Body) -> f64 {
 }
 
 fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
-    let SimulationSettings { gravity, damping, integrator: _, newton, line_search } = settings;
+    let SimulationSettings { gravity, damping, integrator, newton, line_search } = settings;
     let between = |x: f64, low: f64, high: f64| low < x && x < high;
     let checks = [
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
@@ -461,7 +683,8 @@ fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
         (line_search.max_trials > 0, "the line search needs at least one trial"),
     ];
     let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
-    let broken = broken.or(damping.broken_rule()).or(newton.filtering.broken_rule());
+    let broken = broken.or(damping.broken_rule()).or(integrator.broken_rule());
+    let broken = broken.or(newton.filtering.broken_rule());
     match broken.or(newton.linear.broken_rule()) {
         Some(rule) => Err(SetupError::Setting { rule }),
         None => Ok(()),
@@ -494,13 +717,17 @@ pub struct Energies {
     pub gravity: f64,
     /// Energy of the springs.
     pub springs: f64,
+    /// Energy in the field of given forces, 0 in the rest shape.
+    pub forces: f64,
+    /// Energy of other terms.
+    pub terms: f64,
 }
 
 impl Energies {
     /// Sum of all energies, J.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.elastic + self.kinetic + self.gravity + self.springs
+        self.elastic + self.kinetic + self.gravity + self.springs + self.forces + self.terms
     }
 }
 

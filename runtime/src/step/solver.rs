@@ -4,20 +4,25 @@
 //! one alone. All see the same objective and find the same direction, up to their tolerance.
 
 mod assembled;
-mod cholesky;
 mod conjugate;
+mod direct;
 mod interface;
+mod own;
 mod preconditioner;
 mod refined;
 
-use crate::system::linear::LinearError;
+use std::sync::Arc;
+
 use crate::system::linear::refined::RefinedCholesky;
+use crate::system::linear::{Cholesky, LinearError};
 use crate::system::{Body, Pins};
 
 use assembled::Assembled;
-use cholesky::Exact;
 use conjugate::Conjugate;
+use direct::Direct;
 use refined::Refined;
+
+pub use own::SparseSolver;
 
 pub(super) use interface::{Definiteness, SolveError, Solver};
 
@@ -109,17 +114,63 @@ impl LinearSolver {
     }
 
     /// Allocates all the memory that the solver will need.
-    pub(super) fn set_up(self, body: &Body, pins: &Pins) -> Result<Box<dyn Solver>, LinearError> {
+    /// It serves matrices with blocks for all pairs of nodes that share an element, and for these.
+    pub(super) fn set_up(
+        self,
+        body: &Body,
+        pins: &Pins,
+        pairs: &[[usize; 2]],
+    ) -> Result<Box<dyn Solver>, LinearError> {
         Ok(match self {
-            Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins),
-            Self::Cholesky => Box::new(Assembled::<Exact>::new(body, pins, Exact::new)?),
-            Self::RefinedCholesky { tolerance } => Box::new(Assembled::new(body, pins, |pattern| {
+            Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
+            Self::Cholesky => Box::new(Assembled::new(body, pins, pairs, |pattern| {
+                Ok(Direct { solver: Cholesky::of_pattern(pattern.shared_entries())? })
+            })?),
+            Self::RefinedCholesky { tolerance } => Box::new(Assembled::new(body, pins, pairs, |pattern| {
                 Ok(Refined { factor: RefinedCholesky::new(pattern.shared_entries())?, tolerance })
             })?),
             Self::ConjugateGradients { tolerance, max_iterations } => {
-                Box::new(Conjugate::new(body, pins, tolerance, max_iterations)?)
+                Box::new(Conjugate::new(body, pins, pairs, tolerance, max_iterations)?)
             }
         })
+    }
+}
+
+/// The solver of a simulation: one of the settings, or a caller's own.
+#[derive(Clone)]
+pub(crate) enum Choice {
+    Setting(LinearSolver),
+    Own(Arc<dyn SetUp>),
+}
+
+impl Choice {
+    /// Sets the solver up for the pairs of nodes of a body's elements, and for these.
+    pub(crate) fn set_up(
+        &self,
+        body: &Body,
+        pins: &Pins,
+        pairs: &[[usize; 2]],
+    ) -> Result<Box<dyn Solver>, LinearError> {
+        match self {
+            Self::Setting(solver) => solver.set_up(body, pins, pairs),
+            Self::Own(solver) => solver.set_up(body, pins, pairs),
+        }
+    }
+}
+
+/// A [`SparseSolver`] of any type, to begin with.
+pub(crate) trait SetUp: Send + Sync {
+    fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError>;
+}
+
+impl<S: SparseSolver> SetUp for S {
+    fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError> {
+        let analysed = Assembled::new(body, pins, pairs, |pattern| {
+            let mut solver = self.clone();
+            solver.analyse(pattern.column_starts(), pattern.row_indices())?;
+            Ok(Direct { solver })
+        })?;
+        Ok(Box::new(analysed))
     }
 }
 

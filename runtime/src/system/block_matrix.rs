@@ -1,18 +1,23 @@
 //! Assembly for meshes of one's own: from the stiffnesses that a batch computes of linear tetrahedra to a
 //! sparse matrix.
 //!
-//! For callers with a mesh of their own and no [`Body`](super::Body): built once from the element
-//! connectivity and the fixed nodes. After that each set of stiffnesses, as [`Batch`](crate::batch::Batch)
-//! writes them, is summed without atomics, without allocation, and with the same bits for any number of
-//! threads.
+//! For callers with a mesh of their own and no [`Body`], and for a body whose integrator is a caller's: built
+//! once from the element connectivity and the fixed nodes. After that each set of stiffnesses, as
+//! [`Batch`](crate::batch::Batch) writes them, is summed without atomics, without allocation, and with the
+//! same bits for any number of threads.
 //!
-//! This module knows no material and no rest shape.
+//! This module knows no material.
 
+use faer::sparse::SparseColMatRef;
+
+use super::body::Body;
 use super::fill::{NodePairs, fill};
 use super::linear::LinearError;
+use super::lower_triangle::LowerTriangle;
 use super::memory::filled;
 use super::pattern::Pattern;
 use super::pins::Pins;
+use super::stiffnesses::ElementStiffnesses;
 use crate::batch::{Layout, LengthError, PACKED_12};
 use crate::lanes::Scalar;
 
@@ -80,6 +85,17 @@ impl BlockMatrix {
         Ok(Self { pattern, values })
     }
 
+    /// A matrix of zeros for the elements of a body, without rows and columns of pinned nodes:
+    /// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness) writes its stiffness there.
+    ///
+    /// # Errors
+    /// [`LinearError::NoSuchNode`] for a pin, [`LinearError::OutOfMemory`].
+    pub fn of_body(body: &Body, pins: &Pins) -> Result<Self, LinearError> {
+        let pattern = Pattern::new(body.rest().len(), body.elements(), pins)?;
+        let values = filled(pattern.entries().row_idx().len(), 0.0)?;
+        Ok(Self { pattern, values })
+    }
+
     /// Sums the stiffnesses that [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) writes in this
     /// layout, 144 entries of each tetrahedron, N/m, and adds `diagonal(node)` to the diagonal for each free
     /// node, such as a mass over the square of a time step.
@@ -131,10 +147,64 @@ impl BlockMatrix {
         Ok(())
     }
 
+    /// Replaces the entries by the sums of stiffnesses of elements.
+    pub(super) fn fill(&mut self, stiffnesses: &ElementStiffnesses) {
+        stiffnesses.fill(&self.pattern, |_| 0.0, &mut self.values);
+    }
+
+    /// Adds to the block of two nodes, N/m, and to its transpose, as for a contact or a spring between them;
+    /// on the diagonal to the one block of a node. Nothing is added where a node is pinned.
+    ///
+    /// # Errors
+    /// [`LinearError::NoSuchNode`], or [`LinearError::NotJoined`] if no tetrahedron has both nodes.
+    pub fn add_block(&mut self, row: usize, column: usize, block: [[f64; 3]; 3]) -> Result<(), LinearError> {
+        let nodes = self.pattern.free_of_node().len();
+        if let Some(&node) = [row, column].iter().find(|&&node| node >= nodes) {
+            return Err(LinearError::NoSuchNode { node, nodes });
+        }
+        let Some(at) = self.place(row, column) else {
+            let free = self.pattern.free_of_node();
+            let is_free = free[row].is_some() && free[column].is_some();
+            return if is_free { Err(LinearError::NotJoined { nodes: [row, column] }) } else { Ok(()) };
+        };
+        for r in 0..3 {
+            for c in 0..if row == column { r + 1 } else { 3 } {
+                let entry = if at.is_transposed { block[c][r] } else { block[r][c] };
+                self.values[self.pattern.scalar(at.column, at.block, r, c)] += entry;
+            }
+        }
+        Ok(())
+    }
+
+    /// The block of two nodes, N/m; `None` where a node is pinned or missing, or no tetrahedron has both.
+    #[must_use]
+    pub fn block(&self, row: usize, column: usize) -> Option<[[f64; 3]; 3]> {
+        let at = self.place(row, column)?;
+        let entry = |r: usize, c: usize| {
+            let (r, c) = if at.is_transposed || (row == column && r < c) { (c, r) } else { (r, c) };
+            self.values[self.pattern.scalar(at.column, at.block, r, c)]
+        };
+        Some(std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c))))
+    }
+
+    /// Where the block of two nodes is stored.
+    fn place(&self, row: usize, column: usize) -> Option<Place> {
+        let number = |node: usize| *self.pattern.free_of_node().get(node)?;
+        let (i, j) = (number(row)?, number(column)?);
+        let (below, column) = (i.max(j), i.min(j));
+        Some(Place { column, block: self.pattern.block(below, column)?, is_transposed: i < j })
+    }
+
     /// Rows and columns of the entries, and the nodes they belong to.
     #[must_use]
     pub fn pattern(&self) -> &Pattern {
         &self.pattern
+    }
+
+    /// The matrix as a solver takes it.
+    #[must_use]
+    pub fn lower_triangle(&self) -> LowerTriangle<'_> {
+        LowerTriangle(SparseColMatRef::new(self.pattern.entries(), &self.values))
     }
 
     /// Values of the stored entries, N/m, in the order of [`Pattern::row_indices`], as
@@ -143,6 +213,18 @@ impl BlockMatrix {
     pub fn values(&self) -> &[f64] {
         &self.values
     }
+
+    /// The values of [`BlockMatrix::values`], to be changed.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+}
+
+/// A block of a column, stored as it is asked for or transposed.
+struct Place {
+    column: usize,
+    block: usize,
+    is_transposed: bool,
 }
 
 /// Stiffnesses of N entries each in a slice; `place` maps a row and a column to one of them.

@@ -92,6 +92,24 @@ impl Body {
         Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
     }
 
+    /// Replaces the material of a part, counted as [`Body::from_parts`] took them; [`Body::new`] makes one.
+    ///
+    /// # Errors
+    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    pub fn set_material(
+        &mut self,
+        part: usize,
+        material: impl TileMaterial<f64> + 'static,
+    ) -> Result<(), BodyError> {
+        let parts = self.runs.len();
+        let run = self.runs.get_mut(part).ok_or(BodyError::NoSuchPart { part, parts })?;
+        if material.properties().points.is_some() {
+            return Err(BodyError::MaterialsForPoints);
+        }
+        run.material = Arc::new(material);
+        Ok(())
+    }
+
     /// Rest position of each node, m.
     #[must_use]
     pub fn rest(&self) -> &[[f64; 3]] {
@@ -183,6 +201,13 @@ pub enum BodyError {
         /// The groups of tetrahedra that exist.
         existing: Vec<String>,
     },
+    /// There is no part of this index.
+    NoSuchPart {
+        /// The index, from 0.
+        part: usize,
+        /// Number of parts.
+        parts: usize,
+    },
     /// An element belongs to no part.
     InNoPart {
         /// Tag of the element.
@@ -215,6 +240,9 @@ impl fmt::Display for BodyError {
             }
             Self::NoSuchGroup { name, existing } => {
                 write!(f, "there is no group `{}` of tetrahedra; there are: {}", quoted(name), names(existing))
+            }
+            Self::NoSuchPart { part, parts } => {
+                write!(f, "there is no part {part} (from 0) of a body of {parts}")
             }
             Self::InNoPart { element } => {
                 write!(f, "element {element} has no material: it belongs to no part")

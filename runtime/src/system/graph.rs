@@ -12,23 +12,26 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// Nodes that share a tetrahedron, each list ascending.
+    /// Nodes that share a tetrahedron or are one of the pairs, each list ascending.
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`], also for more nodes than a `u32` counts.
     pub(crate) fn of_tets(
         nodes: usize,
         tets: impl Iterator<Item = [usize; 4]> + Clone,
+        pairs: &[[usize; 2]],
     ) -> Result<Self, LinearError> {
         u32::try_from(nodes).map_err(|_| LinearError::OutOfMemory)?;
+        // A pair is an element of two nodes.
+        let elements = tets.chain(pairs.iter().map(|&[a, b]| [a, b, a, b]));
         let mut around = filled(nodes + 1, 0)?;
-        tets.clone().flatten().for_each(|node| around[node + 1] += 1);
+        elements.clone().flatten().for_each(|node| around[node + 1] += 1);
         for node in 0..nodes {
             around[node + 1] += around[node];
         }
         let mut next = around.clone();
         let mut corners = filled(around[nodes], [0_u32; 4])?;
-        for tet in tets {
+        for tet in elements {
             for node in tet {
                 corners[next[node]] = tet.map(|node| node as u32);
                 next[node] += 1;
@@ -92,9 +95,9 @@ mod tests {
     #[test]
     fn nodes_of_an_element_are_neighbours() {
         let tets = [[0, 1, 2, 3], [3, 2, 1, 5]];
-        let graph = Graph::of_tets(6, tets.into_iter()).expect("small");
+        let graph = Graph::of_tets(6, tets.into_iter(), &[[5, 0]]).expect("small");
         assert_eq!(graph.rows(), 6);
-        assert_eq!(graph.neighbours(0), [1, 2, 3]);
+        assert_eq!(graph.neighbours(0), [1, 2, 3, 5]);
         assert_eq!(graph.neighbours(2), [0, 1, 3, 5]);
         assert!(graph.neighbours(4).is_empty());
     }

@@ -31,8 +31,8 @@ pub(crate) mod symmetric_blocks;
 
 /// A factorisation in f64 or f32, and the memory for the next one.
 ///
-/// Matrices are given by their lower triangle in compressed columns, the form of
-/// [`BlockMatrix`](super::BlockMatrix), of SciPy's `csc_matrix` and of most sparse solvers.
+/// Matrices are given by their lower triangle in compressed columns: see
+/// [`LowerTriangle`](super::LowerTriangle).
 ///
 /// ```
 /// use piola::system::Cholesky;
@@ -162,7 +162,7 @@ impl<E: RealField> Cholesky<E> {
 }
 
 /// Checks the length of a slice.
-fn fits(slice: &'static str, found: usize, expected: usize) -> Result<(), LinearError> {
+pub(super) fn fits(slice: &'static str, found: usize, expected: usize) -> Result<(), LinearError> {
     if found == expected { Ok(()) } else { Err(LinearError::Length { slice, found, expected }) }
 }
 
@@ -225,6 +225,11 @@ pub enum LinearError {
         /// Number of nodes.
         nodes: usize,
     },
+    /// A matrix has no block for two nodes, since no tetrahedron has both.
+    NotJoined {
+        /// The nodes.
+        nodes: [usize; 2],
+    },
     /// A tetrahedron names a node more than once.
     RepeatedNode {
         /// Index of the tetrahedron, from 0.
@@ -242,6 +247,9 @@ impl fmt::Display for LinearError {
             }
             Self::NoSuchNode { node, nodes } => {
                 write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
+            }
+            Self::NotJoined { nodes: [a, b] } => {
+                write!(f, "the matrix has no block for nodes {a} and {b} (from 0): no tetrahedron has both")
             }
             Self::RepeatedNode { element, node } => write!(
                 f,

@@ -59,13 +59,14 @@ struct Contribution {
 }
 
 impl NodalStiffness {
-    /// Finds the places of all blocks, and allocates all memory that is needed.
+    /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
+    /// that is needed.
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`].
-    pub(crate) fn new(body: &Body) -> Result<Self, LinearError> {
+    pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
-        let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes))?;
+        let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes), pairs)?;
         let order = along_a_curve(body.rest());
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let matrix = SymmetricBlocks::new(pattern.clone())?;

@@ -48,8 +48,18 @@ impl Pattern {
     /// [`LinearError::NoSuchNode`] for an element or a pin, [`LinearError::RepeatedNode`],
     /// [`LinearError::OutOfMemory`].
     pub fn new(nodes: usize, elements: &[Tetrahedron], pins: &Pins) -> Result<Self, LinearError> {
+        Self::with_pairs(nodes, elements, &[], pins)
+    }
+
+    /// The pattern of these elements with a block for each of some pairs of nodes as well.
+    pub(crate) fn with_pairs(
+        nodes: usize,
+        elements: &[Tetrahedron],
+        pairs: &[[usize; 2]],
+        pins: &Pins,
+    ) -> Result<Self, LinearError> {
         let tets: Vec<[usize; 4]> = elements.iter().map(|element| element.nodes).collect();
-        Self::of_tets(nodes, &tets, pins)
+        Self::of_tets_and_pairs(nodes, &tets, pairs, pins)
     }
 
     /// The pattern of tetrahedra that join these nodes, four different ones each. A free node of no
@@ -59,7 +69,17 @@ impl Pattern {
     /// [`LinearError::NoSuchNode`] for a tetrahedron or a pin, [`LinearError::RepeatedNode`],
     /// [`LinearError::OutOfMemory`].
     pub fn of_tets(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Self, LinearError> {
-        if let Some(&node) = tets.as_flattened().iter().chain(pins.nodes()).find(|&&node| node >= nodes) {
+        Self::of_tets_and_pairs(nodes, tets, &[], pins)
+    }
+
+    fn of_tets_and_pairs(
+        nodes: usize,
+        tets: &[[usize; 4]],
+        pairs: &[[usize; 2]],
+        pins: &Pins,
+    ) -> Result<Self, LinearError> {
+        let named = tets.as_flattened().iter().chain(pairs.as_flattened()).chain(pins.nodes());
+        if let Some(&node) = named.into_iter().find(|&&node| node >= nodes) {
             return Err(LinearError::NoSuchNode { node, nodes });
         }
         let repeated = |tet: &[usize; 4]| {
@@ -70,15 +90,15 @@ impl Pattern {
         {
             return Err(LinearError::RepeatedNode { element, node });
         }
-        let node_of_free = order(nodes, tets, pins)?;
+        let node_of_free = order(nodes, tets, pairs, pins)?;
         let mut free_of_node = filled(nodes, None)?;
         for (free, &node) in node_of_free.iter().enumerate() {
             free_of_node[node] = Some(free);
         }
 
         // One record per contribution, sorted by column, row and element: the order of summation, fixed for
-        // good.
-        let mut records = reserved(10 * tets.len())?;
+        // good. A pair brings a block to which no element contributes.
+        let mut records = reserved(10 * tets.len() + pairs.len())?;
         for (index, tet) in tets.iter().enumerate() {
             let index = u32::try_from(index).map_err(|_| LinearError::OutOfMemory)?;
             for i in 0..4 {
@@ -87,9 +107,14 @@ impl Pattern {
                         let transposed = row < column;
                         let contribution =
                             ElementBlock { element: index, i: i as u8, j: j as u8, transposed };
-                        records.push((row.min(column), row.max(column), contribution));
+                        records.push((row.min(column), row.max(column), Some(contribution)));
                     }
                 }
+            }
+        }
+        for &[a, b] in pairs {
+            if let (Some(row), Some(column)) = (free_of_node[a], free_of_node[b]) {
+                records.push((row.min(column), row.max(column), None));
             }
         }
         records.sort_unstable();
@@ -108,7 +133,7 @@ impl Pattern {
         for column in 0..pattern.node_of_free.len() {
             let (of_column, rest) = later.split_at(later.partition_point(|record| record.0 == column));
             later = rest;
-            if of_column.is_empty() {
+            if of_column.first().is_none_or(|first| first.1 != column) {
                 pattern.add_block(column, &[]);
             }
             of_column.chunk_by(|a, b| a.1 == b.1).for_each(|block| pattern.add_block(block[0].1, block));
@@ -119,9 +144,9 @@ impl Pattern {
     }
 
     /// Adds the next block of a column, with what adds up to it.
-    fn add_block(&mut self, row: usize, records: &[(usize, usize, ElementBlock)]) {
+    fn add_block(&mut self, row: usize, records: &[(usize, usize, Option<ElementBlock>)]) {
         self.rows.push(row);
-        self.gather.extend(records.iter().map(|record| record.2));
+        self.gather.extend(records.iter().filter_map(|record| record.2));
         self.gather_starts.push(self.gather.len());
     }
 
@@ -203,6 +228,12 @@ impl Pattern {
         self.rows[start..self.columns[column + 1]].binary_search(&row).ok().map(|position| start + position)
     }
 
+    /// The blocks of a column, each as its row and its index.
+    pub(crate) fn blocks_of(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
+        let range = self.columns[column]..self.columns[column + 1];
+        self.rows[range.clone()].iter().copied().zip(range)
+    }
+
     /// Index of the first scalar of a column of blocks.
     pub(crate) fn column_start(&self, column: usize) -> usize {
         // The k-th block brings 9 scalars, the one on the diagonal 6.
@@ -222,7 +253,12 @@ impl Pattern {
 }
 
 /// Orders the free nodes so that a Cholesky factor stays sparse.
-fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, LinearError> {
+fn order(
+    nodes: usize,
+    tets: &[[usize; 4]],
+    pairs: &[[usize; 2]],
+    pins: &Pins,
+) -> Result<Vec<usize>, LinearError> {
     let mut is_pinned = filled(nodes, false)?;
     for &node in pins.nodes() {
         is_pinned[node] = true;
@@ -233,12 +269,17 @@ fn order(nodes: usize, tets: &[[usize; 4]], pins: &Pins) -> Result<Vec<usize>, L
     for (number, &node) in free.iter().enumerate() {
         index[node] = Some(number);
     }
-    let mut edges = reserved(free.len() + 16 * tets.len())?;
+    let mut edges = reserved(free.len() + 16 * tets.len() + 2 * pairs.len())?;
     // On the diagonal, where a node of no tetrahedron stands alone.
     edges.extend((0..free.len()).map(|number| (number, number)));
     for tet in tets {
         for &i in tet {
             edges.extend(tet.iter().filter_map(|&j| index[i].zip(index[j])));
+        }
+    }
+    for &[a, b] in pairs {
+        if let (Some(i), Some(j)) = (index[a], index[b]) {
+            edges.extend([(i, j), (j, i)]);
         }
     }
     edges.sort_unstable();

@@ -29,18 +29,13 @@ pub enum SetupError {
         /// Number of entries given.
         found: usize,
     },
-    /// A position or velocity is infinite or NaN.
+    /// A vector of a node, such as its position, is infinite or NaN.
     NotFinite {
         /// The node, from 0.
         node: usize,
     },
     /// A spring has a negative or infinite stiffness, or an entry that is not finite.
     Spring {
-        /// Index of the spring.
-        index: usize,
-    },
-    /// The nodes of a spring do not belong to one element.
-    SpringAcrossElements {
         /// Index of the spring.
         index: usize,
     },
@@ -67,9 +62,6 @@ impl fmt::Display for SetupError {
             Self::Spring { index } => {
                 write!(f, "spring {index} (from 0) has a negative stiffness or an entry that is not finite")
             }
-            Self::SpringAcrossElements { index } => {
-                write!(f, "the nodes of spring {index} (from 0) do not belong to one element")
-            }
             Self::Setting { rule } => write!(f, "{rule}"),
             Self::Linear(error) => error.fmt(f),
         }
@@ -87,6 +79,12 @@ pub enum StepError {
         /// The time step, s.
         dt: f64,
     },
+    /// The integrator goes on beyond its last stage, and there an element is outside the domain of its
+    /// material.
+    EndsBeyondDomain {
+        /// Tag of the element.
+        element: usize,
+    },
     /// The minimisation failed.
     Newton(NewtonError),
 }
@@ -101,6 +99,11 @@ impl fmt::Display for StepError {
             Self::TimeStep { dt } => {
                 write!(f, "the time step is {} s; it must be positive and finite", number(*dt))
             }
+            Self::EndsBeyondDomain { element } => write!(
+                f,
+                "the step ends with element {element} outside the domain of its material; take a shorter one, or an integrator \
+                 that ends with its last stage, such as `Integrator::Sdirk2`"
+            ),
             Self::Newton(error) => error.fmt(f),
         }
     }

@@ -17,6 +17,11 @@ use super::interface::{Definiteness, Solution, SolveError, Solver};
 pub(super) struct Assembled<F> {
     stiffnesses: ElementStiffnesses,
     matrix: Matrix,
+    /// The nodes that are not pinned: those of the pattern but for the ones that are held.
+    free: Vec<usize>,
+    /// Whether each free node of the pattern is pinned all the same, since it was not when that was made;
+    /// empty where no node is.
+    held: Vec<bool>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,
     factorisation: F,
@@ -48,13 +53,11 @@ impl Matrix {
         SparseColMatRef::new(self.pattern.entries(), &self.values)
     }
 
-    pub(super) fn values(&self) -> &[f64] {
-        &self.values
-    }
-
     /// The error for a pivot of this column that fails whatever is added.
     pub(super) fn not_positive(&self, column: usize, shift: f64) -> SolveError {
-        SolveError::NotPositive { node: self.pattern.node_of_free()[column / 3], shift }
+        let nodes = self.pattern.node_of_free();
+        // A solver of a caller's own may name any column.
+        SolveError::NotPositive { node: nodes.get(column / 3).copied().unwrap_or(0), shift }
     }
 }
 
@@ -62,21 +65,56 @@ impl<F> Assembled<F> {
     pub(super) fn new(
         body: &Body,
         pins: &Pins,
+        pairs: &[[usize; 2]],
         factorisation: impl FnOnce(&Pattern) -> Result<F, LinearError>,
     ) -> Result<Self, LinearError> {
-        let pattern = Pattern::new(body.rest().len(), body.elements(), pins)?;
+        let pattern = Pattern::with_pairs(body.rest().len(), body.elements(), pairs, pins)?;
         Ok(Self {
             factorisation: factorisation(&pattern)?,
             stiffnesses: ElementStiffnesses::new(body),
+            free: pattern.node_of_free().to_vec(),
+            held: Vec::new(),
             unknowns: vec![0.0; pattern.unknowns()],
             matrix: Matrix { values: vec![0.0; pattern.entries().row_idx().len()], pattern },
         })
     }
 }
 
+/// Separates held nodes from the others: their rows and columns become those of the unit matrix.
+fn hold(pattern: &Pattern, held: &[bool], values: &mut [f64]) {
+    for column in 0..held.len() {
+        for (row, block) in pattern.blocks_of(column) {
+            if !(held[row] || held[column]) {
+                continue;
+            }
+            for r in 0..3 {
+                for c in 0..if row == column { r + 1 } else { 3 } {
+                    values[pattern.scalar(column, block, r, c)] =
+                        if row == column && r == c { 1.0 } else { 0.0 };
+                }
+            }
+        }
+    }
+}
+
 impl<F: Factorisation> Solver for Assembled<F> {
     fn free_nodes(&self) -> &[usize] {
-        self.matrix.pattern.node_of_free()
+        &self.free
+    }
+
+    fn set_pins(&mut self, pins: &Pins) -> bool {
+        let nodes = self.matrix.pattern.node_of_free();
+        let is_pinned = |node: &usize| pins.nodes().binary_search(node).is_ok();
+        let held: Vec<bool> = nodes.iter().map(is_pinned).collect();
+        let count = held.iter().filter(|is_held| **is_held).count();
+        // The pattern leaves out nodes that were pinned when it was made: a new one is needed to let them go.
+        if nodes.len() - count != self.matrix.pattern.free_of_node().len() - pins.nodes().len() {
+            return false;
+        }
+        self.free =
+            nodes.iter().zip(&held).filter(|(_, is_held)| !**is_held).map(|(&node, _)| node).collect();
+        self.held = if count == 0 { Vec::new() } else { held };
+        true
     }
 
     fn joins(&self, a: usize, b: usize) -> bool {
@@ -96,6 +134,7 @@ impl<F: Factorisation> Solver for Assembled<F> {
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
         self.stiffnesses.add_product(objective.body, 1.0, |node| displacement[node], total);
         objective.quadratic.add_product(displacement, total);
+        objective.blocks.add_product(displacement, total);
     }
 
     fn solve(
@@ -107,19 +146,25 @@ impl<F: Factorisation> Solver for Assembled<F> {
         tolerance: f64,
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, SolveError> {
-        let Self { stiffnesses, matrix, unknowns, factorisation } = self;
+        let Self { stiffnesses, matrix, held, unknowns, factorisation, .. } = self;
         let nodes = matrix.pattern.node_of_free();
         for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(nodes) {
             for c in 0..3 {
                 unknown[c] = -gradient[node][c];
             }
         }
+        for (unknown, _) in unknowns.chunks_exact_mut(3).zip(&*held).filter(|(_, is_held)| **is_held) {
+            unknown.fill(0.0);
+        }
         let fill = |shift: f64, Matrix { pattern, values }: &mut Matrix| {
             let quadratic = &objective.quadratic;
             let diagonal =
                 |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
             stiffnesses.fill(pattern, diagonal, values);
-            quadratic.add_springs(pattern, values);
+            objective.blocks.add_to_entries(pattern, values);
+            if !held.is_empty() {
+                hold(pattern, held, values);
+            }
         };
         let solution = factorisation.solve(matrix, fill, unknowns, tolerance, definiteness)?;
         let Some(solution) = solution else { return Ok(None) };

@@ -34,23 +34,27 @@ struct Nodes {
     is_free: Vec<bool>,
 }
 
+impl Nodes {
+    fn new(nodes: usize, pins: &Pins) -> Self {
+        let mut is_free = vec![true; nodes];
+        pins.nodes().iter().for_each(|&node| is_free[node] = false);
+        let free = (0..nodes).filter(|&node| is_free[node]).collect();
+        Self { pinned: pins.nodes().to_vec(), free, is_free }
+    }
+}
+
 impl Conjugate {
     pub(super) fn new(
         body: &Body,
         pins: &Pins,
+        pairs: &[[usize; 2]],
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
-        let mut is_free = vec![true; nodes];
-        pins.nodes().iter().for_each(|&node| is_free[node] = false);
         Ok(Self {
-            stiffness: NodalStiffness::new(body)?,
-            nodes: Nodes {
-                pinned: pins.nodes().to_vec(),
-                free: (0..nodes).filter(|&node| is_free[node]).collect(),
-                is_free,
-            },
+            stiffness: NodalStiffness::new(body, pairs)?,
+            nodes: Nodes::new(nodes, pins),
             preconditioner: Preconditioner::new(nodes),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
@@ -66,6 +70,11 @@ impl Solver for Conjugate {
 
     fn joins(&self, a: usize, b: usize) -> bool {
         self.stiffness.matrix().pattern().block(a, b).is_some()
+    }
+
+    fn set_pins(&mut self, pins: &Pins) -> bool {
+        self.nodes = Nodes::new(self.nodes.is_free.len(), pins);
+        true
     }
 
     fn begin(&mut self) {
@@ -90,6 +99,7 @@ impl Solver for Conjugate {
             }
         }
         objective.quadratic.add_product(displacement, total);
+        objective.blocks.add_product(displacement, total);
     }
 
     fn solve(
@@ -103,6 +113,7 @@ impl Solver for Conjugate {
     ) -> Result<Option<Solution>, SolveError> {
         let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
         objective.quadratic.add_to(stiffness.matrix_mut());
+        objective.blocks.add_to_blocks(stiffness.matrix_mut());
         if !preconditioner.is_chosen() {
             preconditioner.choose(softness(objective, stiffness.matrix(), &nodes.free));
         }

@@ -2,6 +2,7 @@
 
 use crate::point::Filter;
 use crate::step::objective::Objective;
+use crate::system::Pins;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
@@ -11,8 +12,11 @@ pub(crate) trait Solver: Send + Sync {
     /// The nodes that are not pinned, in the order of the unknowns.
     fn free_nodes(&self) -> &[usize];
 
-    /// Whether an element joins two free nodes.
+    /// Whether its matrix has a block for two free nodes.
     fn joins(&self, a: usize, b: usize) -> bool;
+
+    /// Takes other pins; false if that demands a solver that is set up anew.
+    fn set_pins(&mut self, pins: &Pins) -> bool;
 
     /// Forgets what earlier systems have taught, before the first one of a step: a step depends on the state
     /// before it and on nothing else.

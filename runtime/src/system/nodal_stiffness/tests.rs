@@ -24,7 +24,7 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let mut expected = vec![[0.0; 3]; nodes];
     elements.add_product(&body, 1.5, |node| x[node], &mut expected);
 
-    let mut stiffness = NodalStiffness::new(&body).expect("small");
+    let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
     let mut found = vec![[f64::NAN; 3]; nodes];
     // Twice, since nothing may be left from the first time.
     for _ in 0..2 {
@@ -46,7 +46,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let (body, mut elastic) = shaken();
-            let mut stiffness = NodalStiffness::new(&body).expect("small");
+            let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
             stiffness.linearise(&body, &mut elastic, Filter::None, |_, _| {});
             stiffness.matrix().blocks().to_vec()
         })

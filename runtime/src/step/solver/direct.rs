@@ -1,40 +1,39 @@
-//! A factorisation in f64.
+//! Systems solved with the matrix as it is, by a factorisation or by a solver of a caller's own.
 
-use crate::system::linear::{Cholesky, LinearError};
-use crate::system::pattern::Pattern;
+use crate::system::LowerTriangle;
+use crate::system::linear::LinearError;
 
 use super::assembled::{Factorisation, Matrix};
 use super::interface::{Definiteness, Solution, SolveError};
+use super::own::SparseSolver;
 
-/// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky).
+/// The largest tolerance that a solver is asked for.
+const TOLERANCE: f64 = 1e-3;
+
+/// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky), or a solver of a caller's own.
 #[derive(Clone)]
-pub(super) struct Exact {
-    cholesky: Cholesky,
-}
-
-impl Exact {
-    pub(super) fn new(pattern: &Pattern) -> Result<Self, LinearError> {
-        Ok(Self { cholesky: Cholesky::of_pattern(pattern.shared_entries())? })
-    }
+pub(super) struct Direct<S> {
+    pub(super) solver: S,
 }
 
 /// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or where inertia
 /// is lost beside the stiffness, it may not be. Mass is then added tenfold more each time, as if the time
 /// step were shorter.
-impl Factorisation for Exact {
+impl<S: SparseSolver> Factorisation for Direct<S> {
     fn solve(
         &mut self,
         matrix: &mut Matrix,
         fill: impl Fn(f64, &mut Matrix),
         b: &mut [f64],
-        _: f64,
+        tolerance: f64,
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, SolveError> {
+        let tolerance = tolerance.min(TOLERANCE);
         let mut shift = 0.0;
         loop {
             fill(shift, matrix);
-            match self.cholesky.factor(matrix.values()) {
-                Ok(()) => break,
+            match self.solver.solve(LowerTriangle(matrix.entries()), b, tolerance) {
+                Ok(iterations) => return Ok(Some(Solution { shift, iterations, ..Solution::default() })),
                 Err(LinearError::NotPositive { .. }) if definiteness == Definiteness::Required => {
                     return Ok(None);
                 }
@@ -45,7 +44,5 @@ impl Factorisation for Exact {
                 Err(error) => return Err(error.into()),
             }
         }
-        self.cholesky.solve(b)?;
-        Ok(Some(Solution { shift, ..Solution::default() }))
     }
 }

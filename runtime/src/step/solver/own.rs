@@ -1,0 +1,62 @@
+//! Linear solvers of a caller's own, which factor or iterate on the assembled matrix.
+
+use crate::system::LowerTriangle;
+use crate::system::linear::{Cholesky, LinearError};
+
+/// Solver of the linear systems A x = b of Newton's method that is not piola's own: see
+/// [`Simulation::set_linear_solver`](crate::step::Simulation::set_linear_solver).
+///
+/// Three rows and columns of A belong to each node that is not pinned. A function of the form of
+/// [`SparseSolver::solve`] is such a solver, and [`Cholesky`] is another.
+pub trait SparseSolver: Clone + Send + Sync + 'static {
+    /// Takes the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
+    /// where terms of the energy join other nodes or pins change. Does nothing by default.
+    ///
+    /// # Errors
+    /// Any [`LinearError`]; [`LinearError::OutOfMemory`] as a rule.
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        let _ = (column_starts, row_indices);
+        Ok(())
+    }
+
+    /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as good as it can be. Returns the number of
+    /// iterations, 0 of a direct solver.
+    ///
+    /// # Errors
+    /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: it comes again then,
+    /// with its eigenvalues clamped or with inertia added. Other errors end the step.
+    fn solve(
+        &mut self,
+        matrix: LowerTriangle<'_>,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError>;
+}
+
+impl<F> SparseSolver for F
+where
+    F: FnMut(LowerTriangle<'_>, &mut [f64], f64) -> Result<usize, LinearError>,
+    F: Clone + Send + Sync + 'static,
+{
+    fn solve(
+        &mut self,
+        matrix: LowerTriangle<'_>,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError> {
+        self(matrix, b, tolerance)
+    }
+}
+
+impl SparseSolver for Cholesky {
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        *self = Self::new(column_starts, row_indices)?;
+        Ok(())
+    }
+
+    fn solve(&mut self, matrix: LowerTriangle<'_>, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+        self.factor(matrix.values())?;
+        Cholesky::solve(self, b)?;
+        Ok(0)
+    }
+}

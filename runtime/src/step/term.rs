@@ -1,0 +1,237 @@
+//! Terms of the energy beside that of deformation: springs, contact, and whatever else acts on nodes.
+//!
+//! A step minimises the sum of inertia, the energy of deformation and all terms together, so that contact
+//! obeys the same line search and the same refusal of a trial as an energy that ends at J = 0.
+
+use crate::lanes::Real;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::pattern::Pattern;
+
+use super::spring::Spring;
+
+/// Potential energy of the nodal positions, which a [`Simulation`](super::Simulation) adds to that of
+/// deformation: see [`Simulation::set_terms`](super::Simulation::set_terms).
+///
+/// Its functions see the position of every node, m, and depend on these alone: the same positions give the
+/// same bits.
+///
+/// ```
+/// use piola::step::{NodeBlocks, Term};
+///
+/// /// A plane y = 0 that pushes back with ½ k y² where a node is below it.
+/// struct Ground {
+///     /// N/m.
+///     stiffness: f64,
+/// }
+///
+/// impl Term for Ground {
+///     fn energy(&self, positions: &[[f64; 3]]) -> Option<f64> {
+///         Some(positions.iter().map(|x| 0.5 * self.stiffness * x[1].min(0.0).powi(2)).sum())
+///     }
+///
+///     fn add_gradient(&self, positions: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+///         for (x, g) in positions.iter().zip(gradient) {
+///             g[1] += self.stiffness * x[1].min(0.0);
+///         }
+///     }
+///
+///     fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks) {
+///         for (node, _) in positions.iter().enumerate().filter(|(_, x)| x[1] < 0.0) {
+///             blocks.add(node, node, [[0.0; 3], [0.0, self.stiffness, 0.0], [0.0; 3]]);
+///         }
+///     }
+/// }
+/// ```
+pub trait Term: Send + Sync {
+    /// Energy, J; `None` outside the domain of the term, to where no step will go.
+    fn energy(&self, positions: &[[f64; 3]]) -> Option<f64>;
+
+    /// Adds the gradient of the energy, N, at each node.
+    fn add_gradient(&self, positions: &[[f64; 3]], gradient: &mut [[f64; 3]]);
+
+    /// Adds the second derivatives of the energy, N/m.
+    ///
+    /// Newton's method converges where they are positive semidefinite, so that negative eigenvalues are best
+    /// left out.
+    fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks);
+
+    /// The largest share of a displacement with which a line search may begin, above 0: all of it by default.
+    ///
+    /// A barrier that a long step could jump over, to where its energy is finite again, returns a share that
+    /// stops before it.
+    fn longest_step(&self, positions: &[[f64; 3]], displacement: &[[f64; 3]]) -> f64 {
+        let _ = (positions, displacement);
+        1.0
+    }
+
+    /// Change of the energy between positions; `None` if the second ones are outside the domain.
+    ///
+    /// The difference of two energies by default, each taken to err by ten roundings. A term whose energy is
+    /// large beside its changes does better.
+    fn change(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
+        let (from, to) = (self.energy(from)?, self.energy(to)?);
+        let noise = 10.0 * f64::UNIT_ROUNDOFF * (from.abs() + to.abs());
+        Some(EnergyChange { difference: to - from, noise })
+    }
+}
+
+/// Difference of energies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyChange {
+    /// The later energy minus the earlier one, J.
+    pub difference: f64,
+    /// Bound for the rounding error of the difference, J.
+    pub noise: f64,
+}
+
+/// Second derivatives of the terms of an energy: 3×3 blocks of pairs of nodes, N/m.
+#[derive(Clone, Debug, Default)]
+pub struct NodeBlocks {
+    nodes: usize,
+    blocks: Vec<NodeBlock>,
+    /// A node that does not exist, where one was named.
+    missing: Option<usize>,
+}
+
+/// ∂²E/∂x_row∂x_column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct NodeBlock {
+    row: usize,
+    column: usize,
+    entries: [[f64; 3]; 3],
+}
+
+impl NodeBlocks {
+    /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as that of `column` and
+    /// `row`: each pair of nodes comes once.
+    ///
+    /// The two need not share an element. A pair that no element and no earlier step has joined costs a new
+    /// symbolic analysis.
+    pub fn add(&mut self, row: usize, column: usize, entries: [[f64; 3]; 3]) {
+        if let Some(&node) = [row, column].iter().find(|&&node| node >= self.nodes) {
+            self.missing = self.missing.or(Some(node));
+            return;
+        }
+        self.blocks.push(NodeBlock { row, column, entries });
+    }
+
+    /// Begins anew for so many nodes.
+    pub(super) fn begin(&mut self, nodes: usize) {
+        *self = Self { nodes, blocks: std::mem::take(&mut self.blocks), missing: None };
+        self.blocks.clear();
+    }
+
+    /// A node that was named but does not exist.
+    pub(super) fn missing(&self) -> Option<usize> {
+        self.missing
+    }
+
+    /// The pairs of different nodes.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.blocks.iter().map(|block| [block.row, block.column]).filter(|[row, column]| row != column)
+    }
+
+    /// Adds the product with a displacement of each node.
+    pub(super) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for &NodeBlock { row, column, entries } in &self.blocks {
+            for a in 0..3 {
+                for c in 0..3 {
+                    total[row][a] += entries[a][c] * d[column][c];
+                    if row != column {
+                        total[column][c] += entries[a][c] * d[row][a];
+                    }
+                }
+            }
+        }
+    }
+
+    /// dᵀ H d for a displacement d of each node.
+    pub(super) fn curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let of_block = |&NodeBlock { row, column, entries }: &NodeBlock| {
+            let twice = if row == column { 1.0 } else { 2.0 };
+            let products = (0..9).map(|k| d[row][k / 3] * entries[k / 3][k % 3] * d[column][k % 3]);
+            twice * products.sum::<f64>()
+        };
+        self.blocks.iter().map(of_block).sum()
+    }
+
+    /// Adds the blocks of free nodes to the entries of a pattern that has all their pairs.
+    pub(super) fn add_to_entries(&self, pattern: &Pattern, values: &mut [f64]) {
+        for NodeBlock { row, column, entries } in &self.blocks {
+            let numbers = pattern.free_of_node()[*row].zip(pattern.free_of_node()[*column]);
+            let Some((i, j)) = numbers else { continue };
+            let (row, column) = (i.max(j), i.min(j));
+            let Some(block) = pattern.block(row, column) else { continue };
+            for r in 0..3 {
+                for c in 0..if row == column { r + 1 } else { 3 } {
+                    let entry = if i < j { entries[c][r] } else { entries[r][c] };
+                    values[pattern.scalar(column, block, r, c)] += entry;
+                }
+            }
+        }
+    }
+
+    /// Adds all blocks to a matrix of a row and a column for each node that has all their pairs.
+    pub(super) fn add_to_blocks(&self, matrix: &mut SymmetricBlocks<f64, 3>) {
+        let pattern = matrix.pattern().clone();
+        for NodeBlock { row, column, entries } in &self.blocks {
+            let Some((block, is_transposed)) = pattern.block(*row, *column) else { continue };
+            let block = &mut matrix.blocks_mut()[block];
+            for r in 0..3 {
+                for c in 0..3 {
+                    block[r][c] += if is_transposed { entries[c][r] } else { entries[r][c] };
+                }
+            }
+        }
+    }
+}
+
+/// Springs as one term.
+impl Term for Vec<Spring> {
+    fn energy(&self, positions: &[[f64; 3]]) -> Option<f64> {
+        Some(self.iter().map(|spring| spring.energy(positions)).sum())
+    }
+
+    fn add_gradient(&self, positions: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        for spring in self {
+            let point = spring.anchor.position(positions);
+            for (node, weight) in spring.weights() {
+                for c in 0..3 {
+                    gradient[node][c] += spring.stiffness * weight * (point[c] - spring.target[c]);
+                }
+            }
+        }
+    }
+
+    fn add_second_derivatives(&self, _: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        for spring in self {
+            for (i, (row, row_weight)) in spring.weights().enumerate() {
+                for (j, (column, column_weight)) in spring.weights().take(i + 1).enumerate() {
+                    // An anchor may name a node twice: then this block is its own transpose.
+                    let twice = if i != j && row == column { 2.0 } else { 1.0 };
+                    let k = twice * spring.stiffness * row_weight * column_weight;
+                    blocks.add(row, column, [[k, 0.0, 0.0], [0.0, k, 0.0], [0.0, 0.0, k]]);
+                }
+            }
+        }
+    }
+
+    /// By ½ k (|q − t|² − |p − t|²) = k (q − p)·(½(p + q) − t), without a difference of energies.
+    fn change(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
+        let mut change = EnergyChange::default();
+        for spring in self {
+            let Spring { anchor, target, stiffness } = spring;
+            let (p, q) = (anchor.position(from), anchor.position(to));
+            for c in 0..3 {
+                let moved: f64 = spring.weights().map(|(node, w)| w * (to[node][c] - from[node][c])).sum();
+                change.difference += stiffness * moved * (0.5 * (p[c] + q[c]) - target[c]);
+                change.noise += stiffness * moved.abs() * (p[c].abs() + q[c].abs() + target[c].abs());
+            }
+        }
+        change.noise *= 8.0 * f64::UNIT_ROUNDOFF;
+        Some(change)
+    }
+}
+
+#[cfg(test)]
+mod tests;

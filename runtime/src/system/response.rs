@@ -1,0 +1,218 @@
+//! Energy, forces and stiffness of a body at any positions, for an integrator or a solver of one's own.
+//!
+//! This module knows no time and no pins: a caller adds inertia and leaves pinned nodes out.
+
+use super::assemble::Elastic;
+use super::block_matrix::BlockMatrix;
+use super::body::Body;
+use super::element::Evaluated;
+use super::stiffnesses::ElementStiffnesses;
+use crate::batch::LengthError;
+use crate::point::Filter;
+use crate::status::Survey;
+
+/// Memory to evaluate the energy of deformation of a body with its first and second derivatives.
+///
+/// A survey counts elements in the order of [`Body::elements`]. What an evaluation returns means something
+/// where the survey [is clean](Survey::is_clean): a trial that takes an element out of the domain of its
+/// material does not.
+///
+/// ```
+/// use piola::mesh::tetrahedral_box;
+/// use piola::point::Filter;
+/// use piola::system::{BlockMatrix, Body, Cholesky, ElasticResponse, Pins};
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let body = Body::new(&tetrahedral_box([2, 1, 1], [0.2, 0.1, 0.1])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+/// // A weight of 1 N hangs on the last node, and the four nodes of an end are held: Newton's method.
+/// let (mut x, last) = (body.rest().to_vec(), body.rest().len() - 1);
+/// let pins = Pins::at((0..=last).filter(|&node| x[node][0] == 0.0));
+/// let mut matrix = BlockMatrix::of_body(&body, &pins)?;
+/// let mut cholesky = Cholesky::new(matrix.pattern().column_starts(), matrix.pattern().row_indices())?;
+/// let mut response = ElasticResponse::new(&body);
+/// let mut gradient = vec![[0.0; 3]; x.len()];
+/// for _ in 0..8 {
+///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix)?.is_clean());
+///     gradient[last][1] += 1.0;
+///     let nodes = matrix.pattern().node_of_free();
+///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     cholesky.factor(matrix.values())?;
+///     cholesky.solve(&mut step)?;
+///     for (&node, step) in nodes.iter().zip(step.chunks_exact(3)) {
+///         (0..3).for_each(|c| x[node][c] += step[c]);
+///     }
+/// }
+/// // The forces of the body on the last node balance the weight.
+/// response.gradient(&body, &x, &mut gradient)?;
+/// assert!((gradient[last][1] + 1.0).abs() < 1e-10);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone)]
+pub struct ElasticResponse {
+    elastic: Elastic,
+    /// Made by the first call that needs them.
+    stiffnesses: Option<ElementStiffnesses>,
+    nodes: usize,
+    elements: usize,
+}
+
+impl std::fmt::Debug for ElasticResponse {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "ElasticResponse {{ nodes: {}, elements: {} }}", self.nodes, self.elements)
+    }
+}
+
+impl ElasticResponse {
+    /// Allocates the memory for a body, but for that of stiffnesses, 720 bytes for each element.
+    #[must_use]
+    pub fn new(body: &Body) -> Self {
+        let (nodes, elements) = (body.rest().len(), body.elements().len());
+        Self { elastic: Elastic::new(body), stiffnesses: None, nodes, elements }
+    }
+
+    /// Energy of deformation, J, with the nodes at `positions`, of the body that this memory was made for.
+    ///
+    /// # Errors
+    /// [`LengthError`] if there are not as many positions or elements as the body had.
+    pub fn energy(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(f64, Survey), LengthError> {
+        let Evaluated { survey, .. } = self.evaluate(body, positions)?;
+        Ok((self.elastic.energy(), survey))
+    }
+
+    /// Replaces `gradient` by that of the energy in the position of each node, N: minus the forces.
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice or the body does not have the length of the body that this was made for.
+    pub fn gradient(
+        &mut self,
+        body: &Body,
+        positions: &[[f64; 3]],
+        gradient: &mut [[f64; 3]],
+    ) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        let energies = self.evaluate(body, positions)?;
+        self.elastic.evaluate_gradients(body);
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Replaces `gradient` as [`ElasticResponse::gradient`] does, and `matrix` by the stiffness, N/m, with
+    /// the filter on dP/dF of each element.
+    ///
+    /// The matrix comes from [`BlockMatrix::of_body`]; pinned nodes have no rows in it.
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
+    /// made for.
+    pub fn stiffness(
+        &mut self,
+        body: &Body,
+        positions: &[[f64; 3]],
+        filter: Filter,
+        gradient: &mut [[f64; 3]],
+        matrix: &mut BlockMatrix,
+    ) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        same("matrix", matrix.pattern().elements(), self.elements, 1)?;
+        let energies = self.evaluate(body, positions)?;
+        let stiffnesses = self.stiffnesses.get_or_insert_with(|| ElementStiffnesses::new(body));
+        self.elastic.linearise(body, filter, stiffnesses);
+        matrix.fill(stiffnesses);
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<Evaluated, LengthError> {
+        self.check("positions", positions.len())?;
+        same("elements", body.elements().len(), self.elements, 1)?;
+        same("nodes", body.rest().len(), self.nodes, 1)?;
+        Ok(self.elastic.evaluate(body, positions))
+    }
+
+    /// Sums the gradients of all elements. Returns the survey of the energies or, where these are clean, of
+    /// the derivatives.
+    fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {
+        gradient.fill([0.0; 3]);
+        self.elastic.add_gradient(body, gradient);
+        if energies.survey.is_clean() { self.elastic.survey().survey } else { energies.survey }
+    }
+
+    fn check(&self, slice: &'static str, found: usize) -> Result<(), LengthError> {
+        same(slice, 3 * found, self.nodes, 3)
+    }
+}
+
+/// Checks that a slice holds `components` for each of `points`.
+fn same(slice: &'static str, found: usize, points: usize, components: usize) -> Result<(), LengthError> {
+    if found == components * points {
+        return Ok(());
+    }
+    Err(LengthError { slice, found, components, points, group: 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use crate::system::Pins;
+    use crate::system::testing::{NEO_HOOKEAN, beam, shake};
+
+    /// Central differences of the energy and of its gradient.
+    #[test]
+    fn derivatives_are_those_of_the_energy() {
+        let mesh = beam(2);
+        let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
+        let mut random = Random::new(3);
+        let mut x = shake(&mut random, body.rest(), 0.01);
+        let mut response = ElasticResponse::new(&body);
+        let mut matrix = BlockMatrix::of_body(&body, &Pins::none()).expect("small");
+        let (nodes, h) = (x.len(), 1e-6);
+        let (mut gradient, mut ahead, mut behind) =
+            (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes]);
+        let survey = response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix);
+        assert!(survey.expect("lengths").is_clean());
+        for node in 0..nodes {
+            for c in 0..3 {
+                let at = x[node][c];
+                x[node][c] = at + h;
+                let (up, _) = response.energy(&body, &x).expect("lengths");
+                response.gradient(&body, &x, &mut ahead).expect("lengths");
+                x[node][c] = at - h;
+                let (down, _) = response.energy(&body, &x).expect("lengths");
+                response.gradient(&body, &x, &mut behind).expect("lengths");
+                x[node][c] = at;
+                let slope = (up - down) / (2.0 * h);
+                assert!((slope - gradient[node][c]).abs() <= 1e-3, "{slope} for {}", gradient[node][c]);
+                for other in 0..nodes {
+                    let block = matrix.block(other, node);
+                    for r in 0..3 {
+                        let expected = (ahead[other][r] - behind[other][r]) / (2.0 * h);
+                        let entry = block.map_or(0.0, |block| block[r][c]);
+                        assert!((entry - expected).abs() <= 1.0, "{entry} for {expected}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_and_bodies_must_fit_and_refused_elements_are_counted() {
+        let body = Body::new(&beam(1), NEO_HOOKEAN, 1000.0).expect("a body");
+        let other = Body::new(&beam(2), NEO_HOOKEAN, 1000.0).expect("a body");
+        let mut response = ElasticResponse::new(&body);
+        let mut gradient = vec![[0.0; 3]; 8];
+        assert!(response.energy(&body, &body.rest()[1..]).is_err());
+        assert!(response.gradient(&body, body.rest(), &mut gradient[1..]).is_err());
+        assert!(response.energy(&other, body.rest()).is_err());
+        let mut matrix = BlockMatrix::of_body(&other, &Pins::none()).expect("small");
+        assert!(response.stiffness(&body, body.rest(), Filter::None, &mut gradient, &mut matrix).is_err());
+        let mirrored: Vec<[f64; 3]> = body.rest().iter().map(|&[x, y, z]| [-x, y, z]).collect();
+        let survey = response.gradient(&body, &mirrored, &mut gradient).expect("lengths");
+        assert_eq!((survey.refused, survey.first), (body.elements().len(), Some(0)));
+    }
+}
