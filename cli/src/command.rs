@@ -183,6 +183,11 @@ struct Choice {
     #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "implicit-euler")]
     integrator: Integrator,
 
+    /// Largest error of the motion that steps of time may make, in body heights per second: each frame is
+    /// made in steps as short as that takes. Best with --integrator sdirk2 and --newton full.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+
     /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
     #[arg(long, value_enum, default_value_t = Newton::Single)]
     newton: Newton,
@@ -285,6 +290,7 @@ impl Choice {
             .with_files(files)
             .with_pins(self.pins)
             .with_integrator(self.integrator)
+            .with_tolerance(self.tolerance)
             .with_newton(self.newton)
             .with_threads(self.threads))
     }

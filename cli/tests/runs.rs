@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 24] = [
     "scene",
     "material",
     "parameters",
@@ -28,6 +28,7 @@ const KEYS: [&str; 23] = [
     "ms_per_step_median",
     "steps_per_second",
     "integrator",
+    "steps",
     "newton",
     "recovered",
 ];
@@ -103,6 +104,20 @@ fn an_integrator_of_second_order_is_chosen() {
     let summary = check(&arguments, "dinosaur", 3);
     assert_eq!(summary["integrator"], "sdirk2");
     assert_eq!(summary["newton_iterations_mean"], 2.0);
+}
+
+/// A frame is made in more steps for a smaller tolerance, and in one where any error will do.
+#[test]
+fn a_tolerance_chooses_the_steps_of_time() {
+    let taken = |tolerance: &str| {
+        let arguments = ["run", "dinosaur", "--frames", "2", "--integrator", "sdirk2", "--newton", "full"];
+        let arguments = [&arguments[..], &["--tolerance", tolerance]].concat();
+        let summary = check_with(&arguments, "dinosaur", 2, &["tolerance"]);
+        assert_eq!(summary["steps"]["unresolved"], 0, "{summary}");
+        summary["steps"]["taken"].as_u64().expect("a count")
+    };
+    assert_eq!(taken("1000"), 2);
+    assert!(taken("0.01") > 4);
 }
 
 #[test]

@@ -34,7 +34,9 @@ pub use filtering::Filtering;
 pub use integrator::Integrator;
 pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
-pub use simulation::{Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport};
+pub use simulation::{
+    AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,
+};
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
 pub use term::{EnergyChange, NodeBlocks, Term};

@@ -537,7 +537,11 @@ fn simulations() {
             };
         }
         let dt = hostile.about(0.01);
-        let stepped = if hostile.0.once_in(3) { simulation.equilibrate() } else { simulation.step(dt) };
+        let stepped = match hostile.0.below(6) {
+            0 | 1 => simulation.equilibrate(),
+            2 => simulation.advance_within(dt, hostile.about(0.1)).map(|report| report.step),
+            _ => simulation.step(dt),
+        };
         if stepped.is_ok() {
             steps += 1;
             let state = [simulation.positions(), simulation.velocities(), simulation.accelerations()];

@@ -12,7 +12,7 @@ mod whole;
 pub use folder::Folder;
 pub use ply::{read_vertices, write_ply};
 pub use sealed::{SealError, Sealer, Unsealer};
-pub use summary::{Ended, FinalPlace, FinalState, Newton, Summary, TensileReading};
+pub use summary::{Ended, FinalPlace, FinalState, Newton, StepCounts, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
 pub use whole::write_whole;
 

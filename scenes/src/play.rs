@@ -11,7 +11,7 @@ use crate::clock::Clock;
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::material::{self, MaterialSpec, Parameters};
-use crate::output::Newton;
+use crate::output::{Newton, StepCounts};
 use crate::region;
 use crate::scene::Pull;
 use crate::settings::Settings;
@@ -33,6 +33,9 @@ pub struct Play {
     /// Stiffness of a cube of its material and height, N/m.
     stiffness: f64,
     clock: Clock,
+    /// Largest error that steps of time may make, m/s.
+    tolerance: Option<f64>,
+    steps: StepCounts,
 }
 
 impl Play {
@@ -57,6 +60,8 @@ impl Play {
             moduli: info.moduli,
             stiffness: stiffness(young, mesh),
             clock: Clock::new(settings.dt),
+            tolerance: settings.tolerance.map(|share| share * mesh.bounds().size()[1]),
+            steps: StepCounts::default(),
         };
         play.pull(play.clock)?;
         Ok(play)
@@ -164,7 +169,14 @@ impl Play {
         Ok(self.simulation.set_settings(settings)?)
     }
 
-    /// Makes the next time step, in the rayon pool of the caller.
+    /// The steps of time by which the last frame was made.
+    #[must_use]
+    pub fn steps(&self) -> StepCounts {
+        self.steps
+    }
+
+    /// Makes the next frame, in the rayon pool of the caller: one step of time, or as many as the tolerance
+    /// takes.
     ///
     /// # Errors
     /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] where no time is left; the state before
@@ -177,7 +189,18 @@ impl Play {
         }
         self.pull(clock)?;
         let failed = |source| Error::Step { frame: clock.frame(), source };
-        let report = self.simulation.step(clock.dt()).map_err(failed)?;
+        let report = match self.tolerance {
+            None => {
+                self.steps = StepCounts { taken: 1, ..StepCounts::default() };
+                self.simulation.step(clock.dt())
+            }
+            Some(tolerance) => self.simulation.advance_within(clock.dt(), tolerance).map(|report| {
+                let (taken, refused) = (report.taken, report.refused);
+                self.steps = StepCounts { taken, refused, unresolved: report.unresolved };
+                report.step
+            }),
+        };
+        let report = report.map_err(failed)?;
         self.clock = clock;
         Ok(report)
     }

@@ -46,6 +46,10 @@ pub struct Settings {
     /// Method by which steps advance in time.
     #[serde(default)]
     pub integrator: Integrator,
+    /// Largest error of the motion that steps of time may make, body heights per second: each frame is made
+    /// in steps as short as that takes, and in one without it.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
     /// How far each step is solved.
     pub newton: Newton,
     /// Threads for the solver; 0 for one per core.
@@ -89,6 +93,7 @@ impl Settings {
             frames: scene.frames,
             pins: Vec::new(),
             integrator: Integrator::ImplicitEuler,
+            tolerance: None,
             newton: Newton::Single,
             threads: 1,
         }
@@ -115,6 +120,8 @@ impl Settings {
         with_pins: pins = Vec<String>;
         /// Replaces the integrator.
         with_integrator: integrator = Integrator;
+        /// Replaces the tolerance of steps of time, body heights per second.
+        with_tolerance: tolerance = Option<f64>;
         /// Replaces how far each step is solved.
         with_newton: newton = Newton;
         /// Replaces the number of threads; 0 for one per core.
@@ -137,10 +144,12 @@ impl Settings {
             _ => 0.0,
         };
         let epsilon = self.material.extended_below().unwrap_or(0.5);
+        let tolerance = self.tolerance.unwrap_or(1.0);
         for (quantity, value, [low, high], requirement) in [
             ("the time step", self.dt, [1e-12, 1e6], "from 1e-12 to 1e6 s"),
             ("the density", self.density, [1e-9, 1e15], "from 1e-9 to 1e15 kg/m³"),
             ("the gravity", self.gravity, [-1e9, 1e9], "from -1e9 to 1e9 m/s²"),
+            ("the tolerance", tolerance, [1e-9, 1e3], "from 1e-9 to 1000 body heights per second"),
             ("the number of frames", self.frames as f64, [1.0, 1e6], "from 1 to 1000000"),
             ("the amplitude", amplitude, [0.0, 1e3], "from 0 to 1000 mean edge lengths"),
             ("the stretch where the extension begins", epsilon, [1e-6, 1.0], "from 1e-6 to 1, or `refuse`"),

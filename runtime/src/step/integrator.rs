@@ -129,6 +129,15 @@ impl Integrator {
         }
     }
 
+    /// The power of the step's length with which errors of smooth motions fall.
+    pub(super) fn order(self) -> i32 {
+        match self {
+            Self::ImplicitEuler => 1,
+            Self::Sdirk2 | Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha { .. } => 2,
+            Self::Sdirk3 => 3,
+        }
+    }
+
     /// The rule that these settings break, if any.
     pub(super) fn broken_rule(self) -> Option<&'static str> {
         match self {

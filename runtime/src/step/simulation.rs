@@ -20,8 +20,10 @@ use super::solver::{Choice, SparseSolver};
 use super::spring::Spring;
 use super::term::{NodeBlocks, Term};
 
+mod adaptive;
 mod error;
 
+pub use adaptive::AdaptiveReport;
 pub use error::{SetupError, StepError};
 
 /// Settings of a [`Simulation`].

@@ -21,6 +21,18 @@ pub enum Newton {
     Full,
 }
 
+/// Steps of time by which frames were made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StepCounts {
+    /// Steps that were taken.
+    pub taken: usize,
+    /// Steps that were too long for the tolerance, or failed, and were made again in halves.
+    pub refused: usize,
+    /// Steps that were taken although their error was above the tolerance, since they were the shortest.
+    pub unresolved: usize,
+}
+
 /// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -163,6 +175,12 @@ pub struct Summary {
     pub steps_per_second: Option<f64>,
     /// Method by which steps advanced in time.
     pub integrator: Integrator,
+    /// Largest error of the motion that steps of time were to make, body heights per second; `None` for one
+    /// step in each frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Steps of time by which the frames were made.
+    pub steps: StepCounts,
     /// How far each step was solved.
     pub newton: Newton,
     /// Whether the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
@@ -218,6 +236,19 @@ impl fmt::Display for Summary {
             Ended::Finished => writeln!(f)?,
             Ended::Interrupted => writeln!(f, "; interrupted, {} were to be made", self.frames_wanted)?,
             Ended::Failed => writeln!(f, "; failed, {} were to be made", self.frames_wanted)?,
+        }
+        if let Some(tolerance) = self.tolerance {
+            let StepCounts { taken, refused, unresolved } = self.steps;
+            write!(
+                f,
+                "  made in {taken} steps of time, for errors below {} body heights a second; {refused} were \
+                 too long",
+                short(tolerance)
+            )?;
+            match unresolved {
+                0 => writeln!(f)?,
+                _ => writeln!(f, ", and {unresolved} of the shortest err by more")?,
+            }
         }
         writeln!(f, "  smallest det F  {}", short(self.min_det_f))?;
         writeln!(f, "  elastic energy  {:.3e} J at the end", self.energy)?;

@@ -15,7 +15,9 @@ use crate::fields;
 use crate::geometry::Geometry;
 use crate::measure;
 use crate::moment::Moment;
-use crate::output::{Ended, FinalState, Folder, STATE_FILE, Summary, cage_file, frame_file, write_ply};
+use crate::output::{
+    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, write_ply,
+};
 use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::find_equilibrium;
@@ -73,6 +75,7 @@ impl<'a> Course<'a> {
             stationary_start: !starts_at_rest,
             min_det_f: f64::INFINITY,
             newton_iterations: 0,
+            steps: StepCounts::default(),
             energy: 0.0,
             motion: Vec::new(),
         };
@@ -160,7 +163,7 @@ impl<'a> Course<'a> {
             let no_force = NO_FORCE * self.setup.play.moduli().young() * size * size;
             self.progress.stationary_start &= report.newton.first_residual <= no_force;
         }
-        self.progress.step(report);
+        self.progress.step(report, self.setup.play.steps());
     }
 
     fn write_frame(&mut self, frame: usize) -> Result<(), Error> {
@@ -251,6 +254,8 @@ impl<'a> Course<'a> {
             ms_per_step_median: median(&times).map(|time| 1e3 * time.as_secs_f64()),
             steps_per_second: (!times.is_empty()).then(|| times.len() as f64 / total.as_secs_f64()),
             integrator: settings.integrator,
+            tolerance: settings.tolerance,
+            steps: progress.steps,
             newton: settings.newton,
             recovered,
             reading,

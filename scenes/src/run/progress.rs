@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::moment::Moment;
-use crate::output::{Sealer, Unsealer};
+use crate::output::{Sealer, StepCounts, Unsealer};
 use crate::settings::Settings;
 
 /// Time between states on the disk, at least: so much of a run that is killed must be computed again.
@@ -25,6 +25,8 @@ pub(super) struct Progress {
     pub(super) stationary_start: bool,
     pub(super) min_det_f: f64,
     pub(super) newton_iterations: usize,
+    #[serde(default)]
+    pub(super) steps: StepCounts,
     /// Elastic energy in the last frame, J.
     pub(super) energy: f64,
     /// Mean distance that nodes have moved up to each frame, m.
@@ -39,7 +41,10 @@ impl Progress {
         self.min_det_f = self.min_det_f.min(min_det_f);
     }
 
-    pub(super) fn step(&mut self, report: &StepReport) {
+    pub(super) fn step(&mut self, report: &StepReport, steps: StepCounts) {
+        self.steps.taken += steps.taken;
+        self.steps.refused += steps.refused;
+        self.steps.unresolved += steps.unresolved;
         self.newton_iterations += report.newton.iterations;
         self.energy = report.energies.elastic;
     }

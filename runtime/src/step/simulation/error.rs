@@ -79,6 +79,11 @@ pub enum StepError {
         /// The time step, s.
         dt: f64,
     },
+    /// The tolerance of steps is not positive and finite.
+    Tolerance {
+        /// The tolerance, m/s.
+        tolerance: f64,
+    },
     /// The integrator goes on beyond its last stage, and there an element is outside the domain of its
     /// material.
     EndsBeyondDomain {
@@ -98,6 +103,13 @@ impl fmt::Display for StepError {
             ),
             Self::TimeStep { dt } => {
                 write!(f, "the time step is {} s; it must be positive and finite", number(*dt))
+            }
+            Self::Tolerance { tolerance } => {
+                write!(
+                    f,
+                    "the tolerance of steps is {} m/s; it must be positive and finite",
+                    number(*tolerance)
+                )
             }
             Self::EndsBeyondDomain { element } => write!(
                 f,

@@ -5,7 +5,11 @@ use crate::mesh::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
 use crate::random::Random;
-use crate::step::{Damping, Filtering, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring};
+use crate::step::{
+    Damping, Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring,
+    StepError,
+};
+use crate::system::LowerTriangle;
 use crate::system::testing::{KIRCHHOFF, ROTATED, Scaled, beam, shake};
 
 const REFINED: LinearSolver = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
@@ -290,4 +294,32 @@ fn tolerances_and_limits_that_make_no_sense_are_refused() {
     }
     let rule = "conjugate gradients need at least one iteration";
     assert_eq!(message(LinearSolver::ConjugateGradients { tolerance: 0.1, max_iterations: 0 }), rule);
+}
+
+/// A factorisation handed in from outside is the built-in one to the last bit, and what a solver answers ends
+/// the step.
+#[test]
+fn solvers_of_ones_own_serve_until_the_settings_are_replaced() {
+    let mesh = beam(4);
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+    let settings = settings.with_newton(NewtonSettings::default().with_linear(LinearSolver::Cholesky));
+    let mut own = simulation(&mesh, ROTATED, settings);
+    let mut built_in = own.clone();
+    own.set_linear_solver(Cholesky::new(&[0], &[]).expect("no unknowns")).expect("a pattern");
+    for _ in 0..3 {
+        own.step(0.02).expect("a step");
+        built_in.step(0.02).expect("a step");
+    }
+    assert_eq!(own.positions(), built_in.positions());
+
+    let before = own.positions().to_vec();
+    let error = LinearError::NotPositive { column: 0 };
+    own.set_linear_solver(move |_: LowerTriangle<'_>, _: &mut [f64], _: f64| Err(error)).expect("a pattern");
+    let failed = own.step(0.02).expect_err("a solver that never solves");
+    assert!(matches!(failed, StepError::Newton(NewtonError::NotPositive { .. })), "{failed}");
+    assert_eq!(own.positions(), before);
+    own.set_settings(settings).expect("as before");
+    own.step(0.02).expect("a step");
+    built_in.step(0.02).expect("a step");
+    assert_eq!(own.positions(), built_in.positions());
 }

@@ -1,6 +1,7 @@
 //! Settings, copies, threads and errors.
 
 use super::*;
+use crate::system::BodyError;
 
 #[test]
 fn nonsense_is_refused_with_a_reason() {
@@ -212,4 +213,31 @@ fn errors_convert_and_name_their_source() {
     let newton = error.source().expect("the minimisation failed");
     assert_eq!(newton.source().map(ToString::to_string), Some(LinearError::OutOfMemory.to_string()));
     assert!(SetupError::from(LinearError::OutOfMemory).source().is_some());
+}
+
+/// Half the stiffness in the middle of a motion, and a line search that is left out.
+#[test]
+fn materials_are_replaced_between_steps() {
+    let mesh = beam(3);
+    let mut settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+    settings.line_search = settings.line_search.with_accepts_increase(true);
+    let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
+    let mut simulation = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
+    simulation.equilibrate().expect("a hanging bar");
+    let stiff = simulation.positions()[mesh.positions.len() - 1][1];
+    assert!(matches!(
+        simulation.set_material(1, NEO_HOOKEAN),
+        Err(BodyError::NoSuchPart { part: 1, parts: 1 })
+    ));
+    simulation.set_material(0, KIRCHHOFF).expect("the only part");
+    simulation.equilibrate().expect("a hanging bar");
+    let softer = simulation.positions()[mesh.positions.len() - 1][1];
+    let body = Body::new(&mesh, KIRCHHOFF, 1000.0).expect("a body");
+    let mut fresh = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
+    fresh.equilibrate().expect("a hanging bar");
+    let expected = fresh.positions()[mesh.positions.len() - 1][1];
+    assert!(
+        (softer - expected).abs() <= 1e-7 && (softer - stiff).abs() > 1e-4,
+        "{stiff}, {softer}, {expected}"
+    );
 }
