@@ -63,7 +63,8 @@ impl Play {
             tolerance: settings.tolerance.map(|share| share * mesh.bounds().size()[1]),
             steps: StepCounts::default(),
         };
-        play.pull(play.clock)?;
+        let start = play.clock.time();
+        play.pull(start, start)?;
         Ok(play)
     }
 
@@ -146,7 +147,7 @@ impl Play {
         self.clock = clock;
         // Springs that replace none are drawn from where they are now, as those of the run were.
         self.simulation.set_springs(&[])?;
-        self.pull(clock)
+        self.pull(clock.time(), clock.time())
     }
 
     /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
@@ -187,27 +188,57 @@ impl Play {
             let (quantity, value) = ("the time after the step", clock.time());
             return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
         }
-        self.pull(clock)?;
-        let failed = |source| Error::Step { frame: clock.frame(), source };
         let report = match self.tolerance {
             None => {
+                self.pull(clock.time(), clock.time())?;
                 self.steps = StepCounts { taken: 1, ..StepCounts::default() };
-                self.simulation.step(clock.dt())
+                let failed = |source| Error::Step { frame: clock.frame(), source };
+                self.simulation.step(clock.dt()).map_err(failed)?
             }
-            Some(tolerance) => self.simulation.advance_within(clock.dt(), tolerance).map(|report| {
-                let (taken, refused) = (report.taken, report.refused);
-                self.steps = StepCounts { taken, refused, unresolved: report.unresolved };
-                report.step
-            }),
+            Some(tolerance) => self.advance_within(clock, tolerance)?,
         };
-        let report = report.map_err(failed)?;
         self.clock = clock;
         Ok(report)
     }
 
-    /// Sets the springs of the scene as they are at this time, and those that act beside them.
-    fn pull(&mut self, clock: Clock) -> Result<(), Error> {
-        let scene = self.pulls.iter().flat_map(|springs| springs.at(clock.time()));
+    /// Makes a frame in steps as short as the tolerance, m/s, takes, and ends one wherever a pull changes at
+    /// once.
+    fn advance_within(&mut self, clock: Clock, tolerance: f64) -> Result<StepReport, Error> {
+        let (mut start, end) = (self.clock.time(), clock.time());
+        let events = self.pulls.iter().flat_map(|springs| springs.pull.events());
+        let mut ends: Vec<f64> = events.filter(|&event| start < event && event < end).chain([end]).collect();
+        ends.sort_unstable_by(f64::total_cmp);
+        ends.dedup();
+        let before = (ends.len() > 1).then(|| self.simulation.clone());
+        let (mut counts, mut iterations) = (StepCounts::default(), 0);
+        loop {
+            let end = ends.remove(0);
+            self.pull(start, end)?;
+            // A whole frame is as long as steps without a tolerance are, to the last bit.
+            let length = if before.is_none() { clock.dt() } else { end - start };
+            let mut report = match self.simulation.advance_within(length, tolerance) {
+                Ok(report) => report,
+                Err(source) => {
+                    self.simulation = before.unwrap_or_else(|| self.simulation.clone());
+                    return Err(Error::Step { frame: clock.frame(), source });
+                }
+            };
+            counts +=
+                StepCounts { taken: report.taken, refused: report.refused, unresolved: report.unresolved };
+            iterations += report.step.newton.iterations;
+            if ends.is_empty() {
+                self.steps = counts;
+                report.step.newton.iterations = iterations;
+                return Ok(report.step);
+            }
+            start = end;
+        }
+    }
+
+    /// Sets the springs of the scene as they are at the end of this stretch of time, s, and those that act
+    /// beside them.
+    fn pull(&mut self, start: f64, end: f64) -> Result<(), Error> {
+        let scene = self.pulls.iter().flat_map(|springs| springs.during(start, end));
         let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
         Ok(self.simulation.set_springs(&springs)?)
     }
@@ -301,9 +332,9 @@ impl DragSprings {
         Self { pull, nodes, bounds, stiffness }
     }
 
-    /// The springs at a time, s.
-    fn at(&self, time: f64) -> impl Iterator<Item = step::Spring> {
-        let share = self.pull.share_at(time);
+    /// The springs at the end of a stretch of time, s.
+    fn during(&self, start: f64, end: f64) -> impl Iterator<Item = step::Spring> {
+        let share = self.pull.share_during(start, end);
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {
                 let target = self.pull.motion.place(rest, share, self.bounds);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
+use std::ops::AddAssign;
 
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +32,14 @@ pub struct StepCounts {
     pub refused: usize,
     /// Steps that were taken although their error was above the tolerance, since they were the shortest.
     pub unresolved: usize,
+}
+
+impl AddAssign for StepCounts {
+    fn add_assign(&mut self, more: Self) {
+        self.taken += more.taken;
+        self.refused += more.refused;
+        self.unresolved += more.unresolved;
+    }
 }
 
 /// End of a run.

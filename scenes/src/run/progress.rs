@@ -42,9 +42,7 @@ impl Progress {
     }
 
     pub(super) fn step(&mut self, report: &StepReport, steps: StepCounts) {
-        self.steps.taken += steps.taken;
-        self.steps.refused += steps.refused;
-        self.steps.unresolved += steps.unresolved;
+        self.steps += steps;
         self.newton_iterations += report.newton.iterations;
         self.energy = report.energies.elastic;
     }

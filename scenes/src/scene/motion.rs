@@ -28,7 +28,19 @@ impl Pull {
     /// Share of the full motion at a time, s; `None` once released.
     #[must_use]
     pub fn share_at(&self, time: f64) -> Option<f64> {
-        (time < self.released).then(|| (time / self.reached).clamp(0.0, 1.0))
+        self.share_during(time, time)
+    }
+
+    /// Share of the full motion at the end of a stretch of time, s; `None` once released before it.
+    #[must_use]
+    pub fn share_during(&self, start: f64, end: f64) -> Option<f64> {
+        (start < self.released).then(|| (end / self.reached).clamp(0.0, 1.0))
+    }
+
+    /// Times, s, when the motion changes at once.
+    #[must_use]
+    pub fn events(&self) -> [f64; 2] {
+        [self.reached, self.released]
     }
 }
 

@@ -9,6 +9,8 @@
 //!
 //! Where that is no more than the tolerance allows in the time h, x₂ is the state after h. Else h is halved,
 //! and the first of the two halves is already the x₁ of the next attempt. A step that fails is halved too.
+//!
+//! Bodies that are suddenly pulled or let go move less smoothly than a third order demands: p is at most 2.
 
 use crate::step::integrator::State;
 use crate::step::newton::NewtonReport;
@@ -113,7 +115,7 @@ impl Simulation {
     }
 
     fn follow(&mut self, course: &Course, tolerance: f64) -> Result<AdaptiveReport, StepError> {
-        let weight = 2.0_f64.powi(self.settings.integrator.order()) - 1.0;
+        let weight = 2.0_f64.powi(self.settings.integrator.order().min(2)) - 1.0;
         let parts = 1_u32 << MAX_HALVINGS;
         let mut sum: Option<NewtonReport> = None;
         let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
