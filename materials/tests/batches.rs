@@ -3,13 +3,12 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use std::sync::OnceLock;
-
 use piola::batch::{Batch, Layout, TileMaterial};
 use piola::lanes::Backend;
-use piola::material::{Graded, PerPoint, PerPointError};
-use piola::mesh::TetMesh;
-use piola::system::{Body, BodyError};
+use piola::material::{Graded, PerElement, PerPoint, PerPointError};
+use piola::mesh::{Group, TetMesh, tetrahedral_box};
+use piola::point::Filter;
+use piola::system::{Body, BodyError, ElasticResponse, Part, StiffnessOperator};
 use piola::{Inversion, Spline, Survey};
 use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
 
@@ -125,17 +124,59 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
     Ok(())
 }
 
+/// Parts of many elements, with a material for each in their order, are parts of one element each.
 #[test]
-fn a_part_of_a_body_has_one_material() -> Outcome {
-    static RUBBERS: OnceLock<[NeoHookean; 1]> = OnceLock::new();
-    let rubber = NeoHookean::new(1.0, 3.0)?;
-    let each = PerPoint::new(RUBBERS.get_or_init(|| [rubber]))?;
-    let tetrahedron = TetMesh {
-        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        tets: vec![[0, 1, 2, 3]],
-        ..TetMesh::default()
+fn each_element_of_a_part_has_its_material() -> Outcome {
+    let mut mesh = tetrahedral_box([3, 3, 3], [0.3; 3])?;
+    let all = mesh.tets.len();
+    let materials: Vec<NeoHookean> =
+        (0..all).map(|k| NeoHookean::new(1e5 + 1e3 * k as f64, 4e5)).collect::<Result<_, _>>()?;
+    // In two parts, the first of which is shorter than two tiles.
+    let (first, second) = materials.split_at(all - 70);
+    let name = "first".to_owned();
+    mesh.groups = vec![Group { name, dimension: 3, nodes: Vec::new(), tets: (0..first.len()).collect() }];
+    let part = |group: Option<&str>, materials: &[NeoHookean]| -> Result<Part, PerPointError> {
+        let material = Box::new(PerElement::new(materials.to_vec())?);
+        Ok(Part { group: group.map(str::to_owned), material, density: 1000.0 })
     };
-    assert_eq!(Body::new(&tetrahedron, each, 1.0).err(), Some(BodyError::MaterialsForPoints));
+    let body = Body::from_parts(&mesh, vec![part(Some("first"), first)?, part(None, second)?])?;
+    let bent: Vec<[f64; 3]> = mesh.positions.iter().map(|&[x, y, z]| [1.2 * x, y + x * x, 0.9 * z]).collect();
+    let (found, survey) = ElasticResponse::new(&body).energy(&body, &bent)?;
+    assert!(survey.is_clean());
+    let mut stiffness = StiffnessOperator::new(&body);
+    stiffness.linearise(&body, &bent, Filter::Clamp)?;
+    let mut product = vec![[0.0; 3]; bent.len()];
+    stiffness.multiply(&bent, &mut product)?;
+    let (mut energy, mut sum) = (0.0, vec![[0.0; 3]; bent.len()]);
+    for (tet, material) in mesh.tets.iter().zip(&materials) {
+        let one = TetMesh::new(tet.map(|node| mesh.positions[node]).to_vec(), vec![[0, 1, 2, 3]]);
+        let (body, x) = (Body::new(&one, *material, 1000.0)?, tet.map(|node| bent[node]));
+        energy += ElasticResponse::new(&body).energy(&body, &x)?.0;
+        let mut alone = StiffnessOperator::new(&body);
+        alone.linearise(&body, &x, Filter::Clamp)?;
+        let mut product = [[0.0; 3]; 4];
+        alone.multiply(&x, &mut product)?;
+        for (&node, product) in tet.iter().zip(product) {
+            (0..3).for_each(|c| sum[node][c] += product[c]);
+        }
+    }
+    assert!((found - energy).abs() <= 1e-13 * energy, "{found} for {energy}");
+    let size = sum.as_flattened().iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+    for (found, expected) in product.as_flattened().iter().zip(sum.as_flattened()) {
+        assert!((found - expected).abs() <= 1e-12 * size, "{found} for {expected}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_part_has_a_material_for_all_elements_or_for_each() -> Outcome {
+    let mesh = tetrahedral_box([1, 1, 1], [0.1; 3])?;
+    let five = || PerElement::new(vec![NeoHookean::new(1.0, 3.0).expect("moduli"); 5]);
+    let refused = BodyError::MaterialsForPoints { materials: 5, elements: 6 };
+    assert_eq!(Body::new(&mesh, five()?, 1.0).err(), Some(refused.clone()));
+    let mut body = Body::new(&mesh, NeoHookean::new(1.0, 3.0)?, 1.0)?;
+    assert_eq!(body.set_material(0, five()?).err(), Some(refused));
+    assert_eq!(PerElement::<NeoHookean>::new(Vec::new()).err(), Some(PerPointError::NoMaterial));
     Ok(())
 }
 

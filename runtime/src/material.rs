@@ -35,7 +35,7 @@ pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
 pub use mixed::Mixed;
 pub use normalised::{Normalised, VolumetricPenalty};
-pub use parameter::{Graded, ParameterValue, PerLane, PerPoint, PerPointError};
+pub use parameter::{Graded, ParameterValue, PerElement, PerLane, PerPoint, PerPointError};
 pub use response::Response;
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.

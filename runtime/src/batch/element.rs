@@ -31,6 +31,8 @@ pub(crate) use super::tile::TILE;
 #[derive(Clone, Debug)]
 pub(crate) struct ElementTile {
     backend: Backend,
+    /// Index of the first element among those of the material.
+    start: usize,
     count: usize,
     rest: RestShapes,
     volumes: [f64; TILE],
@@ -40,14 +42,15 @@ pub(crate) struct ElementTile {
 }
 
 impl ElementTile {
-    pub(crate) fn new(backend: Backend, shapes: impl Iterator<Item = RestShape>) -> Self {
+    /// Elements of which the first is number `start` of the material's.
+    pub(crate) fn new(backend: Backend, start: usize, shapes: impl Iterator<Item = RestShape>) -> Self {
         let mut volumes = [0.0; TILE];
         let mut count = 0;
         let rest = RestShapes::new(shapes.inspect(|shape| {
             volumes[count] = shape.volume;
             count += 1;
         }));
-        Self { backend, count, rest, volumes, F: Lines::zero(), points: None }
+        Self { backend, start, count, rest, volumes, F: Lines::zero(), points: None }
     }
 
     /// F of an element, as evaluated last.
@@ -62,7 +65,7 @@ impl ElementTile {
         corners: impl Iterator<Item = [[f64; 3]; 4]>,
         energies: &mut [f64],
     ) -> Status<u64> {
-        let Self { backend, count, ref rest, F: ref mut edges, .. } = *self;
+        let Self { backend, start, count, ref rest, F: ref mut edges, .. } = *self;
         for (lane, corners) in corners.enumerate() {
             set_edges(edges, lane, corners);
         }
@@ -75,7 +78,7 @@ impl ElementTile {
                 Status::default()
             } else {
                 let points = decompose(&mut self.points, backend, &self.F, count, material);
-                material.tile_energies(arguments(backend, count, &points.stretches), densities)
+                material.tile_energies(arguments(backend, start, count, &points.stretches), densities)
             };
             for ((energy, density), volume) in energies.iter_mut().zip(densities.0[0]).zip(self.volumes) {
                 *energy = volume * density;
@@ -107,9 +110,10 @@ impl ElementTile {
                     return Status::default();
                 }
             }
-            let Self { backend, count, ref rest, ref F, ref mut points, .. } = *self;
+            let Self { backend, start, count, ref rest, ref F, ref mut points, .. } = *self;
             let points = decomposed(points, backend, F, count, material);
-            let refused = material.tile_gradients(arguments(backend, count, &points.stretches), principal);
+            let refused =
+                material.tile_gradients(arguments(backend, start, count, &points.stretches), principal);
             let (gradients, to) = (&principal.0, by_elements(gradients));
             let kernel = Forces { points, gradients, rest: rest.source(), count, line, to };
             refused | f64::forces(backend, kernel)
@@ -178,11 +182,11 @@ impl ElementTile {
         form: StiffnessForm,
         stiffnesses: Sink<'_, f64>,
     ) -> Status<u64> {
-        let Self { backend, count, ref rest, ref F, ref mut points, .. } = *self;
+        let Self { backend, start, count, ref rest, ref F, ref mut points, .. } = *self;
         let points = decomposed(points, backend, F, count, material);
         let has_pole = material.properties().has_pole;
         f64::with_workspace(|Workspace { blocks, line, .. }| {
-            let refused = material.tile_blocks(arguments(backend, count, &points.stretches), blocks);
+            let refused = material.tile_blocks(arguments(backend, start, count, &points.stretches), blocks);
             let judged = f64::judge(backend, Judge { points, blocks, count, filter, has_pole });
             let (blocks, rest) = (&*blocks, rest.source());
             let to = by_elements(gradients);
@@ -200,12 +204,12 @@ impl ElementTile {
         invariants: &mut Rows<f64, 3>,
         respond: impl FnOnce(Arguments<'_, f64>) -> Status<u64>,
     ) -> bool {
-        let Self { backend, count, ref F, .. } = *self;
+        let Self { backend, start, count, ref F, .. } = *self;
         let in_range = f64::invariants(backend, Invariants { F: F.source(), count, invariants });
         if in_range != first_bits(count) {
             return false;
         }
-        let status = respond(arguments(backend, count, invariants));
+        let status = respond(arguments(backend, start, count, invariants));
         status.refused | status.nonfinite == 0
     }
 }
@@ -238,6 +242,6 @@ fn decompose<'a>(
     points
 }
 
-fn arguments(backend: Backend, count: usize, rows: &Rows<f64, 3>) -> Arguments<'_, f64> {
-    Arguments { backend, start: 0, count, rows }
+fn arguments(backend: Backend, start: usize, count: usize, rows: &Rows<f64, 3>) -> Arguments<'_, f64> {
+    Arguments { backend, start, count, rows }
 }

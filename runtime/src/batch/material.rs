@@ -2,7 +2,7 @@
 
 use super::tile::{Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
-use crate::material::{Blocks, Graded, Material, PerPoint};
+use crate::material::{Blocks, Graded, Material, PerElement, PerPoint};
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
@@ -54,6 +54,23 @@ impl<M: Graded> Points for PerPoint<'_, M> {
     }
 }
 
+impl<M: Graded> Points for PerElement<M> {
+    type Material = M;
+
+    #[inline(always)]
+    fn at(&self, point: usize) -> impl Material {
+        self.per_point().from(point)
+    }
+
+    fn materials(&self) -> &[M] {
+        self.per_point().materials()
+    }
+
+    fn count(&self) -> Option<usize> {
+        Some(self.per_point().materials().len())
+    }
+}
+
 /// Principal stretches of a tile, or its invariants where a method takes these, and how to compute with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a, E> {
@@ -77,7 +94,8 @@ macro_rules! tile_responses {
         $rows:literal rows by $to_rows:expr,
         finite where |$at:pat_param, $result:pat_param| $finite:expr;
     )*) => {
-        /// A material over tiles of points: implemented for every [`Material`], and for [`PerPoint`].
+        /// A material over tiles of points: implemented for every [`Material`], for [`PerPoint`] and
+        /// for [`PerElement`].
         ///
         /// Its methods are internals of [`Batch`](super::Batch).
         pub trait TileMaterial<E: Scalar>: Send + Sync {

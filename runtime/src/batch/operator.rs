@@ -33,14 +33,17 @@ use crate::status::Status;
 #[derive(Clone, Debug)]
 pub(crate) struct StiffnessFactors {
     backend: Backend,
+    /// Index of the first element among those of the material.
+    start: usize,
     count: usize,
     /// U, W, ψij, flips, twists.
     factors: Lines<f64, 30>,
 }
 
 impl StiffnessFactors {
-    pub(crate) fn new(backend: Backend, count: usize) -> Self {
-        Self { backend, count, factors: Lines::zero() }
+    /// Elements of which the first is number `start` of the material's.
+    pub(crate) fn new(backend: Backend, start: usize, count: usize) -> Self {
+        Self { backend, start, count, factors: Lines::zero() }
     }
 
     /// Output for [`StiffnessForm::Factored`].
@@ -72,13 +75,13 @@ impl StiffnessFactors {
         filter: Filter,
         workspace: &mut Workspace<f64>,
     ) -> Status<u64> {
-        let Self { backend, count, ref mut factors } = *self;
+        let Self { backend, start, count, ref mut factors } = *self;
         let Workspace { F: edges, points, blocks, line, .. } = workspace;
         let (rest, is_signed, has_pole) =
             (rest.source(), material.properties().ends_at_zero_volume, material.properties().has_pole);
         f64::deform(backend, Deform { edges, rest, count });
         f64::decompose(backend, Decompose { F: edges.source(), count, is_signed, points });
-        let arguments = Arguments { backend, start: 0, count, rows: &points.stretches };
+        let arguments = Arguments { backend, start, count, rows: &points.stretches };
         let refused = material.tile_blocks(arguments, blocks);
         let judged = f64::judge(backend, Judge { points, blocks, count, filter, has_pole });
         let kernel = Respond { points, blocks, rest, count, has_pole, line, to: factors.sink() };

@@ -142,6 +142,54 @@ impl<'a, M: Graded> PerPoint<'a, M> {
     }
 }
 
+/// A material for each element of a part of a body, in the order of the mesh: what varies over it, such as
+/// stiffness, is constant in each element.
+///
+/// ```
+/// # #[cfg(feature = "bodies")]
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// use piola::material;
+/// use piola::material::PerElement;
+/// use piola::mesh::tetrahedral_box;
+/// use piola::system::Body;
+///
+/// /// μ/2 Σ(λ − 1)².
+/// #[material]
+/// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
+///     mu / 2.0 * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
+/// }
+///
+/// let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
+/// // The stiffer, the further along x.
+/// let middle = |tet: &[usize; 4]| tet.iter().map(|&node| mesh.positions[node][0]).sum::<f64>() / 4.0;
+/// let materials: Result<Vec<_>, _> = mesh.tets.iter().map(|tet| Springs::new(1e5 * (1.0 + middle(tet)))).collect();
+/// let body = Body::new(&mesh, PerElement::new(materials?)?, 1000.0)?;
+/// # assert_eq!(body.elements().len(), 24);
+/// # Ok(())
+/// # }
+/// # #[cfg(not(feature = "bodies"))]
+/// # fn main() {}
+/// ```
+#[derive(Clone, Debug)]
+pub struct PerElement<M>(Arc<[M]>);
+
+impl<M: Graded> PerElement<M> {
+    /// A material for each element; all must do the same outside their domain.
+    ///
+    /// # Errors
+    /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
+    pub fn new(materials: Vec<M>) -> Result<Self, PerPointError> {
+        PerPoint::new(&materials)?;
+        Ok(Self(materials.into()))
+    }
+
+    /// The materials as those of the points of a batch.
+    #[must_use]
+    pub fn per_point(&self) -> PerPoint<'_, M> {
+        PerPoint(&self.0)
+    }
+}
+
 /// Reason why materials cannot be evaluated together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PerPointError {

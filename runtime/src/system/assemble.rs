@@ -73,7 +73,7 @@ pub(crate) trait Tangents {
 impl Elastic {
     pub(crate) fn new(body: &Body) -> Self {
         let state = |elements: Range<usize>| State {
-            group: ElementGroup::new(&body.elements()[elements.clone()]),
+            group: ElementGroup::new(body.number_in_part(elements.start), &body.elements()[elements.clone()]),
             elements,
             evaluated: Evaluated::NONE,
         };

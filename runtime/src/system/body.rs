@@ -14,7 +14,8 @@ use crate::message::{names, number, quoted};
 pub struct Part {
     /// Name of the group of tetrahedra; `None` for all that no other part names.
     pub group: Option<String>,
-    /// Anything that implements [`Material`](crate::Material).
+    /// Anything that implements [`Material`](crate::Material), or a
+    /// [`PerElement`](crate::material::PerElement) of them.
     pub material: Box<dyn TileMaterial<f64>>,
     /// Mass density at rest, kg/m³.
     pub density: f64,
@@ -76,13 +77,12 @@ impl Body {
             if !(density > 0.0 && density.is_finite()) {
                 return Err(BodyError::Density { density });
             }
-            if material.properties().points.is_some() {
-                return Err(BodyError::MaterialsForPoints);
-            }
+            let start = elements.len();
             for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
                 densities[tet] = density;
                 elements.push(Tetrahedron { nodes: mesh.tets[tet], shape: shapes[tet], tag: mesh.tag(tet) });
             }
+            fits(&*material, elements.len() - start)?;
             runs.push(Run { material: material.into(), end: elements.len() });
         }
         let masses = lumped_masses(mesh, &shapes, &densities);
@@ -102,11 +102,9 @@ impl Body {
         material: impl TileMaterial<f64> + 'static,
     ) -> Result<(), BodyError> {
         let parts = self.runs.len();
-        let run = self.runs.get_mut(part).ok_or(BodyError::NoSuchPart { part, parts })?;
-        if material.properties().points.is_some() {
-            return Err(BodyError::MaterialsForPoints);
-        }
-        run.material = Arc::new(material);
+        let (_, elements) = self.materials().nth(part).ok_or(BodyError::NoSuchPart { part, parts })?;
+        fits(&material, elements.len())?;
+        self.runs[part].material = Arc::new(material);
         Ok(())
     }
 
@@ -133,6 +131,12 @@ impl Body {
         self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
     }
 
+    /// Index of an element among those of its part.
+    pub(crate) fn number_in_part(&self, element: usize) -> usize {
+        let run = self.runs.partition_point(|run| run.end <= element);
+        element - run.checked_sub(1).map_or(0, |before| self.runs[before].end)
+    }
+
     /// The materials, each with the range of its elements.
     pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
@@ -144,6 +148,16 @@ impl Body {
         self.materials().flat_map(|(material, run)| {
             run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
         })
+    }
+}
+
+/// Checks that a material is one for all elements of a part, or that there is one for each.
+fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
+    match material.properties().points {
+        Some(materials) if materials != elements => {
+            Err(BodyError::MaterialsForPoints { materials, elements })
+        }
+        _ => Ok(()),
     }
 }
 
@@ -192,8 +206,13 @@ pub enum BodyError {
         /// Its mass, kg.
         mass: f64,
     },
-    /// The material of a part has parameters for each of many points.
-    MaterialsForPoints,
+    /// There is neither one material for all elements of a part, nor one for each.
+    MaterialsForPoints {
+        /// Number of materials.
+        materials: usize,
+        /// Number of elements of the part.
+        elements: usize,
+    },
     /// A part names a group that the mesh does not have.
     NoSuchGroup {
         /// The missing group.
@@ -232,14 +251,20 @@ impl fmt::Display for BodyError {
                 "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
                 if *mass > 1.0 { "overflows" } else { "underflows" }
             ),
-            Self::MaterialsForPoints => f.write_str(
-                "a part has one material for all its elements: make a part for each material, or compute with batches",
+            Self::MaterialsForPoints { materials, elements } => write!(
+                f,
+                "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
             ),
             Self::NoSuchGroup { name, existing } if existing.is_empty() => {
                 write!(f, "there is no group `{}`: the mesh has no groups of tetrahedra", quoted(name))
             }
             Self::NoSuchGroup { name, existing } => {
-                write!(f, "there is no group `{}` of tetrahedra; there are: {}", quoted(name), names(existing))
+                write!(
+                    f,
+                    "there is no group `{}` of tetrahedra; there are: {}",
+                    quoted(name),
+                    names(existing)
+                )
             }
             Self::NoSuchPart { part, parts } => {
                 write!(f, "there is no part {part} (from 0) of a body of {parts}")

@@ -103,9 +103,10 @@ pub(crate) struct ElementGroup {
 }
 
 impl ElementGroup {
-    pub(crate) fn new(elements: &[Tetrahedron]) -> Self {
+    /// Elements of which the first is number `start` of the material's.
+    pub(crate) fn new(start: usize, elements: &[Tetrahedron]) -> Self {
         Self {
-            tile: ElementTile::new(Backend::best(), elements.iter().map(|element| element.shape)),
+            tile: ElementTile::new(Backend::best(), start, elements.iter().map(|element| element.shape)),
             energies: [0.0; TILE],
             gradients: [[[0.0; 3]; 4]; TILE],
         }

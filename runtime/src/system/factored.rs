@@ -55,8 +55,10 @@ struct TileSum {
 
 impl FactoredStiffness {
     pub(crate) fn new(body: &Body) -> Self {
-        let tiles: Vec<Tile> =
-            body.groups().map(|(_, elements)| Tile::new(&body.elements()[elements])).collect();
+        let tiles: Vec<Tile> = body
+            .groups()
+            .map(|(_, elements)| Tile::new(body.number_in_part(elements.start), &body.elements()[elements]))
+            .collect();
         let nodes = body.rest().len();
         let mut starts = vec![0; nodes + 1];
         for &node in tiles.iter().flat_map(|tile| &tile.nodes) {
@@ -139,7 +141,7 @@ impl FactoredStiffness {
 }
 
 impl Tile {
-    fn new(elements: &[Tetrahedron]) -> Self {
+    fn new(start: usize, elements: &[Tetrahedron]) -> Self {
         let mut nodes: Vec<usize> = Vec::new();
         // A full tile has at most 4·64 corners: places fit.
         let mut place_of = |node: usize| {
@@ -151,7 +153,7 @@ impl Tile {
         };
         let corners: Vec<[u8; 4]> = elements.iter().map(|element| element.nodes.map(&mut place_of)).collect();
         Self {
-            factors: StiffnessFactors::new(Backend::best(), elements.len()),
+            factors: StiffnessFactors::new(Backend::best(), start, elements.len()),
             sums: vec![[0.0; 3]; nodes.len()],
             nodes,
             corners,

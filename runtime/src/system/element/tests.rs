@@ -14,7 +14,7 @@ fn sample(seed: u64, amplitude: f64) -> (Tetrahedron, Vec<[f64; 3]>) {
 }
 
 fn energy(material: &dyn TileMaterial<f64>, element: &Tetrahedron, positions: &[[f64; 3]]) -> f64 {
-    let mut group = ElementGroup::new(&[*element]);
+    let mut group = ElementGroup::new(0, &[*element]);
     group.evaluate(material, &[*element], positions);
     group.energies[0]
 }
@@ -25,7 +25,7 @@ fn derivatives(
     positions: &[[f64; 3]],
     filter: Filter,
 ) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
-    let mut group = ElementGroup::new(&[*element]);
+    let mut group = ElementGroup::new(0, &[*element]);
     group.evaluate(material, &[*element], positions);
     let mut stiffness = [[[[0.0; 3]; 3]; 10]];
     let status = group.evaluate_stiffnesses(material, &[*element], filter, &mut stiffness);
@@ -103,7 +103,7 @@ fn invariants_give_what_a_decomposition_gives() {
     for seed in 0..40 {
         let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.08 });
         let evaluate = |material: &dyn TileMaterial<f64>| {
-            let mut group = ElementGroup::new(&[element]);
+            let mut group = ElementGroup::new(0, &[element]);
             let (status, min_det) = group.evaluate(material, &[element], &positions);
             (Survey::of(status, 0), min_det, group.energies[0])
         };
@@ -142,7 +142,7 @@ fn an_element_out_of_range_is_decomposed() {
     let mut elements = [element; 3];
     // Stretches of 1e60 have no invariants in range.
     elements[1].shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * 1e60));
-    let mut group = ElementGroup::new(&elements);
+    let mut group = ElementGroup::new(0, &elements);
     let (status, _) = group.evaluate(&BY_INVARIANTS, &elements, &positions);
     let alone = energy(&BY_INVARIANTS, &element, &positions);
     assert!(Survey::of(status, 0).is_clean(), "{status:?}");
@@ -262,7 +262,7 @@ fn an_affine_map_gives_every_element_the_same_stress() {
 fn an_element_with_nan_positions_is_not_finite() {
     let (element, mut positions) = sample(3, 0.0);
     positions[element.nodes[1]][2] = f64::NAN;
-    let (status, _) = ElementGroup::new(&[element]).evaluate(&KIRCHHOFF, &[element], &positions);
+    let (status, _) = ElementGroup::new(0, &[element]).evaluate(&KIRCHHOFF, &[element], &positions);
     assert_eq!(Survey::of(status, 7), Survey { nonfinite: 1, first: Some(7), ..Survey::default() });
 }
 
@@ -275,7 +275,7 @@ fn forces_and_stiffnesses_that_overflow_are_not_finite() {
         let mut element = element;
         element.shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * size));
         let positions: Vec<_> = positions.iter().map(|x| x.map(|x| x / size)).collect();
-        let mut group = ElementGroup::new(&[element]);
+        let mut group = ElementGroup::new(0, &[element]);
         let (status, _) = group.evaluate(&KIRCHHOFF, &[element], &positions);
         assert!(Survey::of(status, 0).is_clean(), "{status:?}");
         let status =
