@@ -3,8 +3,8 @@
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
 //! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts beside the
-//! material. `equilibrium` classifies a body that has come
-//! to rest. Reports are values; nothing prints.
+//! material. `conservation` makes the steps that keep energy and momenta, which are no minima. `equilibrium`
+//! classifies a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!
@@ -16,6 +16,7 @@
 //! assert_eq!(settings.newton.tolerance, 1e-9);
 //! ```
 
+mod conservation;
 mod damping;
 mod equilibrium;
 mod filtering;

@@ -8,6 +8,7 @@ pub(crate) mod assemble;
 mod block_matrix;
 mod body;
 mod csr;
+pub(crate) mod discrete_gradient;
 pub(crate) mod element;
 pub(crate) mod factored;
 mod fill;

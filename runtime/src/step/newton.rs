@@ -33,6 +33,15 @@ pub struct NewtonSettings {
     pub max_iterations: usize,
     /// Share of the first gradient's norm at which the minimum counts as found.
     pub tolerance: f64,
+    /// Share of the error in time that a step has anyway at which the minimum counts as found as well; 0 for
+    /// the tolerance alone. Has no effect in statics and on the energy–momentum method.
+    ///
+    /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a of methods of higher
+    /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two
+    /// iterations, as q/(1 − q) |d| with their ratio q \[HW96, IV.8\].
+    ///
+    /// \[HW96\] Hairer, Wanner, *Solving Ordinary Differential Equations II*, 1996.
+    pub error_share: f64,
     /// Solver of the linear systems.
     pub linear: LinearSolver,
 }
@@ -46,6 +55,7 @@ impl Default for NewtonSettings {
             start: InitialGuess::Position,
             max_iterations: 50,
             tolerance: 1e-6,
+            error_share: 0.0,
             linear: LinearSolver::Automatic,
         }
     }
@@ -65,6 +75,7 @@ crate::chained::chained!(NewtonSettings {
     with_start(start: InitialGuess),
     with_max_iterations(max_iterations: usize),
     with_tolerance(tolerance: f64),
+    with_error_share(error_share: f64),
     with_linear(linear: LinearSolver),
 });
 
@@ -80,13 +91,16 @@ pub enum InitialGuess {
     /// first residual, to which the tolerance is relative, is then taken there. Equal to `Position` in
     /// statics and where pins move.
     Velocity,
+    /// The positions to which velocities and the accelerations of the stage or step before would take the
+    /// body, otherwise as `Velocity`: closer to where smooth motions go.
+    Acceleration,
 }
 
 /// Reason why Newton's method stopped, from the best on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
-    /// The gradient fell below the tolerance.
+    /// The gradient, or what was left to go, fell below the tolerance.
     Tolerance,
     /// All further gain is below the rounding error of the objective.
     Rounding,
@@ -186,6 +200,11 @@ impl NewtonWorkspace {
         Ok(())
     }
 
+    /// The nodes that are not pinned.
+    pub(super) fn free_nodes(&self) -> &[usize] {
+        self.solver.free_nodes()
+    }
+
     /// Norm of the gradient over the free nodes.
     fn free_norm(&self) -> f64 {
         let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
@@ -212,7 +231,8 @@ pub(crate) fn minimize(
     }
     workspace.solver.begin();
     let report = NewtonReport::before(settings);
-    Iteration { objective, workspace, settings, line_search, survey, report, ratio: None }.run(x, pins_move)
+    Iteration { objective, workspace, settings, line_search, survey, report, ratio: None, moved: None }
+        .run(x, pins_move)
 }
 
 /// A minimisation under way.
@@ -226,6 +246,8 @@ struct Iteration<'a, 'b> {
     report: NewtonReport,
     /// Ratio of actual to predicted decrease in the step before, where a prediction was made.
     ratio: Option<f64>,
+    /// The largest displacement of a node in the iteration before, m.
+    moved: Option<f64>,
 }
 
 /// Outcome of a line search.
@@ -244,8 +266,13 @@ impl Iteration<'_, '_> {
         x: &mut [[f64; 3]],
         mut pins_move: Option<&[[f64; 3]]>,
     ) -> Result<(NewtonReport, Evaluated), NewtonError> {
-        if pins_move.is_none() && self.settings.start == InitialGuess::Velocity {
-            self.follow_velocities(x);
+        let share = match self.settings.start {
+            InitialGuess::Position => None,
+            InitialGuess::Velocity => Some(0.0),
+            InitialGuess::Acceleration => Some(1.0),
+        };
+        if let Some(share) = share.filter(|_| pins_move.is_none()) {
+            self.extrapolate(x, share);
         }
         // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
         // gradient.
@@ -285,16 +312,21 @@ impl Iteration<'_, '_> {
                 self.report.convergence = Convergence::Rounding;
                 break;
             }
+            if self.is_close(x) {
+                self.report.convergence = Convergence::Tolerance;
+                break;
+            }
         }
         Ok((self.report, self.survey))
     }
 
-    /// Moves `x` on by the velocities where that is admissible and does not increase the objective.
-    fn follow_velocities(&mut self, x: &mut [[f64; 3]]) {
+    /// Moves `x` on by the velocities and a share of the accelerations before, where that is admissible and
+    /// does not increase the objective.
+    fn extrapolate(&mut self, x: &mut [[f64; 3]], share: f64) {
         let NewtonWorkspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
         direction.fill([0.0; 3]);
         for &node in solver.free_nodes() {
-            direction[node] = self.objective.quadratic.stage.free_motion(node, x[node]);
+            direction[node] = self.objective.quadratic.stage.extrapolation(node, x[node], share);
         }
         let change = self.objective.along(x, direction, trial, gradient).change(1.0);
         match change {
@@ -305,6 +337,22 @@ impl Iteration<'_, '_> {
             }
             _ => self.survey = self.objective.evaluate(x),
         }
+    }
+
+    /// Whether what is left to go is small beside the error of the step, after the last displacement.
+    fn is_close(&mut self, x: &[[f64; 3]]) -> bool {
+        if self.settings.error_share == 0.0 {
+            return false;
+        }
+        let step = self.report.step_lengths.last().copied().unwrap_or(0.0);
+        let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let squares = self.workspace.direction.iter().map(square);
+        let moved = step * squares.fold(0.0, f64::max).sqrt();
+        let ratio = self.moved.map_or(0.5, |before| moved / before);
+        self.moved = Some(moved);
+        let left = ratio / (1.0 - ratio) * moved;
+        let enough = self.settings.error_share * self.objective.quadratic.stage.error_scale(x);
+        step == 1.0 && ratio < 1.0 && left <= enough && enough.is_finite()
     }
 
     /// Evaluates the gradient; true where it is small enough.
@@ -450,7 +498,7 @@ impl Iteration<'_, '_> {
 
 impl NewtonReport {
     /// The report before the first iteration.
-    fn before(settings: &NewtonSettings) -> Self {
+    pub(super) fn before(settings: &NewtonSettings) -> Self {
         Self {
             convergence: Convergence::Limit,
             iterations: 0,
@@ -543,6 +591,11 @@ pub enum NewtonError {
         /// Tag of the element.
         element: usize,
     },
+    /// An element is inverted, before or after the step, which the energy–momentum method does not allow.
+    Inverted {
+        /// Tag of the element.
+        element: usize,
+    },
     /// The motion of the pins alone takes an element out of the domain of its material.
     PinsMoveTooFar {
         /// Tag of the element.
@@ -578,6 +631,13 @@ pub enum NewtonError {
         /// Norm of the gradient, N.
         residual: f64,
     },
+    /// The equation of an energy–momentum step is not solved, and so the energy would not be kept.
+    NotSolved {
+        /// Number of iterations.
+        iterations: usize,
+        /// Norm of the residual, N.
+        residual: f64,
+    },
     /// The linear solver failed for another reason.
     Linear(LinearError),
 }
@@ -595,6 +655,11 @@ impl fmt::Display for NewtonError {
                 f,
                 "the energy or a force of element {element} is not finite before the step: the deformation, the moduli of the \
                  material or the reciprocal of its `epsilon` exceed the range of f64"
+            ),
+            Self::Inverted { element } => write!(
+                f,
+                "element {element} is inverted, or would be after the step, and `Integrator::EnergyMomentum` needs strains that \
+                 tell an element from its mirror image; take a shorter step, or another integrator"
             ),
             Self::PinsMoveTooFar { element } => write!(
                 f,
@@ -622,6 +687,11 @@ impl fmt::Display for NewtonError {
                 f,
                 "no step down to {step:e} of the Newton direction decreases the energy (residual {residual:e} N, \
                  {refused} trials outside the domain of a material)"
+            ),
+            Self::NotSolved { iterations, residual } => write!(
+                f,
+                "{iterations} iterations do not solve the equation of an energy–momentum step (residual {residual:e} N); take a \
+                 shorter step, or another integrator"
             ),
             Self::Linear(error) => error.fmt(f),
         }

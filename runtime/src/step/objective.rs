@@ -53,6 +53,12 @@ impl Quadratic<'_> {
         self.masses[node] * (1.0 / sigma + self.damping) / tau
     }
 
+    /// The part of inertia alone: m/(τ σ).
+    pub(super) fn inertia(&self, node: usize) -> f64 {
+        let [tau, sigma] = self.stage.lengths;
+        self.masses[node] / (tau * sigma)
+    }
+
     /// Second derivative in each coordinate of a node, with the guard against drift.
     pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
         self.diagonal(node) + self.masses[node] * self.guard
@@ -177,7 +183,7 @@ impl Objective<'_> {
     }
 
     /// The gradient of inertia, damping and given forces.
-    fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+    pub(super) fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         gradient.fill([0.0; 3]);
         self.quadratic.add_gradient(x, gradient);
         if let Some(viscosity) = self.viscosity {

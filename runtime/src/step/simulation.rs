@@ -9,6 +9,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, BodyError, Pins};
 
+use super::conservation::Conservation;
 use super::damping::{Damping, Viscosity};
 use super::integrator::{Integrator, Method, Stages, State};
 use super::line_search::LineSearchSettings;
@@ -82,14 +83,14 @@ pub struct Simulation {
     /// Given force on each node, N; empty without any.
     forces: Vec<[f64; 3]>,
     state: State,
-    /// Whether the accelerations of the state are those of its forces, or of the step before.
-    has_accelerations: bool,
     /// Positions of the pinned nodes, and only of them, after the next step.
     targets: Vec<[f64; 3]>,
     pins: Pins,
     elastic: Elastic,
     workspace: NewtonWorkspace,
     viscosity: Option<Viscosity>,
+    /// Memory of the energy–momentum method, made by its first step.
+    conservation: Option<Box<Conservation>>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     next: State,
@@ -131,12 +132,12 @@ impl Simulation {
             blocks: NodeBlocks::default(),
             forces: Vec::new(),
             state: State::at_rest(body.rest()),
-            has_accelerations: false,
             targets: body.rest().to_vec(),
             pins: pins.clone(),
             elastic: Elastic::new(&body),
             workspace,
             viscosity: settings.damping.viscosity(&body),
+            conservation: None,
             static_regularisation: static_regularisation(&body),
             next: State::at_rest(body.rest()),
             stages: Stages::new(settings.integrator, nodes),
@@ -188,7 +189,7 @@ impl Simulation {
         self.state.x.copy_from_slice(positions);
         self.targets.copy_from_slice(positions);
         self.evaluated = None;
-        self.has_accelerations = false;
+        self.state.forget();
         Ok(())
     }
 
@@ -199,7 +200,7 @@ impl Simulation {
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
         self.state.v.copy_from_slice(velocities);
-        self.has_accelerations = false;
+        self.state.forget();
         Ok(())
     }
 
@@ -215,7 +216,7 @@ impl Simulation {
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(accelerations)?;
         self.state.a.copy_from_slice(accelerations);
-        self.has_accelerations = true;
+        self.state.has_accelerations = true;
         Ok(())
     }
 
@@ -415,7 +416,7 @@ impl Simulation {
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
-        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
+        let [tau, sigma] = self.settings.integrator.method(dt, &self.state).lengths(dt);
         let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
         if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
@@ -447,12 +448,12 @@ impl Simulation {
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let is_static = dt == f64::INFINITY;
         let integrator = if is_static { Integrator::ImplicitEuler } else { self.settings.integrator };
-        let method = integrator.method();
+        let method = integrator.method(dt, &self.state);
         let mut survey = match self.evaluated.take() {
             Some(survey) => survey,
             None => self.elastic.evaluate(&self.body, &self.state.x),
         };
-        if method.needs_accelerations() && !self.has_accelerations {
+        if method.needs_accelerations() && !self.state.has_accelerations {
             demand_admissible(&survey, &self.body, &self.elastic).map_err(StepError::Newton)?;
             self.accelerate();
         }
@@ -476,7 +477,12 @@ impl Simulation {
         }
 
         std::mem::swap(&mut self.state, &mut self.next);
-        self.has_accelerations = true;
+        self.state.has_accelerations = true;
+        if integrator.looks_back() {
+            self.state.come_from(&self.next, dt);
+        } else {
+            self.state.earlier = None;
+        }
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
         }
@@ -493,7 +499,7 @@ impl Simulation {
             *a = force.map(|force| -force / self.body.masses()[node]);
         }
         self.pins.nodes().iter().for_each(|&node| self.state.a[node] = [0.0; 3]);
-        self.has_accelerations = true;
+        self.state.has_accelerations = true;
     }
 
     /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
@@ -582,6 +588,19 @@ impl Simulation {
             blocks: &mut self.blocks,
             viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
+        if !is_static && self.settings.integrator == Integrator::EnergyMomentum {
+            let conservation =
+                self.conservation.get_or_insert_with(|| Box::new(Conservation::new(&self.body)));
+            let report = conservation.solve(
+                &mut objective,
+                self.workspace.free_nodes(),
+                &mut self.next.x,
+                pins_move.then_some(&self.pins_move),
+                &self.settings.newton,
+                &self.settings.line_search,
+            )?;
+            return Ok((report, survey));
+        }
         minimize(
             &mut objective,
             &mut self.workspace,
@@ -677,6 +696,10 @@ fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
         (newton.max_iterations > 0, "Newton's method needs at least one iteration"),
         (newton.tolerance >= 0.0 && newton.tolerance < 1.0, "the tolerance must be at least 0 and below 1"),
+        (
+            newton.error_share >= 0.0 && newton.error_share < 1.0,
+            "the share of a step's error must be at least 0 and below 1",
+        ),
         (
             between(line_search.sufficient_decrease, 0.0, 0.5),
             "the sufficient decrease must be between 0 and 1/2",

@@ -134,3 +134,57 @@ fn velocities_are_a_good_guess_in_flight_and_harmless_elsewhere() {
     let report = turning.step(0.5).expect("the guess is refused, the step is made");
     assert!(report.newton.change <= 0.0 && report.energies.total().is_finite(), "{report:?}");
 }
+
+/// The error that is left is a share of that of the step, and costs fewer iterations than a tolerance would.
+#[test]
+fn a_share_of_the_error_of_a_step_is_enough() {
+    let mesh = beam(4);
+    let end = |integrator: Integrator, share: f64| {
+        let newton = NewtonSettings::default().with_tolerance(1e-10).with_error_share(share);
+        let settings = settings(newton).with_integrator(integrator);
+        let mut body = simulation(&mesh, NEO_HOOKEAN, &left_end(&mesh), settings);
+        let velocities: Vec<[f64; 3]> =
+            mesh.positions.iter().map(|x| [3.0 * x[0], 2.0 * x[0], 0.0]).collect();
+        body.set_velocities(&velocities).expect("finite");
+        let reports: Vec<StepReport> = (0..10).map(|_| body.step(0.03).expect("a step")).collect();
+        let iterations: usize = reports.iter().map(|report| report.newton.iterations).sum();
+        (body.positions().to_vec(), iterations)
+    };
+    let distance = |a: &[[f64; 3]], b: &[[f64; 3]]| {
+        a.as_flattened().iter().zip(b.as_flattened()).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    // What the integrators differ by is the error of the first, at least.
+    for (integrator, other) in
+        [(Integrator::ImplicitEuler, Integrator::Sdirk2), (Integrator::Sdirk2, Integrator::Sdirk3)]
+    {
+        let (solved, all) = end(integrator, 0.0);
+        let (enough, fewer) = end(integrator, 0.01);
+        let error = distance(&solved, &end(other, 0.0).0);
+        assert!(4 * fewer < 3 * all, "{integrator:?}: {fewer} iterations, and {all} to the tolerance");
+        let left = distance(&solved, &enough);
+        assert!(left > 0.0 && left < 0.1 * error, "{integrator:?}: {left:e} beside {error:e}");
+    }
+}
+
+/// Guesses change what a minimum costs, not where it is.
+#[test]
+fn a_guess_by_accelerations_is_closer() {
+    let mesh = beam(4);
+    let end = |start: InitialGuess| {
+        let newton = NewtonSettings::default().with_tolerance(1e-9).with_start(start);
+        let mut body = simulation(&mesh, NEO_HOOKEAN, &left_end(&mesh), settings(newton));
+        let velocities: Vec<[f64; 3]> = mesh.positions.iter().map(|x| [x[0], 2.0 * x[0], 0.0]).collect();
+        body.set_velocities(&velocities).expect("finite");
+        let mut iterations = 0;
+        for _ in 0..20 {
+            iterations += body.step(0.002).expect("a step").newton.iterations;
+        }
+        (body.positions().to_vec(), iterations)
+    };
+    let (here, most) = end(InitialGuess::Position);
+    let (there, fewer) = end(InitialGuess::Acceleration);
+    assert!(fewer <= most, "{fewer} iterations, and {most} from the positions");
+    for (here, there) in here.as_flattened().iter().zip(there.as_flattened()) {
+        assert!((here - there).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,355 @@
+//! Steps that keep energy and momenta: Newton's method for an equation that no function's minimum solves.
+//!
+//! The stage is that of the midpoint rule, with the [discrete gradient](crate::system::discrete_gradient) ∇̄Ψ
+//! between the states before and after the step in the place of ∇Ψ in the middle:
+//!
+//! ```text
+//! r(x) = M a(x) + D v(x) + ∇̄Ψ(xₙ, 2 x − xₙ) − M g − f + ∇ terms(x) = 0
+//! ```
+//!
+//! Its Jacobian J is not symmetric, and there is no function to decrease. Newton's method goes along d = −J⁻¹
+//! r, as far as the next correction with the same Jacobian gets shorter: ‖J⁻¹ r(x + t d)‖ ≤ (1 − t/4) ‖d‖,
+//! the natural monotonicity test \[Deu04, 3.3\], which does not depend on how equations are scaled, as the
+//! norm of r does between large elements and small or flat ones.
+//!
+//! It starts from the positions before the step, as slow motions demand that are stiff beside their inertia.
+//! Where that fails it starts from where velocities alone would take the body, and where that fails too the
+//! equation is first solved for a shorter step, whose inertia is larger: the middle of the whole step is
+//! reached by continuation, with solutions of shorter ones extended along a line.
+//!
+//! Systems are solved by a sparse LU factorisation, faer's, whose symbolic part is kept as long as the same
+//! entries come.
+//!
+//! \[Deu04\] Deuflhard, *Newton Methods for Nonlinear Problems*, 2004.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+
+use crate::system::Body;
+use crate::system::LinearError;
+use crate::system::discrete_gradient::DiscreteGradient;
+
+use super::line_search::LineSearchSettings;
+use super::newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
+use super::objective::Objective;
+
+/// Memory of the method.
+#[derive(Clone)]
+pub(super) struct Conservation {
+    gradient: DiscreteGradient,
+    matrix: Matrix,
+    /// Positions before the step, and with the pins moved.
+    before: Vec<[f64; 3]>,
+    start: Vec<[f64; 3]>,
+    /// Displacement from the state before the step to the one after.
+    displacement: Vec<[f64; 3]>,
+    residual: Vec<[f64; 3]>,
+    direction: Vec<[f64; 3]>,
+    correction: Vec<[f64; 3]>,
+    trial: Vec<[f64; 3]>,
+    /// The solution for the share of the step that was solved for last.
+    solution: Vec<[f64; 3]>,
+}
+
+/// Share of the first residual below which the rest counts as rounding, where it falls by less than half.
+const ROUNDING: f64 = 1e-8;
+
+/// The smallest share of a step by which continuation goes on.
+const SMALLEST_SHARE: f64 = 1.0 / 256.0;
+
+impl Conservation {
+    pub(super) fn new(body: &Body) -> Self {
+        let zero = || vec![[0.0; 3]; body.rest().len()];
+        Self {
+            gradient: DiscreteGradient::new(body),
+            matrix: Matrix::default(),
+            before: zero(),
+            start: zero(),
+            displacement: zero(),
+            residual: zero(),
+            direction: zero(),
+            correction: zero(),
+            trial: zero(),
+            solution: zero(),
+        }
+    }
+
+    /// Moves `x` from the positions before the step to those in its middle, the pinned nodes by `pins_move`.
+    pub(super) fn solve(
+        &mut self,
+        objective: &mut Objective<'_>,
+        free: &[usize],
+        x: &mut [[f64; 3]],
+        pins_move: Option<&Vec<[f64; 3]>>,
+        settings: &NewtonSettings,
+        line_search: &LineSearchSettings,
+    ) -> Result<NewtonReport, NewtonError> {
+        self.gradient.begin(objective.body, x).map_err(|element| NewtonError::Inverted { element })?;
+        self.before.copy_from_slice(x);
+        for (x, d) in x.iter_mut().zip(pins_move.into_iter().flatten()) {
+            (0..3).for_each(|c| x[c] += d[c]);
+        }
+        self.start.copy_from_slice(x);
+        let mut report: Option<NewtonReport> = None;
+        let (mut done, mut more, mut is_first) = (0.0, 1.0, true);
+        loop {
+            let share = f64::min(done + more, 1.0);
+            for &node in free.iter().filter(|_| !is_first) {
+                let start = self.start[node];
+                x[node] = if done == 0.0 {
+                    let way = objective.quadratic.stage.extrapolation(node, start, 0.0);
+                    std::array::from_fn(|c| start[c] + share * way[c])
+                } else {
+                    std::array::from_fn(|c| start[c] + share / done * (self.solution[node][c] - start[c]))
+                };
+            }
+            let equation = Equation { memory: self, objective, free, share, settings, line_search };
+            match equation.solve(x) {
+                Ok(found) => {
+                    let all = found.after(report.take());
+                    if share == 1.0 {
+                        return Ok(all);
+                    }
+                    report = Some(all);
+                    self.solution.copy_from_slice(x);
+                    (done, more) = (share, 2.0 * more);
+                }
+                Err(_) if is_first => is_first = false,
+                Err(_) if more > SMALLEST_SHARE => more *= 0.5,
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+/// The equation of a step, or of a share of it.
+struct Equation<'a, 'b> {
+    memory: &'a mut Conservation,
+    objective: &'a mut Objective<'b>,
+    free: &'a [usize],
+    share: f64,
+    settings: &'a NewtonSettings,
+    line_search: &'a LineSearchSettings,
+}
+
+impl Equation<'_, '_> {
+    /// Moves `x` to a solution.
+    fn solve(mut self, x: &mut [[f64; 3]]) -> Result<NewtonReport, NewtonError> {
+        if let Some(term) = self.objective.terms.refusing(x) {
+            return Err(NewtonError::TermRefuses { term });
+        }
+        self.memory.trial.copy_from_slice(x);
+        let mut residual = self.residual().map_err(|element| NewtonError::Inverted { element })?;
+        let mut report = NewtonReport { first_residual: residual, ..NewtonReport::before(self.settings) };
+        loop {
+            report.residual = residual;
+            if !residual.is_finite() {
+                return Err(NewtonError::NotFinite);
+            }
+            if residual <= self.settings.tolerance * report.first_residual {
+                report.convergence = Convergence::Tolerance;
+                return Ok(report);
+            }
+            if report.iterations == self.settings.max_iterations {
+                return Err(NewtonError::NotSolved { iterations: report.iterations, residual });
+            }
+            let rounding = ROUNDING * report.first_residual;
+            report.iterations += 1;
+            match self.iterate(x, &mut report)? {
+                Some(next) => {
+                    let is_idle = next > 0.5 * residual && next <= rounding;
+                    residual = next;
+                    if is_idle {
+                        (report.convergence, report.residual) = (Convergence::Rounding, next);
+                        return Ok(report);
+                    }
+                }
+                None if residual <= rounding => {
+                    report.convergence = Convergence::Rounding;
+                    return Ok(report);
+                }
+                None => return Err(NewtonError::NotSolved { iterations: report.iterations, residual }),
+            }
+        }
+    }
+
+    /// Evaluates r at the positions to be tried and returns its norm over the free nodes; the error is the
+    /// tag of an element that is inverted after the step.
+    fn residual(&mut self) -> Result<f64, usize> {
+        let more = self.more_inertia();
+        let Conservation { gradient, before, displacement, residual, trial, .. } = &mut *self.memory;
+        for (node, d) in displacement.iter_mut().enumerate() {
+            *d = std::array::from_fn(|c| 2.0 * (trial[node][c] - before[node][c]));
+        }
+        gradient.evaluate(self.objective.body, displacement)?;
+        self.objective.quadratic_gradient(trial, residual);
+        self.objective.terms.add_gradient(trial, residual);
+        gradient.add_gradient(self.objective.body, residual);
+        if self.share < 1.0 {
+            // With a share of the lengths, τ and σ, a is greater.
+            for &node in self.free {
+                let stage = self.objective.quadratic.stage;
+                let way = stage.extrapolation(node, trial[node], 0.0);
+                let rest = stage.extrapolation(node, stage.start[node], 0.0);
+                for c in 0..3 {
+                    let kept = way[c] - (1.0 - self.share) * rest[c];
+                    let inertia = self.objective.quadratic.inertia(node);
+                    residual[node][c] += inertia * (way[c] - (1.0 + more) * kept);
+                }
+            }
+        }
+        Ok(norm(self.free, &self.memory.residual))
+    }
+
+    /// 1/share² − 1.
+    fn more_inertia(&self) -> f64 {
+        (self.share * self.share).recip() - 1.0
+    }
+
+    /// An iteration from `x`, where r was evaluated last; returns ‖r‖ at its end, `None` where no step along
+    /// the direction is good.
+    fn iterate(&mut self, x: &mut [[f64; 3]], report: &mut NewtonReport) -> Result<Option<f64>, NewtonError> {
+        self.linearise(x)?;
+        let factor = self.memory.matrix.factor(3 * self.free.len()).map_err(NewtonError::Linear)?;
+        let length = self.correct(&factor)?;
+        std::mem::swap(&mut self.memory.direction, &mut self.memory.correction);
+        let mut step = self.objective.terms.longest_step(x, &self.memory.direction);
+        for _ in 0..self.line_search.max_trials {
+            for node in 0..x.len() {
+                let d = self.memory.direction[node];
+                self.memory.trial[node] = std::array::from_fn(|c| x[node][c] + step * d[c]);
+            }
+            let residual = match self.objective.terms.refusing(&self.memory.trial) {
+                None => self.residual().ok().filter(|residual| residual.is_finite()),
+                Some(_) => None,
+            };
+            if let Some(residual) = residual {
+                if self.line_search.accepts_increase || self.correct(&factor)? <= (1.0 - 0.25 * step) * length
+                {
+                    x.copy_from_slice(&self.memory.trial);
+                    report.step_lengths.push(step);
+                    return Ok(Some(residual));
+                }
+            } else {
+                report.refused_trials += 1;
+            }
+            step *= self.line_search.shrink;
+        }
+        Ok(None)
+    }
+
+    /// Takes the Jacobian at `x`, where r was evaluated last.
+    fn linearise(&mut self, x: &[[f64; 3]]) -> Result<(), NewtonError> {
+        let more = self.more_inertia();
+        let Self { memory: Conservation { gradient, matrix, .. }, objective, .. } = self;
+        objective.terms.linearise(x, objective.blocks);
+        if let Some(node) = objective.blocks.missing() {
+            return Err(NewtonError::NoSuchNode { node, nodes: x.len() });
+        }
+        gradient.linearise(objective.body).map_err(|element| NewtonError::ElementNotFinite { element })?;
+        let mut unknowns = vec![None; x.len()];
+        for (unknown, &node) in self.free.iter().enumerate() {
+            unknowns[node] = Some(3 * unknown);
+        }
+        matrix.begin();
+        for (index, element) in objective.body.elements().iter().enumerate() {
+            // The state after the step moves twice as far as the middle.
+            let mut tangent = gradient.tangent(objective.body, index).map(|row| row.map(|entry| 2.0 * entry));
+            if let Some(viscosity) = objective.viscosity {
+                viscosity.add_element_to(index, &mut tangent);
+            }
+            for (i, &row) in element.nodes.iter().enumerate() {
+                for (j, &column) in element.nodes.iter().enumerate() {
+                    let block = |a: usize, c: usize| tangent[3 * i + a][3 * j + c];
+                    matrix.add(unknowns[row], unknowns[column], block);
+                }
+            }
+        }
+        for (row, column, entries) in objective.blocks.both_ways() {
+            matrix.add(unknowns[row], unknowns[column], |a, c| entries[a][c]);
+        }
+        for &node in self.free {
+            let quadratic = &objective.quadratic;
+            let diagonal = quadratic.guarded_diagonal(node) + more * quadratic.inertia(node);
+            matrix.add(unknowns[node], unknowns[node], |a, c| if a == c { diagonal } else { 0.0 });
+        }
+        Ok(())
+    }
+
+    /// Replaces the correction by −J⁻¹ r, zero at pinned nodes, and returns its norm.
+    fn correct(&mut self, factor: &Lu<usize, f64>) -> Result<f64, NewtonError> {
+        let Conservation { residual, correction, .. } = &mut *self.memory;
+        let mut b = Mat::from_fn(3 * self.free.len(), 1, |row, _| -residual[self.free[row / 3]][row % 3]);
+        factor.solve_in_place(b.as_mut());
+        correction.fill([0.0; 3]);
+        for (unknown, &node) in self.free.iter().enumerate() {
+            correction[node] = std::array::from_fn(|c| b[(3 * unknown + c, 0)]);
+        }
+        let norm = norm(self.free, correction);
+        if norm.is_finite() { Ok(norm) } else { Err(NewtonError::NotFinite) }
+    }
+}
+
+/// Norm over the free nodes.
+fn norm(free: &[usize], vectors: &[[f64; 3]]) -> f64 {
+    let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    free.iter().map(|&node| square(vectors[node])).sum::<f64>().sqrt()
+}
+
+/// A sparse matrix that comes again and again with the same entries.
+#[derive(Clone, Default)]
+struct Matrix {
+    places: Vec<Pair<usize, usize>>,
+    values: Vec<f64>,
+    analysed: Option<Analysis>,
+}
+
+/// The pattern of a matrix and the symbolic part of its factorisation.
+#[derive(Clone)]
+struct Analysis {
+    places: Vec<Pair<usize, usize>>,
+    pattern: SymbolicSparseColMat<usize>,
+    order: Argsort<usize>,
+    symbolic: SymbolicLu<usize>,
+}
+
+impl Matrix {
+    fn begin(&mut self) {
+        self.places.clear();
+        self.values.clear();
+    }
+
+    /// Adds a 3×3 block whose first entry is at this row and column; nothing where a node has none.
+    fn add(&mut self, row: Option<usize>, column: Option<usize>, block: impl Fn(usize, usize) -> f64) {
+        let Some((row, column)) = row.zip(column) else { return };
+        for a in 0..3 {
+            for c in 0..3 {
+                self.places.push(Pair::new(row + a, column + c));
+                self.values.push(block(a, c));
+            }
+        }
+    }
+
+    /// The factors of a matrix of so many rows and columns.
+    fn factor(&mut self, rows: usize) -> Result<Lu<usize, f64>, LinearError> {
+        // Its size alone can be wrong with a matrix whose pattern is symmetric and has its diagonal.
+        let analysis = match self.analysed.take().filter(|analysed| analysed.places == self.places) {
+            Some(analysis) => analysis,
+            None => {
+                let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(rows, rows, &self.places)
+                    .map_err(|_| LinearError::OutOfMemory)?;
+                let symbolic = SymbolicLu::try_new(pattern.as_ref()).map_err(|_| LinearError::OutOfMemory)?;
+                Analysis { places: self.places.clone(), pattern, order, symbolic }
+            }
+        };
+        let Analysis { pattern, order, symbolic, .. } = &analysis;
+        let matrix = SparseColMat::new_from_argsort(pattern.clone(), order, &self.values)
+            .map_err(|_| LinearError::OutOfMemory)?;
+        let factor = Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref())
+            .map_err(|_| LinearError::OutOfMemory)?;
+        self.analysed = Some(analysis);
+        Ok(factor)
+    }
+}
