@@ -33,7 +33,7 @@ pub use damping::Damping;
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
 pub use integrator::Integrator;
-pub use line_search::LineSearchSettings;
+pub use line_search::{Line, LineSearch, LineSearchSettings};
 pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
 pub use simulation::{
     AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,

@@ -11,7 +11,7 @@ use crate::system::element::Evaluated;
 use crate::system::{Body, LinearError, Pins};
 
 use super::filtering::{Filtering, Model};
-use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
+use super::line_search::{Line, Outcome, Search};
 use super::objective::{Objective, product};
 use super::solver::{Choice, Definiteness, LinearSolver, SolveError, Solver};
 use super::term::NodeBlocks;
@@ -223,7 +223,7 @@ pub(crate) fn minimize(
     pins_move: Option<&[[f64; 3]]>,
     survey: Evaluated,
     settings: &NewtonSettings,
-    line_search: &LineSearchSettings,
+    line_search: Search<'_>,
 ) -> Result<(NewtonReport, Evaluated), NewtonError> {
     demand_admissible(&survey, objective.body, objective.elastic)?;
     if let Some(term) = objective.terms.refusing(x) {
@@ -240,7 +240,7 @@ struct Iteration<'a, 'b> {
     objective: &'a mut Objective<'b>,
     workspace: &'a mut NewtonWorkspace,
     settings: &'a NewtonSettings,
-    line_search: &'a LineSearchSettings,
+    line_search: Search<'a>,
     /// Survey of the energies evaluated last.
     survey: Evaluated,
     report: NewtonReport,
@@ -467,12 +467,9 @@ impl Iteration<'_, '_> {
             model.take(self.objective, slope, direction, trial);
         }
         let first = self.objective.terms.longest_step(x, direction);
-        let outcome = backtrack(
-            &mut self.objective.along(x, direction, trial, gradient),
-            first,
-            slope,
-            self.line_search,
-        );
+        let mut line = self.objective.along(x, direction, trial, gradient);
+        let outcome = self.line_search.run(&mut line, first, slope);
+        drop(line);
         match outcome {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {
                 x.copy_from_slice(trial);

@@ -12,7 +12,7 @@ use crate::system::{Body, BodyError, Pins};
 use super::conservation::Conservation;
 use super::damping::{Damping, Viscosity};
 use super::integrator::{Integrator, Method, Stages, State};
-use super::line_search::LineSearchSettings;
+use super::line_search::{LineSearch, LineSearchSettings, Search};
 use super::newton::{
     NewtonError, NewtonReport, NewtonSettings, NewtonWorkspace, demand_admissible, inadmissible, minimize,
 };
@@ -80,6 +80,8 @@ pub struct Simulation {
     terms: Vec<Arc<dyn Term>>,
     /// Second derivatives of springs and terms, where they were linearised last.
     blocks: NodeBlocks,
+    /// A line search of the caller's own.
+    line_search: Option<Arc<dyn LineSearch>>,
     /// Given force on each node, N; empty without any.
     forces: Vec<[f64; 3]>,
     state: State,
@@ -130,6 +132,7 @@ impl Simulation {
             targets_before: Vec::new(),
             terms: Vec::new(),
             blocks: NodeBlocks::default(),
+            line_search: None,
             forces: Vec::new(),
             state: State::at_rest(body.rest()),
             targets: body.rest().to_vec(),
@@ -406,6 +409,36 @@ impl Simulation {
         Ok(())
     }
 
+    /// Shortens the steps of Newton's method by a line search that is not piola's own; `None` for that of the
+    /// settings. The energy–momentum method, which has no objective, keeps to the settings.
+    ///
+    /// ```
+    /// # use piola::mesh::tetrahedral_box;
+    /// # use piola::step::{Line, Simulation, SimulationSettings};
+    /// # use piola::system::{Body, Pins};
+    /// # use std::sync::Arc;
+    /// # /// Rubber.
+    /// # #[piola::material(domain(J > 0.0))]
+    /// # fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    /// #     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// # }
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    /// # let mut simulation = Simulation::new(body, &Pins::at([0, 1]), SimulationSettings::default())?;
+    /// // Whole steps, or half ones that go downhill.
+    /// let search = |line: &mut dyn Line, longest: f64, _slope: f64| {
+    ///     let mut steps = [longest, 0.5 * longest].into_iter();
+    ///     steps.find(|&step| line.change(step).is_some_and(|change| change.difference < change.noise))
+    /// };
+    /// simulation.set_line_search(Some(Arc::new(search)));
+    /// # simulation.step(0.01)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_line_search(&mut self, search: Option<Arc<dyn LineSearch>>) {
+        self.line_search = search;
+    }
+
     /// Advances by `dt`, s.
     ///
     /// Pinned nodes move evenly to where they are prescribed to be. Damping by the stiffness takes that of
@@ -608,7 +641,7 @@ impl Simulation {
             pins_move.then_some(&self.pins_move),
             survey,
             &self.settings.newton,
-            &self.settings.line_search,
+            Search { settings: &self.settings.line_search, own: self.line_search.as_deref() },
         )
     }
 
