@@ -45,6 +45,7 @@ fn tumbling(mesh: &TetMesh) -> Vec<[f64; 3]> {
 }
 
 /// Steps of 1/30 s from the rest shape; the energies that deformation and motion exchange are of one size.
+#[expect(clippy::print_stderr, reason = "the figure that documents quote")]
 fn energy_and_momenta_are_kept(body: Body, mesh: &TetMesh, steps: usize) {
     let newton = NewtonSettings::default().with_tolerance(1e-13);
     let settings =
