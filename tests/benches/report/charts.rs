@@ -8,6 +8,7 @@ mod panel;
 mod point;
 mod steps;
 mod sweeps;
+mod time;
 
 pub(crate) use point::{best_settings, materials};
 
@@ -32,6 +33,10 @@ pub(crate) fn draw(report: &Report) -> Result<Vec<Chart>, String> {
     }
     if !report.steps.is_empty() {
         charts.extend(steps::draw(&report.steps)?);
+        charts.extend(time::draw_histories(&report.histories)?);
+    }
+    if !report.adaptive.is_empty() {
+        charts.push(time::draw_adaptive(&report.adaptive)?);
     }
     if !report.growth.is_empty() {
         charts.push(growth::draw(&report.growth)?);

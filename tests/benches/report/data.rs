@@ -15,6 +15,8 @@ pub(crate) struct Report {
     pub(crate) time: u64,
     pub(crate) rows: Vec<PointRow>,
     pub(crate) steps: Vec<StepRow>,
+    pub(crate) histories: Vec<HistoryRow>,
+    pub(crate) adaptive: Vec<AdaptiveRow>,
     pub(crate) growth: Vec<GrowthRow>,
 }
 
@@ -49,7 +51,8 @@ pub(crate) struct PointRow {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct StepRow {
     pub(crate) scene: &'static str,
-    /// What is varied: `h`, `newton`, `filter`, `solver`, `precision`, or nothing: `reference`.
+    /// What is varied: `h`, `one iteration` (the integrator), `tolerance`, `newton`, `filter`, `solver`,
+    /// `precision`, or nothing: `reference`.
     pub(crate) axis: &'static str,
     pub(crate) setting: String,
     /// Time step, s.
@@ -67,7 +70,10 @@ pub(crate) struct StepRow {
     /// allows.
     #[serde(with = "finite")]
     pub(crate) algebraic_error: f64,
-    /// Of a free body, from begin to end: the change of the total energy relative to it,
+    /// Of a free body: the largest change of the total energy relative to it,
+    #[serde(with = "finite")]
+    pub(crate) largest_energy_error: f64,
+    /// its change from begin to end,
     #[serde(with = "finite")]
     pub(crate) energy_drift: f64,
     /// of the momentum relative to Σ m |v|,
@@ -78,6 +84,45 @@ pub(crate) struct StepRow {
     pub(crate) angular_momentum_drift: f64,
     /// Why it did not come to the end.
     pub(crate) failure: Option<String>,
+}
+
+/// A free body over time, with the time step of the scene.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(crate) struct HistoryRow {
+    pub(crate) scene: &'static str,
+    pub(crate) setting: String,
+    pub(crate) instants: Vec<HistoryInstant>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub(crate) struct HistoryInstant {
+    /// s.
+    pub(crate) time: f64,
+    /// Relative to that before the first step.
+    #[serde(with = "finite")]
+    pub(crate) energy: f64,
+    /// Of the vector, relative to its length before the first step.
+    #[serde(with = "finite")]
+    pub(crate) angular_momentum_error: f64,
+}
+
+/// A frame of a scene whose steps of time follow from their error.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub(crate) struct AdaptiveRow {
+    /// Body heights per second.
+    pub(crate) tolerance: f64,
+    /// At the end of the frame, s.
+    pub(crate) time: f64,
+    /// Length of the shortest step, s; each is made as two halves.
+    pub(crate) shortest: f64,
+    pub(crate) taken: usize,
+    pub(crate) refused: usize,
+    /// Steps that were the shortest there are, and their error still too large.
+    pub(crate) unresolved: usize,
+    /// Estimate, body heights per second.
+    pub(crate) error: f64,
+    /// Of all attempts.
+    pub(crate) newton_iterations: usize,
 }
 
 /// A step of a box.

@@ -5,7 +5,7 @@
 //! machine.
 //!
 //! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
-//! * [`steps`]: trajectories of the dinosaur and the horse, wall time against the error of a much finer one;
+//! * [`steps`]: trajectories of bodies held and free, wall time against the error of a much finer one;
 //! * [`growth`]: time and memory of a step against the number of elements.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
@@ -44,8 +44,11 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
+    /// Trajectories of these bodies only
+    #[arg(long, value_enum, value_delimiter = ',')]
+    bodies: Vec<steps::Body>,
     /// Measure nothing, and make charts and page again from the numbers of the run before
-    #[arg(long, conflicts_with_all = ["quick", "only"])]
+    #[arg(long, conflicts_with_all = ["quick", "only", "bodies"])]
     redraw: bool,
     /// What `cargo bench` adds
     #[arg(long, hide = true)]
@@ -93,6 +96,8 @@ fn make(arguments: &Arguments) -> Result<(), String> {
         time: SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_secs(),
         rows: Vec::new(),
         steps: Vec::new(),
+        histories: Vec::new(),
+        adaptive: Vec::new(),
         growth: Vec::new(),
     };
     if asked(Section::Point) {
@@ -102,9 +107,11 @@ fn make(arguments: &Arguments) -> Result<(), String> {
         progress.finish_and_clear();
     }
     if asked(Section::Steps) {
-        let plan = steps::plan(arguments.quick);
+        let plan = steps::plan(arguments.quick, &arguments.bodies);
         let progress = bar("steps", steps::count(&plan));
-        report.steps = steps::rows(&plan, &progress)?;
+        let measured = steps::measure(&plan, &progress)?;
+        (report.steps, report.histories, report.adaptive) =
+            (measured.rows, measured.histories, measured.frames);
         progress.finish_and_clear();
     }
     if asked(Section::Growth) {

@@ -2,20 +2,25 @@
 //! precisions.
 //!
 //! The dinosaur is played as its scene says. So is the horse, but from a start at two thirds of its height:
-//! from the ground, where most elements are flat, each time step leads elsewhere, which is measured too. A
-//! further body flies free: the dinosaur without pins, pulls and damping, turning and stretching, whose
-//! momenta no force changes. The reference is the same motion by the integrator of third order with 1/16 of
-//! the scene's time step and Newton's method to a relative 10⁻¹⁰; that of 1/32 says how far the reference
-//! itself may be off.
+//! from the ground, where most elements are flat, each time step leads elsewhere, which is measured too. The
+//! reference is the same motion by the integrator of third order with 1/16 of the scene's time step and
+//! Newton's method to a relative 10⁻¹⁰; that of 1/32 says how far the reference itself may be off.
+//!
+//! Three more bodies fly free, without pins, pulls and damping, so that no force changes their momenta: the
+//! dinosaur turning and stretching, a stiff and nearly incompressible one turning fast, and a bar that
+//! vibrates gently for ten thousand steps. Their energy and angular momentum are followed over time. The bar
+//! has no reference: after hundreds of periods, distances would tell of phases alone.
 
 use std::time::Instant;
 
+use clap::ValueEnum;
 use indicatif::ProgressBar;
 use piola::point::Filter;
 use piola::step::{Filtering, Integrator, LinearSolver, NewtonSettings, SimulationSettings};
 
-use crate::data::StepRow;
+use crate::data::{AdaptiveRow, HistoryRow, StepRow};
 
+pub(crate) mod adaptive;
 mod embedded;
 mod motion;
 
@@ -24,12 +29,21 @@ use motion::{Motion, Track};
 /// How much finer than the scene the reference is.
 const FINE: usize = 16;
 
-/// Settings over which the time step is varied: implicit Euler with Newton's method to the end and with one
-/// iteration, and integrators of higher order.
-pub(crate) const FULL: &str = "full Newton";
-pub(crate) const SINGLE: &str = "one iteration";
-pub(crate) const SECOND_ORDER: &str = "second order";
-pub(crate) const THIRD_ORDER: &str = "third order";
+/// Integrators over which the time step is varied, with Newton's method to the end.
+pub(crate) const INTEGRATORS: [(&str, Integrator); 6] = [
+    ("implicit Euler", Integrator::ImplicitEuler),
+    ("SDIRK2", Integrator::Sdirk2),
+    ("SDIRK3", Integrator::Sdirk3),
+    ("midpoint rule", Integrator::ImplicitMidpoint),
+    ("Newmark", Integrator::Newmark),
+    ("generalised α, 0.8", Integrator::GeneralizedAlpha { spectral_radius: 0.8 }),
+];
+
+/// Implicit Euler with one iteration of Newton's method, over which the time step is varied too.
+pub(crate) const SINGLE: &str = "implicit Euler, one iteration";
+
+/// The axis of all integrators with one iteration for each minimisation, at the scene's time step.
+pub(crate) const SINGLE_AXIS: &str = "one iteration";
 
 /// A body and how long it is followed.
 pub(crate) struct Course {
@@ -40,13 +54,15 @@ pub(crate) struct Course {
     is_quick: bool,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Body {
     /// As in the scene.
     FlatHorse,
     Horse,
     Dinosaur,
     Free,
+    Spinning,
+    Quiet,
 }
 
 impl Body {
@@ -56,6 +72,8 @@ impl Body {
             Self::Horse => "horse",
             Self::Dinosaur => "dinosaur",
             Self::Free => "dinosaur in free flight",
+            Self::Spinning => "stiff dinosaur, spinning",
+            Self::Quiet => "bar, ten thousand steps",
         }
     }
 }
@@ -69,19 +87,23 @@ struct Way {
     settings: SimulationSettings,
 }
 
-/// What is to be measured.
-pub(crate) fn plan(is_quick: bool) -> Vec<Course> {
+/// What is to be measured: these bodies, or all where none is named.
+pub(crate) fn plan(is_quick: bool, bodies: &[Body]) -> Vec<Course> {
     let course = |body, [quick, whole]: [usize; 2]| Course {
         body,
         frames: if is_quick { quick } else { whole },
         is_quick,
     };
-    vec![
-        course(Body::Horse, [2, 60]),
-        course(Body::Dinosaur, [4, 90]),
+    let mut plan = vec![
+        course(Body::Horse, [2, 30]),
+        course(Body::Dinosaur, [4, 75]),
         course(Body::Free, [4, 30]),
+        course(Body::Spinning, [4, 30]),
+        course(Body::Quiet, [100, 10_000]),
         course(Body::FlatHorse, [2, 8]),
-    ]
+    ];
+    plan.retain(|course| bodies.is_empty() || bodies.contains(&course.body));
+    plan
 }
 
 /// Steps of the progress bar.
@@ -89,34 +111,77 @@ pub(crate) fn count(plan: &[Course]) -> u64 {
     plan.iter().map(|course| course.ways().len() as u64 + 3).sum()
 }
 
+/// What was measured.
+#[derive(Default)]
+pub(crate) struct Measured {
+    pub(crate) rows: Vec<StepRow>,
+    /// Of the free bodies, at the scene's time step.
+    pub(crate) histories: Vec<HistoryRow>,
+    /// Of the dinosaur, with steps that follow from their error.
+    pub(crate) frames: Vec<AdaptiveRow>,
+}
+
 /// All rows of a plan, computed by one thread.
 ///
 /// # Errors
 /// Where a reference cannot be computed: a way that fails is a row that says so.
-pub(crate) fn rows(plan: &[Course], progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
+pub(crate) fn measure(plan: &[Course], progress: &ProgressBar) -> Result<Measured, String> {
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    thread.map_err(|error| error.to_string())?.install(|| rows_by_this_thread(plan, progress))
+    thread.map_err(|error| error.to_string())?.install(|| measure_by_this_thread(plan, progress))
 }
 
-fn rows_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
-    let mut rows = Vec::new();
+fn measure_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Measured, String> {
+    let mut measured = Measured::default();
     for course in plan {
         progress.set_message(course.body.name());
-        let reference = reference(course, FINE, progress)?;
-        let finer = reference_row(course, &reference, progress)?;
-        let exact = solved_by(NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100));
-        let (solved, _) = follow(course, 1.0, exact).map_err(|error| named(course, &error))?;
-        progress.inc(1);
-        rows.push(finer);
+        let references = references(course, progress, &mut measured)?;
         for way in course.ways() {
-            rows.push(row(course, &way, &reference, &solved));
+            let result = follow(course, way.division, way.settings);
+            if let Ok((track, _)) = &result {
+                measured.histories.extend(track.history(course.body, &way));
+            }
+            measured.rows.push(judged(course, &way, result, references.as_ref()));
             progress.inc(1);
         }
-        if course.body == Body::Free {
-            rows.extend(embedded::rows(course.frames, &reference, &solved)?);
+        if let (Body::Free, Some(references)) = (course.body, &references) {
+            measured.rows.extend(embedded::rows(course.frames, references)?);
+        }
+        if let (Body::Dinosaur, Some(references)) = (course.body, &references) {
+            adaptive::measure(course.frames, references, &mut measured);
         }
     }
-    Ok(rows)
+    Ok(measured)
+}
+
+/// What tracks of a body are compared with.
+struct References {
+    /// By third order and much shorter steps.
+    exact: Track,
+    /// By implicit Euler with the scene's time step, each step solved as far as rounding allows.
+    solved: Track,
+}
+
+/// None of a body that is not compared.
+fn references(
+    course: &Course,
+    progress: &ProgressBar,
+    measured: &mut Measured,
+) -> Result<Option<References>, String> {
+    if course.body == Body::Quiet {
+        progress.inc(3);
+        return Ok(None);
+    }
+    let exact = reference(course, FINE, progress)?;
+    let finer = reference(course, 2 * FINE, progress)?;
+    let to_rounding = NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100);
+    let (solved, _) = follow(course, 1.0, solved_by(to_rounding)).map_err(|error| named(course, &error))?;
+    progress.inc(1);
+    let setting = format!("h/{FINE} beside h/{}", 2 * FINE);
+    let settings = SimulationSettings::default();
+    let way = Way { axis: "reference", setting, division: FINE as f64, settings };
+    let beside_finer = References { exact: finer, solved };
+    measured.rows.push(judged(course, &way, Ok((exact.clone(), f64::NAN)), Some(&beside_finer)));
+    Ok(Some(References { exact, ..beside_finer }))
 }
 
 fn named(course: &Course, error: &str) -> String {
@@ -127,8 +192,16 @@ impl Course {
     /// Those that tell something about it.
     fn ways(&self) -> Vec<Way> {
         let mut ways = ways();
+        if self.body == Body::Horse {
+            ways.retain(|way| way.division <= 8.0);
+        }
         if self.body == Body::FlatHorse {
             ways.retain(|way| way.axis == "h" && way.division <= 8.0);
+        }
+        if self.body == Body::Quiet {
+            ways.retain(|way| {
+                way.axis == SINGLE_AXIS || way.axis == "h" && (1.0..=4.0).contains(&way.division)
+            });
         }
         if self.is_quick {
             ways.retain(|way| way.division <= 4.0);
@@ -147,14 +220,17 @@ fn ways() -> Vec<Way> {
     let way = |axis, setting: &str, division, newton| with(axis, setting, division, solved_by(newton));
     let mut ways = Vec::new();
     for division in [0.5, 1.0, 2.0, 4.0, 8.0, 16.0] {
-        ways.push(way("h", FULL, division, full));
-        ways.push(way("h", SINGLE, division, NewtonSettings::single()));
-        ways.push(with("h", SECOND_ORDER, division, solved_by(full).with_integrator(Integrator::Sdirk2)));
-        // With the time step of the reference it would be compared with itself.
-        if division < FINE as f64 {
-            let third = solved_by(full).with_integrator(Integrator::Sdirk3);
-            ways.push(with("h", THIRD_ORDER, division, third));
+        for (name, integrator) in INTEGRATORS {
+            // With integrator and time step of the reference it would be compared with itself.
+            if (integrator, division) != (Integrator::Sdirk3, FINE as f64) {
+                ways.push(with("h", name, division, solved_by(full).with_integrator(integrator)));
+            }
         }
+        ways.push(way("h", SINGLE, division, NewtonSettings::single()));
+    }
+    for (name, integrator) in INTEGRATORS.into_iter().skip(1) {
+        let single = solved_by(NewtonSettings::single()).with_integrator(integrator);
+        ways.push(with(SINGLE_AXIS, name, 1.0, single));
     }
     for iterations in [2, 4] {
         let newton = full.with_max_iterations(iterations).with_tolerance(0.0);
@@ -200,29 +276,15 @@ fn reference(course: &Course, fine: usize, progress: &ProgressBar) -> Result<Tra
     Ok(track)
 }
 
-/// The reference itself, judged by one of half its time step.
-fn reference_row(course: &Course, reference: &Track, progress: &ProgressBar) -> Result<StepRow, String> {
-    let settings = SimulationSettings::default();
-    let setting = format!("h/{FINE} beside h/{}", 2 * FINE);
-    let way = Way { axis: "reference", setting, division: FINE as f64, settings };
-    let finer = self::reference(course, 2 * FINE, progress)?;
-    Ok(judged(course, &way, Ok((reference.clone(), f64::NAN)), &finer, reference))
-}
-
-fn row(course: &Course, way: &Way, reference: &Track, solved: &Track) -> StepRow {
-    judged(course, way, follow(course, way.division, way.settings), reference, solved)
-}
-
 fn judged(
     course: &Course,
     way: &Way,
     result: Result<(Track, f64), String>,
-    reference: &Track,
-    solved: &Track,
+    references: Option<&References>,
 ) -> StepRow {
     let mut row = empty_row(course.body, way);
     match result {
-        Ok((track, seconds)) => row.fill(&track, seconds, reference, (way.division == 1.0).then_some(solved)),
+        Ok((track, seconds)) => row.fill(&track, seconds, references),
         Err(error) => row.failure = Some(error),
     }
     row
@@ -241,6 +303,7 @@ fn empty_row(body: Body, way: &Way) -> StepRow {
         linear_iterations: 0,
         error: f64::NAN,
         algebraic_error: f64::NAN,
+        largest_energy_error: f64::NAN,
         energy_drift: f64::NAN,
         linear_momentum_drift: f64::NAN,
         angular_momentum_drift: f64::NAN,
@@ -249,15 +312,19 @@ fn empty_row(body: Body, way: &Way) -> StepRow {
 }
 
 impl StepRow {
-    /// `solved` is the same motion with the same time step, each step solved as far as rounding allows.
-    fn fill(&mut self, track: &Track, seconds: f64, reference: &Track, solved: Option<&Track>) {
+    fn fill(&mut self, track: &Track, seconds: f64, references: Option<&References>) {
         let drift = track.drift();
         self.seconds = seconds;
         self.steps = track.steps;
         self.newton_iterations = track.newton_iterations;
         self.linear_iterations = track.linear_iterations;
-        self.error = track.distance(reference);
-        self.algebraic_error = solved.map_or(f64::NAN, |solved| track.distance(solved));
+        if let Some(References { exact, solved }) = references {
+            self.error = track.distance(exact);
+            if self.h == motion::TIME_STEP {
+                self.algebraic_error = track.distance(solved);
+            }
+        }
+        self.largest_energy_error = track.largest_energy_error();
         self.energy_drift = drift.energy;
         self.linear_momentum_drift = drift.linear_momentum;
         self.angular_momentum_drift = drift.angular_momentum;

@@ -20,9 +20,9 @@ pub(crate) const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Colours for series without a meaning of their own.
 pub(crate) const COLOURS: [RGBColor; 7] = [VERMILION, BLUE, GREEN, PURPLE, ORANGE, SKY, GREY];
 
-const FONT: &str = "sans-serif";
+pub(super) const FONT: &str = "sans-serif";
 /// Height of a label, pixels.
-const LINE: i32 = 14;
+pub(super) const LINE: i32 = 14;
 
 /// A drawing area in pixels.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

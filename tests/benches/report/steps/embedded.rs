@@ -19,20 +19,20 @@ use piola_scenes::scene::DINOSAUR;
 use piola_scenes::settings::Settings;
 
 use super::motion::{TIME_STEP, Track, free_material, turning_and_stretching};
-use super::{Way, empty_row};
+use super::{References, Way, empty_row};
 use crate::data::StepRow;
 
 /// Of Newton's method in a step, if rounding does not end it before.
 const ITERATIONS: usize = 20;
 
 /// A row for each precision.
-pub(super) fn rows(frames: usize, reference: &Track, solved: &Track) -> Result<Vec<StepRow>, String> {
+pub(super) fn rows(frames: usize, references: &References) -> Result<Vec<StepRow>, String> {
     let course = |result: Result<(Track, f64), Box<dyn std::error::Error>>, setting: &str| {
         let (track, seconds) = result.map_err(|error| error.to_string())?;
         let settings = SimulationSettings::default();
         let way = Way { axis: "precision", setting: setting.to_owned(), division: 1.0, settings };
         let mut row = empty_row(super::Body::Free, &way);
-        row.fill(&track, seconds, reference, Some(solved));
+        row.fill(&track, seconds, Some(references));
         Ok::<_, String>(row)
     };
     Ok(vec![

@@ -1,16 +1,19 @@
 //! A body that is followed.
 
+use std::f64::consts::PI;
+
 use piola::material::{MaterialError, Moduli};
-use piola::mesh::TetMesh;
+use piola::mesh::{TetMesh, tetrahedral_box};
 use piola::step::{Simulation, SimulationSettings};
 use piola::system::{self, Pins};
 use piola_materials::StableNeoHookean;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::play::Play;
-use piola_scenes::scene::{DINOSAUR, HORSE, Scene};
+use piola_scenes::scene::{DINOSAUR, HORSE};
 use piola_scenes::settings::Settings;
 
-use super::Body;
+use super::{Body, Way};
+use crate::data::{HistoryInstant, HistoryRow};
 
 /// Of all scenes, s.
 pub(super) const TIME_STEP: f64 = 1.0 / 30.0;
@@ -112,23 +115,37 @@ fn stage(
     division: f64,
     settings: SimulationSettings,
 ) -> Result<(Stage, f64), Box<dyn std::error::Error>> {
-    let scene = match body {
-        Body::FlatHorse | Body::Horse => &HORSE,
-        Body::Dinosaur | Body::Free => &DINOSAUR,
-    };
+    let scene = if matches!(body, Body::FlatHorse | Body::Horse) { &HORSE } else { &DINOSAUR };
     let scene_settings = Settings::new(scene).with_dt(TIME_STEP / division);
     let geometry = Geometry::load(&scene_settings)?;
-    let mesh = &geometry.mesh;
-    let stage = if body == Body::Free {
-        Stage::Free(free(mesh, scene, settings)?)
+    let mesh = if body == Body::Quiet {
+        tetrahedral_box([1, 4, 1], [0.25, 1.0, 0.25])?
     } else {
-        let mut play = Play::new(&scene_settings, &geometry)?;
-        play.set_step_settings(settings.with_damping(scene.damping))?;
-        if body == Body::Horse {
-            let pressed = pressed(mesh, play.simulation().pinned());
-            play.simulation_mut().set_positions(&pressed)?;
+        geometry.mesh.clone()
+    };
+    let stage = match body {
+        Body::Free => {
+            Stage::Free(Flight::new(&mesh, free_material()?, settings, turning_and_stretching(&mesh))?)
         }
-        Stage::Scene(play)
+        Body::Spinning => {
+            // Two turns in a second.
+            let turning = velocities(&mesh, 4.0 * PI, [0.0; 3]);
+            Stage::Free(Flight::new(&mesh, neo_hookean(1e7, 0.49)?, settings, turning)?)
+        }
+        Body::Quiet => {
+            // A vibration along the bar of some twenty steps to a period, by a few per cent of its length.
+            let gentle = velocities(&mesh, 0.2, [-0.15, 0.3, -0.15]);
+            Stage::Free(Flight::new(&mesh, neo_hookean(1e4, 0.45)?, settings, gentle)?)
+        }
+        Body::FlatHorse | Body::Horse | Body::Dinosaur => {
+            let mut play = Play::new(&scene_settings, &geometry)?;
+            play.set_step_settings(settings.with_damping(scene.damping))?;
+            if body == Body::Horse {
+                let pressed = pressed(&mesh, play.simulation().pinned());
+                play.simulation_mut().set_positions(&pressed)?;
+            }
+            Stage::Scene(play)
+        }
     };
     Ok((stage, mesh.bounds().size()[1]))
 }
@@ -140,34 +157,45 @@ fn pressed(mesh: &TetMesh, pinned: &[usize]) -> Vec<[f64; 3]> {
     mesh.positions.iter().map(press).collect()
 }
 
-fn free(
-    mesh: &TetMesh,
-    scene: &Scene,
-    settings: SimulationSettings,
-) -> Result<Flight, Box<dyn std::error::Error>> {
-    let body = system::Body::new(mesh, free_material()?, scene.density)?;
-    let mut simulation = Simulation::new(body, &Pins::none(), settings)?;
-    let rest_energy = simulation.energies().elastic;
-    simulation.set_velocities(&turning_and_stretching(mesh))?;
-    Ok(Flight { simulation, rest_energy })
+impl Flight {
+    fn new(
+        mesh: &TetMesh,
+        material: StableNeoHookean,
+        settings: SimulationSettings,
+        velocities: Vec<[f64; 3]>,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
+        let body = system::Body::new(mesh, material, DINOSAUR.density)?;
+        let mut simulation = Simulation::new(body, &Pins::none(), settings)?;
+        let rest_energy = simulation.energies().elastic;
+        simulation.set_velocities(&velocities)?;
+        Ok(Self { simulation, rest_energy })
+    }
 }
 
 /// What flies free, as stiff as the bodies of the scenes.
 pub(super) fn free_material() -> Result<StableNeoHookean, MaterialError> {
-    let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
+    neo_hookean(1e6, 0.45)
+}
+
+/// From Young's modulus, Pa, and Poisson's ratio.
+fn neo_hookean(young: f64, poisson: f64) -> Result<StableNeoHookean, MaterialError> {
+    let moduli = Moduli::from_young_poisson(young, poisson)?;
     StableNeoHookean::new(moduli.mu, moduli.lambda)
 }
 
-/// v = ω × x + A x about the centre of the box, m/s: a turn in two seconds, and a stretching along x that the
-/// body's own stiffness turns back.
+/// A turn in two seconds, and a stretching along x that the body's own stiffness turns back, m/s.
 pub(super) fn turning_and_stretching(mesh: &TetMesh) -> Vec<[f64; 3]> {
-    const SPIN: f64 = std::f64::consts::PI;
-    const STRETCHING: f64 = 6.0;
+    velocities(mesh, PI, [6.0, -3.0, -3.0])
+}
+
+/// v = ω × x + A x about the centre of the box, m/s, where ω is upright, 1/s, and A diagonal, 1/s.
+fn velocities(mesh: &TetMesh, spin: f64, stretching: [f64; 3]) -> Vec<[f64; 3]> {
     let bounds = mesh.bounds();
     let centre: [f64; 3] = std::array::from_fn(|c| 0.5 * (bounds.min[c] + bounds.max[c]));
     let velocity = |position: &[f64; 3]| {
-        let [x, y, z]: [f64; 3] = std::array::from_fn(|c| position[c] - centre[c]);
-        [STRETCHING * x + SPIN * z, -0.5 * STRETCHING * y, -0.5 * STRETCHING * z - SPIN * x]
+        let x: [f64; 3] = std::array::from_fn(|c| position[c] - centre[c]);
+        let [u, v, w]: [f64; 3] = std::array::from_fn(|c| stretching[c] * x[c]);
+        [u + spin * x[2], v, w - spin * x[0]]
     };
     mesh.positions.iter().map(velocity).collect()
 }
@@ -210,23 +238,49 @@ impl Track {
         let mut largest = 0.0_f64;
         for (index, frame) in few.frames.iter().enumerate() {
             for (a, b) in frame.iter().zip(&many.frames[stride * (index + 1) - 1]) {
-                largest = largest.max(norm(std::array::from_fn(|c| a[c] - b[c])));
+                largest = largest.max(distance(*a, *b));
             }
         }
         largest / self.height
+    }
+
+    /// Of a free body that was followed with the time step of the scene.
+    pub(super) fn history(&self, body: Body, way: &Way) -> Option<HistoryRow> {
+        /// More would not be seen.
+        const AT_MOST: usize = 250;
+        let first = *self.momenta.first()?;
+        if way.axis != "h" || way.division != 1.0 {
+            return None;
+        }
+        let instants = self.momenta.iter().enumerate().step_by(self.momenta.len().div_ceil(AT_MOST));
+        let instants = instants.map(|(frame, momenta)| HistoryInstant {
+            time: frame as f64 * TIME_STEP,
+            energy: momenta.energy / first.energy,
+            angular_momentum_error: distance(momenta.angular, first.angular) / norm(first.angular),
+        });
+        Some(HistoryRow { scene: body.name(), setting: way.setting.clone(), instants: instants.collect() })
+    }
+
+    /// Relative to the energy before the first step; NaN of a body that is held.
+    pub(super) fn largest_energy_error(&self) -> f64 {
+        let Some(first) = self.momenta.first() else { return f64::NAN };
+        self.momenta.iter().map(|at| (at.energy / first.energy - 1.0).abs()).fold(0.0, f64::max)
     }
 
     pub(super) fn drift(&self) -> Drift {
         let (Some(first), Some(last)) = (self.momenta.first(), self.momenta.last()) else {
             return Drift { energy: f64::NAN, linear_momentum: f64::NAN, angular_momentum: f64::NAN };
         };
-        let change = |a: [f64; 3], b: [f64; 3]| norm(std::array::from_fn(|c| a[c] - b[c]));
         Drift {
             energy: (last.energy - first.energy) / first.energy,
-            linear_momentum: change(last.linear, first.linear) / first.size,
-            angular_momentum: change(last.angular, first.angular) / norm(first.angular),
+            linear_momentum: distance(last.linear, first.linear) / first.size,
+            angular_momentum: distance(last.angular, first.angular) / norm(first.angular),
         }
     }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    norm(std::array::from_fn(|c| a[c] - b[c]))
 }
 
 fn norm(x: [f64; 3]) -> f64 {
