@@ -10,6 +10,9 @@ use crate::steps::{INTEGRATORS, SINGLE, SINGLE_AXIS};
 /// With a panel of their own beside the time step.
 const AXES: [&str; 4] = ["newton", "filter", "solver", "precision"];
 
+/// Error, in body heights or of the energy it had, from which on a body is lost.
+const LOST: f64 = 10.0;
+
 pub(super) fn draw(rows: &[StepRow]) -> Result<Vec<Chart>, String> {
     let mut scenes: Vec<&str> = Vec::new();
     for row in rows {
@@ -25,7 +28,10 @@ fn of(scene: &str, rows: &[StepRow]) -> Result<Chart, String> {
         rows.iter().filter(|row| row.scene == scene && row.seconds.is_finite()).collect();
     // Of a body without a reference, how well it keeps its energy.
     let has_reference = rows.iter().any(|row| row.error > 0.0);
-    let error = |row: &StepRow| if has_reference { row.error } else { row.largest_energy_error };
+    let error = |row: &StepRow| match if has_reference { row.error } else { row.largest_energy_error } {
+        lost if lost > LOST => f64::INFINITY,
+        error => error,
+    };
     let of = |axis: &str, setting: &str| -> Vec<&&StepRow> {
         rows.iter().filter(|row| row.axis == axis && row.setting == setting && error(row) > 0.0).collect()
     };

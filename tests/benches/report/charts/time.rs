@@ -15,7 +15,7 @@ pub(super) fn colour(setting: &str) -> RGBColor {
     // The dashes of one iteration are those of its own integrator.
     let name = if setting == SINGLE { INTEGRATORS[0].0 } else { setting };
     let index = INTEGRATORS.iter().position(|&(other, _)| other == name).unwrap_or(0);
-    COLOURS[index % COLOURS.len()]
+    COLOURS.get(index).copied().unwrap_or(RGBColor(0, 0, 0))
 }
 
 /// Lines over time.
