@@ -15,30 +15,43 @@ use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 
+use crate::declared::{self, Formula};
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
+use crate::value::Given;
 
 pub(crate) use check::Check;
 pub(crate) use curve::Curve;
 pub(crate) use fit::Fit;
 
-/// A material of the catalogue.
+/// A material of the catalogue, or one that is declared on the command line.
 #[derive(Debug, Args)]
-struct Material {
-    /// The material, as listed by `piola materials`.
-    material: String,
+pub(crate) struct Material {
+    /// The material, as listed by `piola materials`, or a file of Rust that declares one.
+    #[arg(value_name = "NAME|FILE.rs", required_unless_present = "energy")]
+    material: Option<String>,
 
-    /// Value of a parameter; lists as NAME=V,V,V [default: the typical one of `piola materials`].
+    #[command(flatten)]
+    formula: Formula,
+
+    /// Value of a parameter, in SI units or with kPa, MPa or GPa behind it; lists as NAME=V,V,V [default: the
+    /// typical one of `piola materials`, or of the file].
     #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
-    parameters: Vec<(String, Vec<f64>)>,
+    parameters: Vec<Given>,
 }
 
 impl Material {
     /// The material with these parameters and else typical ones.
-    fn spec(self) -> Result<MaterialSpec, Error> {
-        let typical = MaterialSpec::typical(&self.material)?;
-        let parameters = self.parameters.into_iter();
-        Ok(parameters.fold(typical, |spec, (name, values)| spec.with_parameter(&name, values)))
+    pub(crate) fn spec(self) -> Result<MaterialSpec, Error> {
+        let name = self.material.unwrap_or_default();
+        let material = match self.formula.spec(&self.parameters)? {
+            Some(material) => material,
+            None => match declared::in_file(&name)? {
+                Some(material) => material,
+                None => MaterialSpec::typical(&name)?,
+            },
+        };
+        Ok(declared::with_values(material, self.parameters))
     }
 }
 

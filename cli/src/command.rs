@@ -13,8 +13,12 @@ use piola_scenes::scene::{Amplitude, Body, SCENES, Scene, Start};
 use piola_scenes::settings::{Files, Settings};
 
 use crate::bench::{Check, Curve, Fit};
+use crate::contract::Contract;
+use crate::declare::Declare;
+use crate::declared::{self, Formula};
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
+use crate::value::Given;
 use crate::view::recording::Recording;
 use crate::view::state::State;
 use crate::view::{Begin, Options};
@@ -47,6 +51,13 @@ pub(crate) enum Command {
     Curve(Box<Curve>),
     /// Fit the parameters of a material to measured curves.
     Fit(Box<Fit>),
+    /// Print a formula as a declaration in Rust, to be pasted into a crate, and its derivatives as formulas.
+    Declare(Box<Declare>),
+    /// Check the rules that every material must keep, on a declaration in Rust or a formula.
+    ///
+    /// Finite differences of energy and stress, symmetry, equal stretches, inversion, accuracy in single
+    /// precision and on lanes: what `piola::contract!` tests in a crate.
+    Contract(Box<Contract>),
     /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
     ///
     /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
@@ -127,15 +138,18 @@ struct Choice {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     dt: Option<f64>,
 
-    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the
-    /// scene's.
-    #[arg(long, value_name = "NAME")]
+    /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
+    /// One that is listed is as stiff as the scene's without --param.
+    #[arg(long, value_name = "NAME|FILE.rs")]
     material: Option<String>,
 
-    /// Value of a parameter of the material; lists as NAME=V,V,V. Of another material than the scene's, all
-    /// or none.
+    #[command(flatten)]
+    formula: Formula,
+
+    /// Value of a parameter of the material, in SI units or with kPa, MPa or GPa behind it; lists as
+    /// NAME=V,V,V. Of another material than the scene's, all or none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
-    parameters: Vec<(String, Vec<f64>)>,
+    parameters: Vec<Given>,
 
     /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
     /// energy is extended by polynomials [default: 0.1 where it can be].
@@ -270,12 +284,15 @@ impl Choice {
         let files = self.files();
         let scene = Scene::find(&self.scene)?;
         let mut settings = Settings::new(scene);
-        if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
-            settings.material = MaterialSpec::matching(&name, settings.material.build()?.moduli);
+        if let Some(material) = self.formula.spec(&self.parameters)? {
+            settings.material = material;
+        } else if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
+            settings.material = match declared::in_file(&name)? {
+                Some(material) => material,
+                None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
+            };
         }
-        for (name, values) in self.parameters {
-            settings.material = settings.material.with_parameter(&name, values);
-        }
+        settings.material = declared::with_values(settings.material, self.parameters);
         if let Some(inversion) = self.inversion {
             settings.material = settings.material.with_inversion(inversion);
         }
@@ -343,8 +360,11 @@ mod tests {
 
     #[test]
     fn lists_and_numbers_are_parameters() {
-        assert_eq!(parameter("mu=1e5"), Ok(("mu".into(), vec![1e5])));
-        assert_eq!(parameter("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
+        let read = |text| parameter(text).map(|given| (given.name, given.values));
+        assert_eq!(read("mu=1e5"), Ok(("mu".into(), vec![1e5])));
+        assert_eq!(read("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
+        assert_eq!(read("mu=0.25 MPa"), Ok(("mu".into(), vec![0.25e6])));
+        assert_eq!(read("mu=1,2kPa"), Ok(("mu".into(), vec![1e3, 2e3])));
         assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
         assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));
     }

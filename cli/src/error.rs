@@ -3,7 +3,9 @@
 use std::io;
 use std::path::PathBuf;
 
+use piola::contract::Violations;
 use piola::material::MaterialError;
+use piola_declare::Mistakes;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
@@ -106,6 +108,26 @@ pub enum Error {
     /// The system gives no random number for the page's token.
     #[error("cannot make a token for the page: {0}")]
     Random(#[source] getrandom::Error),
+    /// An energy has mistakes.
+    #[error("{0}")]
+    Declaration(Mistakes),
+    /// A material breaks rules that all must keep.
+    #[error("{material} does not keep the contract of a material:\n{violations}")]
+    Contract {
+        /// Name of the material.
+        material: String,
+        /// What it breaks.
+        violations: Violations,
+    },
+    /// A material of the catalogue is to be checked, which its own tests do.
+    #[error(
+        "{0} is of the catalogue, whose materials are checked by `cargo test -p piola-tests --test contract`; give a file of \
+         Rust, or --energy"
+    )]
+    OfTheCatalogue(
+        /// Name of the material.
+        String,
+    ),
     /// There is no state to go back to.
     #[error("no state has been saved yet")]
     NothingSaved,

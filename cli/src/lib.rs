@@ -6,6 +6,9 @@
 
 mod bench;
 mod command;
+mod contract;
+mod declare;
+mod declared;
 pub mod error;
 mod materials;
 mod overlap;
@@ -51,6 +54,8 @@ pub fn main() -> ExitCode {
         Command::Curve(curve) => curve.run().and_then(say),
         Command::Fit(fit) => fit.run().and_then(say),
         Command::Check(check) => check.run().and_then(say),
+        Command::Declare(declare) => declare.run().and_then(say),
+        Command::Contract(contract) => contract.run().and_then(say),
     };
     result.unwrap_or_else(|error| {
         warn(format_args!("error: {error}{}", error.remedy()));

@@ -11,9 +11,9 @@ pub(crate) fn pages() -> String {
 
 fn page(entry: &Entry) -> String {
     let Description { summary, formula, parameters, domain, extends, refusal, admissible, moduli, .. } =
-        entry.description;
+        &entry.description;
     let mut text = format!("{}\n  {summary}\n  ψ = {formula}\n", entry.name);
-    for parameter in parameters {
+    for parameter in parameters.iter() {
         let list = if parameter.is_list() { " One for each term." } else { "" };
         text += &format!("  {:12} {}{list}\n", parameter.name, parameter.doc);
     }
@@ -26,7 +26,7 @@ fn page(entry: &Entry) -> String {
     });
     text += &format!("  typical      {}\n", typical.collect::<Vec<_>>().join(" "));
     let beyond = match refusal {
-        _ if extends => ", can be extended beyond".to_owned(),
+        _ if *extends => ", can be extended beyond".to_owned(),
         Some(reason) => format!(", not extended: {reason}"),
         None => String::new(),
     };

@@ -2,11 +2,41 @@
 
 use piola::Inversion;
 
-/// Reads `NAME=V,V,V`.
-pub(crate) fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
+/// A parameter as it is given on the command line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Given {
+    pub(crate) name: String,
+    /// Its values in SI units, several to a list.
+    pub(crate) values: Vec<f64>,
+    /// Whether they were given with a unit, in which case that is Pa.
+    has_unit: bool,
+}
+
+impl Given {
+    /// What a declaration would say of the parameter.
+    pub(crate) fn documentation(&self) -> String {
+        if self.has_unit {
+            format!("Parameter {}, Pa.", self.name)
+        } else {
+            format!("Parameter {}.", self.name)
+        }
+    }
+}
+
+/// Units of stress, with their sizes in Pa; longer names first.
+const UNITS: [(&str, f64); 4] = [("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("Pa", 1.0)];
+
+/// Reads `NAME=V,V,V`, with or without a unit of stress behind the last value.
+pub(crate) fn parameter(text: &str) -> Result<Given, String> {
     let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
-    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
-    Ok((name.trim().into(), values.split(',').map(number).collect::<Result<_, _>>()?))
+    let unit = UNITS.into_iter().find_map(|(unit, size)| Some((values.trim().strip_suffix(unit)?, size)));
+    let (values, size) = unit.unwrap_or((values, 1.0));
+    let number = |value: &str| {
+        let number: f64 = value.trim().parse().map_err(|_| format!("`{value}` is not a number"))?;
+        Ok::<_, String>(number * size)
+    };
+    let values = values.split(',').map(number).collect::<Result<_, _>>()?;
+    Ok(Given { name: name.trim().into(), values, has_unit: unit.is_some() })
 }
 
 /// Reads `refuse` or the stretch where an extension begins.

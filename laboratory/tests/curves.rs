@@ -143,7 +143,7 @@ impl Visitor for Conjugate {
 #[test]
 fn stresses_are_slopes_of_the_energy() -> Outcome {
     for entry in CATALOGUE {
-        let compared = entry.visit(entry.typical(), Inversion::Refuse, Conjugate(entry.name))?;
+        let compared = entry.visit(&entry.typical(), Inversion::Refuse, Conjugate(entry.name))?;
         // Not where a solid has no equilibrium or locks: 2 volumes × 5 modes × 4 points, less the volumetric
         // test at constant volume. The stress of Murnaghan's plastic falls from a strain of some 6 % on.
         let enough = if entry.name == "murnaghan" { 20 } else { 30 };

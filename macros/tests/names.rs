@@ -166,7 +166,8 @@ fn the_names_are_those_of_the_declaration() {
         (solid.K(), solid.β(), solid.C(), solid.C10(), solid.Jm()),
         (1e6, [2.0, 4.0], [1e5, 1e3], 1e4, 30.0)
     );
-    let names: Vec<_> = Solid::<2>::DESCRIPTION.parameters.iter().map(|parameter| parameter.name).collect();
+    let names: Vec<_> =
+        Solid::<2>::DESCRIPTION.parameters.iter().map(|parameter| parameter.name.clone()).collect();
     assert_eq!(names, ["K", "β", "C", "C10", "Jm"]);
     let pair = Pair::from_young_poisson(1e6, 0.3).expect("elastic");
     assert!(pair.energy([1.1, 1.0, 1.0]) > 0.0);

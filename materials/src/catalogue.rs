@@ -7,7 +7,7 @@ use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
 use crate::{CATALOGUE, Kind};
 
 /// An energy of the catalogue, from [`CATALOGUE`] or [`find`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Entry {
     /// The name by which it is chosen, such as `neo_hookean`.
@@ -169,8 +169,12 @@ impl Entry {
     ///
     /// The constructor accepts them, and the extension where there is one.
     #[must_use]
-    pub fn typical(&self) -> &'static [&'static [f64]] {
-        self.description.typical.map_or(&[], |typical| typical.values)
+    pub fn typical(&self) -> Vec<&[f64]> {
+        self.description
+            .typical
+            .iter()
+            .flat_map(|typical| typical.values.iter().map(|list| &**list))
+            .collect()
     }
 
     /// The material for the elements of a body: dispatched once for each block of them.

@@ -52,7 +52,7 @@ fn energies_by_invariants_are_those_by_stretches() {
     let mut with_invariants = Vec::new();
     for entry in CATALOGUE {
         for inversion in [Inversion::Refuse, EXTEND] {
-            if let Ok(true) = entry.visit(entry.typical(), inversion, Judge) {
+            if let Ok(true) = entry.visit(&entry.typical(), inversion, Judge) {
                 with_invariants.push(entry.name);
             }
         }

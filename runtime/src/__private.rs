@@ -10,6 +10,6 @@ pub use crate::material::{
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]
 pub use serde;
-pub use std::{option::Option, result::Result, vec::Vec};
+pub use std::{borrow::Cow::Borrowed, option::Option, result::Result, vec::Vec};
 
 pub use crate::Real;

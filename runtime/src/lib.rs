@@ -83,6 +83,7 @@ pub mod convert;
 mod dynamic;
 #[cfg(test)]
 mod hand_written;
+pub mod interpreter;
 pub mod lanes;
 pub mod material;
 #[cfg(feature = "bodies")]

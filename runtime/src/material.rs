@@ -16,7 +16,7 @@
 //!
 //! This module knows no matrices: how the derivatives become a stress is the business of [`crate::point`].
 
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Real, Scalar};
 
 mod combine;
 pub(crate) mod constructor;
@@ -30,13 +30,15 @@ mod parameter;
 mod response;
 
 pub use combine::{Scaled, Sum};
-pub use description::{Description, Form, Parameter, Typical, Unit};
+pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
 pub use mixed::Mixed;
 pub use normalised::{Normalised, VolumetricPenalty};
 pub use parameter::{Graded, ParameterValue, PerElement, PerLane, PerPoint, PerPointError};
 pub use response::Response;
+#[doc(hidden)] // how whole tiles are handed to an interpreter: no part of the interface
+pub use response::{ResponseKind, Tile};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -115,6 +117,26 @@ pub trait Material: Send + Sync {
     /// Whether ψ itself is taken from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
     const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
 
+    /// Whether the invariants give the responses of this very material:
+    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS) says so of all materials of the type, of which some may have
+    /// none whose energies are found at run time.
+    #[inline]
+    fn has_invariants(&self) -> bool {
+        Self::HAS_INVARIANTS
+    }
+
+    /// [`HAS_SECOND_INVARIANT`](Self::HAS_SECOND_INVARIANT) of this very material.
+    #[inline]
+    fn has_second_invariant(&self) -> bool {
+        Self::HAS_SECOND_INVARIANT
+    }
+
+    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS) of this very material.
+    #[inline]
+    fn has_energy_by_invariants(&self) -> bool {
+        Self::HAS_ENERGY_BY_INVARIANTS
+    }
+
     /// Energy density ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without
     /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS).
     #[inline(always)]
@@ -164,6 +186,28 @@ pub trait Material: Send + Sync {
     fn stated_moduli(&self) -> Option<Moduli> {
         None
     }
+
+    /// Whether many points are to be handed to [`respond_together`](Self::respond_together) at once.
+    #[doc(hidden)]
+    const RESPONDS_TOGETHER: bool = false;
+
+    /// Computes a response of a tile, whose points have the materials `material(point)`; gives those inside the
+    /// domain as bits.
+    ///
+    /// For materials that pay for each operation whatever it is applied to, as an interpreter does. Called
+    /// where [`RESPONDS_TOGETHER`](Self::RESPONDS_TOGETHER) says so, and nowhere else.
+    #[doc(hidden)]
+    fn respond_together<'m, E: Scalar>(
+        material: impl Fn(usize) -> &'m Self + Copy,
+        response: ResponseKind,
+        tile: Tile<'_, E>,
+    ) -> u64
+    where
+        Self: 'm,
+    {
+        let _ = (material, response, tile);
+        0
+    }
 }
 
 /// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.
@@ -207,6 +251,12 @@ impl Moduli {
     pub fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
         let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
         Self { mu: 0.5 * (h11 - h12), lambda: h12 }
+    }
+
+    /// Small-strain moduli as the material states them, or else from its Hessian at F = I.
+    #[must_use]
+    pub fn of(material: &impl Material) -> Self {
+        material.stated_moduli().unwrap_or_else(|| Self::at_rest(material))
     }
 
     /// Moduli from Young's modulus E, Pa, and Poisson's ratio ν: μ = E/(2 (1 + ν)) and
@@ -268,7 +318,7 @@ pub trait Declared: Material + Sized {
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
     fn moduli(&self) -> Moduli {
-        self.stated_moduli().unwrap_or_else(|| Moduli::at_rest(self))
+        Moduli::of(self)
     }
 
     /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::material::MaterialError;
+use piola::material::{MaterialError, Text};
 use piola::mesh::ReadError;
 use piola::message::{number, quoted};
 use piola::step::{NewtonError, SetupError, StepError};
@@ -37,31 +37,31 @@ pub enum Error {
         /// The name as given.
         name: String,
         /// The names that exist.
-        known: Vec<&'static str>,
+        known: Vec<Text>,
     },
     /// The material has no parameter of that name.
     #[error("{material} has no parameter `{}`; it has {}", quoted(parameter), list(known))]
     UnknownParameter {
         /// Name of the material.
-        material: &'static str,
+        material: Text,
         /// The name as given.
         parameter: String,
         /// The names that exist.
-        known: Vec<&'static str>,
+        known: Vec<Text>,
     },
     /// A parameter was given no value, and none is right for everybody.
     #[error("{material} needs a value for {}", list(missing))]
     MissingParameters {
         /// Name of the material.
-        material: &'static str,
+        material: Text,
         /// The names without a value.
-        missing: Vec<&'static str>,
+        missing: Vec<Text>,
     },
     /// The material refuses its parameters.
     #[error("{material}: {source}")]
     Inadmissible {
         /// Name of the material.
-        material: &'static str,
+        material: Text,
         /// Reason.
         source: MaterialError,
     },
@@ -84,11 +84,11 @@ pub enum Error {
         /// Name of the scene.
         scene: &'static str,
         /// Name of the material.
-        material: &'static str,
+        material: Text,
         /// Domain of the material.
-        domain: &'static str,
+        domain: Text,
         /// Reason why the material cannot be extended beyond its domain; `None` for one that can be.
-        refusal: Option<&'static str>,
+        refusal: Option<Text>,
         /// Names of the materials that can start there, with typical parameters.
         others: Vec<&'static str>,
     },

@@ -7,13 +7,18 @@ use std::collections::BTreeMap;
 
 use piola::Inversion;
 use piola::batch;
-use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
+use piola::interpreter::Interpreted;
+use piola::material::{Description, MaterialError, Moduli, Text};
+use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
-use piola_materials::{CATALOGUE, Entry, FittableVisitor, Visitor};
+use piola_materials::{CATALOGUE, Entry};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use origin::Origin;
+
+mod origin;
 
 /// The stretch below which a material is extended unless its specification says otherwise.
 ///
@@ -48,11 +53,15 @@ pub fn ogden(moduli: Moduli) -> MaterialSpec {
         .with_parameter("kappa", [moduli.lambda])
 }
 
-/// A material of the catalogue with its parameters, not yet checked.
+/// A material with its parameters, not yet checked: one of the catalogue, or of an energy that was declared
+/// at run time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialSpec {
     material: String,
+    /// The energy, unless it is of the catalogue.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    energy: Option<Energy>,
     parameters: Vec<(String, Vec<f64>)>,
     /// Small-strain moduli [μ, λ] that the parameters follow from if none is given.
     #[serde(rename = "moduli")]
@@ -64,7 +73,26 @@ impl MaterialSpec {
     /// The material of a name, still without parameters; ignores case, spaces, `_` and `-`.
     #[must_use]
     pub fn new(material: &str) -> Self {
-        Self { material: material.into(), parameters: Vec::new(), lame: None, inversion: None }
+        Self { material: material.into(), energy: None, parameters: Vec::new(), lame: None, inversion: None }
+    }
+
+    /// The material of an energy that was declared at run time, still without parameters but for those that
+    /// the declaration calls typical.
+    #[must_use]
+    pub fn declared(energy: Energy) -> Self {
+        let parameters = energy.description().parameters.iter().zip(energy.typical());
+        let named = |(parameter, values): (&piola::material::Parameter, &[f64])| {
+            (parameter.name.to_string(), values.to_vec())
+        };
+        let parameters = parameters.map(named).collect();
+        let spec = Self::new(&energy.description().name);
+        Self { energy: Some(energy), parameters, ..spec }
+    }
+
+    /// The energy, if it was declared at run time.
+    #[must_use]
+    pub fn energy(&self) -> Option<&Energy> {
+        self.energy.as_ref()
     }
 
     /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
@@ -113,7 +141,7 @@ impl MaterialSpec {
         let entry = find(material)?;
         let parameters = entry.description.parameters.iter().zip(entry.typical());
         Ok(parameters.fold(Self::new(entry.name), |spec, (parameter, values)| {
-            spec.with_parameter(parameter.name, *values)
+            spec.with_parameter(&parameter.name, values)
         }))
     }
 
@@ -123,22 +151,27 @@ impl MaterialSpec {
     /// Like [`MaterialSpec::build`].
     pub fn explicit(&self) -> Result<Self, Error> {
         let parameters = self.build()?.parameters.into_iter();
-        let parameters = parameters.map(|(name, values)| (name.to_owned(), values)).collect();
+        let parameters = parameters.map(|(name, values)| (name.to_string(), values)).collect();
         Ok(Self { parameters, lame: None, ..self.clone() })
     }
 
     /// Whether it is the material of a name, in either spelling of the catalogue.
     #[must_use]
     pub fn is(&self, material: &str) -> bool {
-        find(&self.material).is_ok_and(|entry| find(material).is_ok_and(|other| std::ptr::eq(entry, other)))
+        self.energy.is_none()
+            && find(&self.material)
+                .is_ok_and(|entry| find(material).is_ok_and(|other| std::ptr::eq(entry, other)))
     }
 
     /// The declaration of the material in words.
     ///
     /// # Errors
     /// [`Error::UnknownMaterial`].
-    pub fn description(&self) -> Result<&'static Description, Error> {
-        find(&self.material).map(|entry| &entry.description)
+    pub fn description(&self) -> Result<&Description, Error> {
+        match &self.energy {
+            Some(energy) => Ok(energy.description()),
+            None => find(&self.material).map(|entry| &entry.description),
+        }
     }
 
     /// Values given for a parameter, several for a list; empty if none is given.
@@ -154,13 +187,13 @@ impl MaterialSpec {
     /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
     /// [`Error::Inadmissible`].
     pub fn build(&self) -> Result<MaterialInfo, Error> {
-        self.resolve(|entry, values, inversion| {
-            let names = entry.description.parameters.iter().map(|parameter| parameter.name);
+        self.resolve(|origin, values, inversion| {
+            let names = origin.description().parameters.iter().map(|parameter| parameter.name.clone());
             Ok(MaterialInfo {
-                name: entry.name,
+                name: origin.name(),
                 parameters: names.zip(values).map(|(name, values)| (name, values.to_vec())).collect(),
-                elements: entry.elements(values, inversion)?,
-                moduli: entry.moduli(values, inversion)?,
+                elements: origin.elements(values, inversion)?,
+                moduli: origin.moduli(values, inversion)?,
             })
         })
     }
@@ -170,7 +203,15 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`].
     pub fn specimen(&self) -> Result<Box<dyn Specimen>, Error> {
-        self.resolve(|entry, values, inversion| entry.visit(values, inversion, Boxed))
+        self.resolve(|origin, values, inversion| origin.specimen(values, inversion))
+    }
+
+    /// The material itself, if its energy was declared at run time.
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`].
+    pub fn interpreted(&self) -> Result<Option<Interpreted>, Error> {
+        self.resolve(|origin, values, inversion| origin.interpreted(values, inversion))
     }
 
     /// The material as a candidate of the laboratory, for fits of its parameters.
@@ -178,46 +219,51 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`], and [`Error::Inadmissible`] if the material has functions as parameters.
     pub fn candidate(&self) -> Result<Box<dyn Candidate>, Error> {
-        self.resolve(|entry, values, inversion| entry.visit_fittable(values, inversion, Boxed))
+        self.resolve(|origin, values, inversion| origin.candidate(values, inversion))
     }
 
     /// Looks the material up, gives each parameter its values in the order of the declaration, and makes
     /// something of them.
     fn resolve<T>(
         &self,
-        make: impl FnOnce(&'static Entry, &[&[f64]], Inversion) -> Result<T, MaterialError>,
+        make: impl FnOnce(&Origin<'_>, &[&[f64]], Inversion) -> Result<T, MaterialError>,
     ) -> Result<T, Error> {
-        let entry = find(&self.material)?;
-        let refused = |source| Error::Inadmissible { material: entry.name, source };
+        let origin = match &self.energy {
+            Some(energy) => Origin::Declared(energy),
+            None => Origin::Catalogue(find(&self.material)?),
+        };
+        let refused = |source| Error::Inadmissible { material: origin.name(), source };
         let matched;
-        let values = match self.lame {
-            Some([mu, lambda]) if self.parameters.is_empty() => {
+        let values = match (self.lame, &origin) {
+            (Some([mu, lambda]), Origin::Catalogue(entry)) if self.parameters.is_empty() => {
                 matched = entry.matching(Moduli { mu, lambda }).map_err(refused)?;
                 matched.iter().map(Vec::as_slice).collect()
             }
-            _ => self.values(entry.name, &entry.description)?,
+            _ => self.values(origin.name(), origin.description())?,
         };
         let inversion = match self.inversion {
             Some(StoredInversion::Extend(epsilon)) => Inversion::Extend { epsilon },
-            None if entry.description.extends => Inversion::Extend { epsilon: EXTENSION },
+            None if origin.description().extends => Inversion::Extend { epsilon: EXTENSION },
             _ => Inversion::Refuse,
         };
-        make(entry, &values, inversion).map_err(refused)
+        make(&origin, &values, inversion).map_err(refused)
     }
 
     /// The values in the order of the declaration.
-    fn values(&self, material: &'static str, description: &Description) -> Result<Vec<&[f64]>, Error> {
-        let known: Vec<_> = description.parameters.iter().map(|parameter| parameter.name).collect();
-        if let Some((parameter, _)) = self.parameters.iter().find(|(name, _)| !known.contains(&name.as_str()))
+    fn values(&self, material: Text, description: &Description) -> Result<Vec<&[f64]>, Error> {
+        let known = || description.parameters.iter().map(|parameter| &parameter.name);
+        if let Some((parameter, _)) =
+            self.parameters.iter().find(|(name, _)| !known().any(|known| known == name))
         {
-            return Err(Error::UnknownParameter { material, parameter: parameter.clone(), known });
+            let (parameter, known) = (parameter.clone(), known().cloned().collect());
+            return Err(Error::UnknownParameter { material, parameter, known });
         }
-        let value = |wanted: &str| {
-            self.parameters.iter().find(|(name, _)| name == wanted).map(|(_, values)| values.as_slice())
+        let value = |wanted: &Text| {
+            self.parameters.iter().find(|(name, _)| wanted == name).map(|(_, values)| values.as_slice())
         };
-        let missing: Vec<_> = known.iter().copied().filter(|name| value(name).is_none()).collect();
+        let missing: Vec<_> = known().filter(|name| value(name).is_none()).cloned().collect();
         if missing.is_empty() {
-            Ok(known.into_iter().filter_map(value).collect())
+            Ok(known().filter_map(value).collect())
         } else {
             Err(Error::MissingParameters { material, missing })
         }
@@ -232,32 +278,13 @@ enum StoredInversion {
     Extend(f64),
 }
 
-/// A material behind a pointer, whichever of the catalogue it is.
-struct Boxed;
-
-impl Visitor for Boxed {
-    type Output = Box<dyn Specimen>;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        Box::new(material)
-    }
-}
-
-impl FittableVisitor for Boxed {
-    type Output = Box<dyn Candidate>;
-
-    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
-        Box::new(material)
-    }
-}
-
 /// Values by the names of the parameters.
-pub type Parameters = BTreeMap<&'static str, Vec<f64>>;
+pub type Parameters = BTreeMap<Text, Vec<f64>>;
 
 /// A material whose parameters have been checked.
 pub struct MaterialInfo {
-    /// Name in the catalogue.
-    pub name: &'static str,
+    /// Name in the catalogue, or of the declaration.
+    pub name: Text,
     /// All parameters.
     pub parameters: Parameters,
     /// The energy for the elements of a body.
@@ -274,11 +301,11 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
 /// The entry of a name, in the catalogue's spelling or that of the declaration.
 fn find(material: &str) -> Result<&'static Entry, Error> {
     let matches =
-        |entry: &&Entry| same_name(entry.name, material) || same_name(entry.description.name, material);
-    CATALOGUE
-        .iter()
-        .find(matches)
-        .ok_or_else(|| Error::UnknownMaterial { name: material.into(), known: names().collect() })
+        |entry: &&Entry| same_name(entry.name, material) || same_name(&entry.description.name, material);
+    CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
+        name: material.into(),
+        known: names().map(Text::from).collect(),
+    })
 }
 
 /// Whether two names agree in letters and digits, ignoring case.
@@ -295,21 +322,30 @@ mod tests {
 
     use super::*;
 
-    const GENT: Description = Description {
-        name: "Gent",
-        summary: "Rubber that locks.",
-        formula: "…",
-        parameters: &[
-            Parameter { name: "mu", doc: "Shear modulus, Pa.", unit: Some(Unit::Pascal), form: Form::Number },
-            Parameter { name: "jm", doc: "Where it locks.", unit: None, form: Form::Number },
-        ],
-        domain: "J > 0",
-        extends: true,
-        refusal: None,
-        admissible: &[],
-        moduli: ["mu", "kappa"],
-        typical: None,
-    };
+    fn gent() -> Description {
+        let parameter = |name: &'static str, doc: &'static str, unit| Parameter {
+            name: name.into(),
+            doc: doc.into(),
+            unit,
+            form: Form::Number,
+        };
+        Description {
+            name: "Gent".into(),
+            summary: "Rubber that locks.".into(),
+            formula: "…".into(),
+            parameters: vec![
+                parameter("mu", "Shear modulus, Pa.", Some(Unit::Pascal)),
+                parameter("jm", "Where it locks.", None),
+            ]
+            .into(),
+            domain: "J > 0".into(),
+            extends: true,
+            refusal: None,
+            admissible: [].into(),
+            moduli: ["mu".into(), "kappa".into()],
+            typical: None,
+        }
+    }
 
     #[test]
     fn most_bodies_are_as_stiff_as_said() {
@@ -322,7 +358,7 @@ mod tests {
             .with_parameter("jm", [3.0])
             .with_parameter("mu", [1.0])
             .with_parameter("mu", [2.0]);
-        assert_eq!(energy.values("gent", &GENT).ok(), Some(vec![&[2.0][..], &[3.0][..]]));
+        assert_eq!(energy.values("gent".into(), &gent()).ok(), Some(vec![&[2.0][..], &[3.0][..]]));
     }
 
     #[test]
@@ -339,7 +375,7 @@ mod tests {
     #[test]
     fn unknown_and_missing_parameters_are_named() {
         let message =
-            |energy: MaterialSpec| energy.values("gent", &GENT).err().map(|error| error.to_string());
+            |energy: MaterialSpec| energy.values("gent".into(), &gent()).err().map(|error| error.to_string());
         assert_eq!(
             message(MaterialSpec::new("gent").with_parameter("mue", [1.0])).as_deref(),
             Some("gent has no parameter `mue`; it has `mu`, `jm`")

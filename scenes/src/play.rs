@@ -1,7 +1,7 @@
 //! A scene in motion.
 
 use piola::batch::TileMaterial;
-use piola::material::Moduli;
+use piola::material::{Moduli, Text};
 use piola::mesh::Anchor;
 use piola::mesh::{Bounds, TetMesh};
 use piola::step::{self, Integrator, NewtonSettings, Simulation, StepReport};
@@ -25,7 +25,7 @@ const DRAG_STIFFNESS: f64 = 10.0;
 #[derive(Debug)]
 pub struct Play {
     simulation: Simulation,
-    material: &'static str,
+    material: Text,
     parameters: Parameters,
     pulls: Vec<DragSprings>,
     drags: Vec<step::Spring>,
@@ -85,9 +85,9 @@ impl Play {
         };
         Err(Error::StartOutsideDomain {
             scene: settings.scene.name,
-            material: self.material,
-            domain: description.domain,
-            refusal: description.refusal.filter(|_| !description.extends),
+            material: self.material.clone(),
+            domain: description.domain.clone(),
+            refusal: description.refusal.clone().filter(|_| !description.extends),
             others: material::names().filter(can_start).collect(),
         })
     }
@@ -103,10 +103,10 @@ impl Play {
         &mut self.simulation
     }
 
-    /// Name of the material in the catalogue.
+    /// Name of the material, in the catalogue or of its declaration.
     #[must_use]
-    pub fn material(&self) -> &'static str {
-        self.material
+    pub fn material(&self) -> &Text {
+        &self.material
     }
 
     /// Parameters of the material.

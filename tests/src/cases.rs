@@ -121,7 +121,7 @@ impl Case {
             Some(Value::List(values)) => Ok(values.clone()),
             None => Err(format!("{}: no value for `{name}`", self.id)),
         };
-        description.parameters.iter().map(|parameter| value(parameter.name)).collect()
+        description.parameters.iter().map(|parameter| value(&parameter.name)).collect()
     }
 
     /// λ1 ≥ λ2 ≥ |λ3|, nearest `f64`.

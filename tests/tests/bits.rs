@@ -69,12 +69,12 @@ fn every_entry<R: Judged>() {
         for &inversion in inversions {
             let admissible = "typical parameters are admissible";
             let trial = Trial::<R> {
-                elements: entry.elements(entry.typical(), inversion).expect(admissible),
+                elements: entry.elements(&entry.typical(), inversion).expect(admissible),
                 seed: seed(index, entry.name),
                 patterns: patterns() / inversions.len(),
                 precision: PhantomData,
             };
-            let tally = entry.visit(entry.typical(), inversion, trial).expect(admissible);
+            let tally = entry.visit(&entry.typical(), inversion, trial).expect(admissible);
             for (fault, (count, F)) in &tally.faults {
                 let _ =
                     writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", entry.name, R::NAME);

@@ -14,9 +14,9 @@ fn sources() -> PathBuf {
 #[test]
 fn every_declaration_has_typical_parameters_and_units() {
     for Entry { name, description, .. } in CATALOGUE {
-        let typical = description.typical.unwrap_or_else(|| panic!("{name} has none"));
+        let typical = description.typical.as_ref().unwrap_or_else(|| panic!("{name} has none"));
         assert!(!typical.source.is_empty(), "{name} names no source");
-        for (parameter, values) in description.parameters.iter().zip(typical.values) {
+        for (parameter, values) in description.parameters.iter().zip(typical.values.iter()) {
             assert!(!values.is_empty(), "{name}: {} has no value", parameter.name);
             assert!(parameter.unit.is_some(), "{name}: {} has no unit", parameter.name);
         }
@@ -31,10 +31,10 @@ fn energies_of_rubber_are_those_with_typical_parameters_of_it_and_can_be_fitted(
         fn visit<M: Fittable + 'static>(self, _: M) {}
     }
     for entry in CATALOGUE {
-        let source = entry.description.typical.map_or("", |typical| typical.source);
+        let source = entry.description.typical.as_ref().map_or("", |typical| &typical.source);
         assert_eq!(entry.is_rubber, source.contains("natural rubber"), "{}", entry.name);
         if entry.is_rubber {
-            let fits = entry.visit_fittable(entry.typical(), Inversion::Refuse, Fits);
+            let fits = entry.visit_fittable(&entry.typical(), Inversion::Refuse, Fits);
             assert_eq!(fits, Ok(()), "{}", entry.name);
         }
     }
@@ -48,7 +48,7 @@ fn typical_parameters_are_accepted() {
             false => &[Inversion::Refuse],
         };
         for &inversion in inversions {
-            let moduli = entry.moduli(entry.typical(), inversion);
+            let moduli = entry.moduli(&entry.typical(), inversion);
             assert!(moduli.is_ok(), "{}: {}", entry.name, moduli.expect_err("refused"));
         }
     }

@@ -48,11 +48,11 @@ fn settings(name: &str) -> Settings {
 
 /// Says what each of the materials breaks, not only the first.
 #[track_caller]
-fn keep<'a>(materials: impl Iterator<Item = (&'a Entry, &'a [&'a [f64]])>, inversion: Inversion) {
+fn keep<'a>(materials: impl Iterator<Item = (&'a Entry, Vec<&'a [f64]>)>, inversion: Inversion) {
     let mut broken = String::new();
     for (entry, values) in materials {
         let contract = Contract(settings(entry.name));
-        match entry.visit(values, inversion, contract) {
+        match entry.visit(&values, inversion, contract) {
             Ok(Ok(())) => {}
             Ok(Err(violations)) => broken += &format!("{} {values:?}:\n{violations}\n", entry.name),
             Err(error) => broken += &format!("{} {values:?}: {error}\n", entry.name),
@@ -61,8 +61,8 @@ fn keep<'a>(materials: impl Iterator<Item = (&'a Entry, &'a [&'a [f64]])>, inver
     assert!(broken.is_empty(), "\n{broken}");
 }
 
-fn all() -> impl Iterator<Item = (&'static Entry, &'static [&'static [f64]])> {
-    let further = FURTHER.map(|(name, values)| (find(name).expect("in the catalogue"), values));
+fn all() -> impl Iterator<Item = (&'static Entry, Vec<&'static [f64]>)> {
+    let further = FURTHER.map(|(name, values)| (find(name).expect("in the catalogue"), values.to_vec()));
     CATALOGUE.iter().map(|entry| (entry, entry.typical())).chain(further)
 }
 

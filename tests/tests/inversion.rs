@@ -58,7 +58,7 @@ fn starts() -> impl Iterator<Item = [[f64; 3]; 3]> {
 /// Where the material is lost, from each of the starts from which it does not come to rest undeformed.
 fn lost(entry: &Entry) -> Vec<String> {
     let end = |start| {
-        let material = entry.elements(entry.typical(), EXTEND).expect("typical parameters extend");
+        let material = entry.elements(&entry.typical(), EXTEND).expect("typical parameters extend");
         match relax(material, &start) {
             Ok(stretches) if stretches.iter().all(|stretch| (stretch - 1.0).abs() < 1e-6) => None,
             Ok(stretches) => Some(format!("from {start:?} it ends at the stretches {stretches:?}")),

@@ -30,7 +30,7 @@ fn everywhere(mut check: impl FnMut(&str, &dyn DynMaterial<f64>)) {
     for entry in CATALOGUE {
         let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
         for &inversion in inversions {
-            let material = entry.visit(entry.typical(), inversion, Boxed).expect("typical parameters");
+            let material = entry.visit(&entry.typical(), inversion, Boxed).expect("typical parameters");
             check(&format!("{} {inversion:?}", entry.name), &*material);
         }
     }

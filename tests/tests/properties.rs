@@ -57,7 +57,7 @@ fn for_every_energy(property: impl Property) {
                 if inversion != Inversion::Refuse && !entry.description.extends {
                     continue;
                 }
-                let verdict = entry.visit(entry.typical(), inversion, Trial(&property, &sample));
+                let verdict = entry.visit(&entry.typical(), inversion, Trial(&property, &sample));
                 let error = match verdict {
                     Ok(Ok(())) => continue,
                     Ok(Err(error)) => error,

@@ -62,15 +62,16 @@ const OTHERS: [(&str, &[&[f64]]); 2] = [
 fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
     for entry in CATALOGUE {
-        let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|&(_, values)| values);
+        let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|(_, values)| values.to_vec());
         for (choice, values) in std::iter::once(entry.typical()).chain(others).enumerate() {
             for (word, inversion) in [("refuse", Inversion::Refuse), ("extend", EXTEND)] {
-                if inversion == EXTEND && !can_be_extended(entry, values) {
+                if inversion == EXTEND && !can_be_extended(entry, &values) {
                     continue;
                 }
                 let choice = if choice == 0 { String::new() } else { format!("::{choice}") };
                 let name = format!("quotients::{}::{word}{choice}", entry.name);
-                trials.push(Trial::test(name, move || Ok(add_to_table(entry, word, values, inversion)?)));
+                let values = values.clone();
+                trials.push(Trial::test(name, move || Ok(add_to_table(entry, word, &values, inversion)?)));
             }
         }
     }

@@ -119,9 +119,9 @@ fn programs_have_the_bits_of_generated_code() {
         if declaration.has_functions() {
             continue;
         }
-        let parameters = Parameters::new(declaration, entry.typical());
+        let parameters = Parameters::new(declaration, &entry.typical());
         let same = Same { name: entry.name, parameters, model: model(declaration).expect("an energy") };
-        entry.visit(entry.typical(), Inversion::Refuse, same).expect("typical parameters");
+        entry.visit(&entry.typical(), Inversion::Refuse, same).expect("typical parameters");
         compared += 1;
     }
     assert!(compared > 25, "{compared}");

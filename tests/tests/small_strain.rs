@@ -121,7 +121,7 @@ fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R)
         let mut line = format!("{:22}", entry.name);
         for &magnitude in magnitudes {
             let judge = Judge { magnitude, random: Random::new(7), widen };
-            let worst = entry.visit(entry.typical(), Inversion::Refuse, judge).expect("typical parameters");
+            let worst = entry.visit(&entry.typical(), Inversion::Refuse, judge).expect("typical parameters");
             line += &format!(
                 "{:7.1} {:8.0e} {:5.1}",
                 worst.from_displacement, worst.through_deformation, worst.energy

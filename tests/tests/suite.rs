@@ -26,7 +26,7 @@ fn the_catalogue_is_complete_and_sorted() {
         models().into_iter().map(|(declaration, _)| declaration.name.to_string()).collect();
     for name in &declared {
         assert!(
-            CATALOGUE.iter().any(|entry| entry.description.name == name),
+            CATALOGUE.iter().any(|entry| entry.description.name == *name),
             "{name} is not in the catalogue"
         );
     }
@@ -34,7 +34,7 @@ fn the_catalogue_is_complete_and_sorted() {
     assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
     for Entry { name, description, .. } in CATALOGUE {
         assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
-        for parameter in description.parameters {
+        for parameter in description.parameters.iter() {
             assert!(!parameter.doc.is_empty(), "{name}: {} is documented", parameter.name);
         }
     }

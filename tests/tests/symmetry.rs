@@ -44,7 +44,7 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
     let mut unequal = Vec::new();
     for entry in CATALOGUE {
         let material: Box<dyn TileMaterial<f64>> =
-            entry.elements(entry.typical(), Inversion::Refuse).expect("typical parameters are admissible");
+            entry.elements(&entry.typical(), Inversion::Refuse).expect("typical parameters are admissible");
         for backend in Backend::available() {
             for filter in [Filter::None, Filter::Clamp] {
                 let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();

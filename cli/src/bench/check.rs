@@ -48,10 +48,10 @@ impl Check {
             SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
         let description = material.description()?;
         let parameters = description.parameters.iter().map(|parameter| {
-            let values: Vec<_> = material.values_of(parameter.name).iter().map(short).collect();
+            let values: Vec<_> = material.values_of(&parameter.name).iter().map(short).collect();
             format!(" {}={}", parameter.name, values.join(","))
         });
-        let title = description.name.to_owned() + &parameters.collect::<String>();
+        let title = description.name.to_string() + &parameters.collect::<String>();
         let specimen = material.specimen()?;
         let report = survey(&*specimen, &stretches).map_err(Error::bench)?;
         if let Some(path) = self.svg {

@@ -67,7 +67,7 @@ impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         keep_data(self.data.as_ref(), self.svg.as_ref())?;
-        if self.material.material == ranking::ALL {
+        if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
         }
         let material = self.material.spec()?.with_inversion(Inversion::Refuse);
@@ -82,9 +82,9 @@ impl Curve {
         };
         let has_range = self.from.or(self.to).is_some() || self.rows.is_some();
 
-        let title = titled(info.name, volume);
-        let names = material.description()?.parameters.iter().map(|parameter| parameter.name);
-        let options = as_options(names.map(|name| (name, info.parameters[name].as_slice())));
+        let title = titled(&info.name, volume);
+        let names = material.description()?.parameters.iter().map(|parameter| &parameter.name);
+        let options = as_options(names.map(|name| (&**name, info.parameters[name].as_slice())));
         let (mut text, mut curves) = (format!("{title}\n  {options}\n"), Vec::new());
         for mode in modes {
             let measured: Vec<Measured> = data.iter().flat_map(|data| data.of(mode)).copied().collect();

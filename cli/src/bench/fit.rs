@@ -83,13 +83,14 @@ impl Fit {
             .with_restarts(self.starts)
             .with_seed(self.seed);
         let fit = fit::fit_parameters(&*candidate, &data, &settings)
-            .map_err(|source| Error::Fit { material: material.into(), source })?;
+            .map_err(|source| Error::Fit { material: material.to_string(), source })?;
         let names: Vec<_> =
-            candidate.description().parameters.iter().map(|parameter| parameter.name).collect();
-        let options =
-            |values: &[Vec<f64>]| as_options(names.iter().copied().zip(values.iter().map(Vec::as_slice)));
+            candidate.description().parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        let options = |values: &[Vec<f64>]| {
+            as_options(names.iter().map(|name| &**name).zip(values.iter().map(Vec::as_slice)))
+        };
 
-        let title = titled(material, volume);
+        let title = titled(&material, volume);
         let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
         text += &format!("  {}\n", options(&fit.values));
         for component in &fit.numbers {

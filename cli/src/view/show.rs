@@ -87,7 +87,7 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
             "name": parameter.name,
             "doc": parameter.doc,
             "is_list": parameter.is_list(),
-            "values": settings.material.values_of(parameter.name),
+            "values": settings.material.values_of(&parameter.name),
         })
     };
     let material = settings.material.description().map(|description| {
@@ -99,7 +99,7 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
             "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
         })
     });
-    let materials = CATALOGUE.iter().map(|entry| (entry.name, entry.description.summary));
+    let materials = CATALOGUE.iter().map(|entry| (entry.name, &entry.description.summary));
     let setup = json!({
         "scene": settings.scene.name,
         "about": settings.scene.about,

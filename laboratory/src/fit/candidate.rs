@@ -1,7 +1,7 @@
 //! An energy whose parameters are sought, with its type out of sight, and its parameters as one row of
 //! numbers.
 
-use piola::material::{Constraint, Description, Fittable, Form, MaterialError};
+use piola::material::{Constraint, Description, Fittable, Form, MaterialError, Text};
 
 use crate::specimen::Specimen;
 
@@ -65,7 +65,7 @@ pub(super) struct Numbers {
     /// Whether each is an exponent that is whole, and so cannot change by little.
     pub(super) are_whole: Vec<bool>,
     /// The parameter that each belongs to: its name, the number of its entries, and its form.
-    parameters: Vec<(&'static str, usize, Form)>,
+    parameters: Vec<(Text, usize, Form)>,
 }
 
 impl Numbers {
@@ -75,7 +75,7 @@ impl Numbers {
         let names = parameters.iter().zip(&lists).flat_map(|(parameter, list)| {
             (1..=list.len()).map(|entry| match parameter.is_list() {
                 true => format!("{}_{entry}", parameter.name),
-                false => parameter.name.to_owned(),
+                false => parameter.name.to_string(),
             })
         });
         let each = parameters.iter().zip(&lists);
@@ -84,15 +84,19 @@ impl Numbers {
             names: names.collect(),
             values: lists.concat(),
             are_whole: are_whole.collect(),
-            parameters: parameters.iter().zip(&lists).map(|(p, list)| (p.name, list.len(), p.form)).collect(),
+            parameters: parameters
+                .iter()
+                .zip(&lists)
+                .map(|(p, list)| (p.name.clone(), list.len(), p.form))
+                .collect(),
         }
     }
 
     /// Whether a number goes by that name, or is an entry of the list of that name.
     pub(super) fn is_named(&self, number: usize, name: &str) -> bool {
         let owners =
-            self.parameters.iter().flat_map(|&(owner, length, _)| std::iter::repeat_n(owner, length));
-        self.names[number] == name || owners.into_iter().nth(number) == Some(name)
+            self.parameters.iter().flat_map(|(owner, length, _)| std::iter::repeat_n(owner, *length));
+        self.names[number] == name || owners.into_iter().nth(number).is_some_and(|owner| *owner == name)
     }
 
     /// The values as lists, one for each parameter.

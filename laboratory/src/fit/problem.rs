@@ -43,9 +43,9 @@ pub(super) struct Bound {
 impl Bound {
     /// Whether this may be the constraint that does not hold. Of the entries of a list, only a place tells.
     pub(super) fn refuses(&self, error: &TrialError) -> bool {
-        match (error, self.limit) {
+        match (error, &self.limit) {
             (TrialError::Inadmissible(MaterialError::Violated { condition, .. }), Limit::Admissible(own)) => {
-                *condition == own
+                condition == own
             }
             (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::ShearModulus) => {
                 moduli.mu <= 0.0
@@ -55,7 +55,7 @@ impl Bound {
             }
             // Where rest is outside, points of the same condition may be too.
             (TrialError::Inadmissible(MaterialError::RestOutside { condition, .. }), Limit::Domain(own)) => {
-                *condition == own
+                condition == own
             }
             (TrialError::Point(error), Limit::Domain(_)) => self.point == Some(error.point),
             _ => false,

@@ -16,7 +16,7 @@ use serde::serde;
 
 mod constructor;
 mod declared;
-mod documentation;
+pub mod documentation;
 mod fittable;
 mod functions;
 mod invariants;
@@ -50,19 +50,24 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     }
 }
 
-/// The texts that documentation and description share.
-struct Texts {
-    formula: String,
+/// Texts that documentation and description share.
+#[derive(Clone, Debug)]
+pub struct Texts {
+    /// ψ as a formula in one line.
+    pub formula: String,
     /// The conditions of the domain.
-    domain: String,
+    pub domain: String,
     /// Functions that narrow it, as in `where f is defined`; empty without functions.
-    defined: String,
-    moduli: [String; 2],
-    summary: String,
+    pub defined: String,
+    /// Small-strain μ and λ as formulas.
+    pub moduli: [String; 2],
+    /// First paragraph of the documentation.
+    pub summary: String,
 }
 
 impl Texts {
-    fn of(declaration: &Declaration, model: &mut Model) -> Self {
+    /// The texts of a declaration.
+    pub fn of(declaration: &Declaration, model: &mut Model) -> Self {
         let mut print = |id| formula(&mut model.graph, declaration, id);
         let formula = print(model.energy);
         let moduli = model.moduli.map(&mut print);
@@ -84,16 +89,28 @@ fn doc(text: &str) -> TokenStream {
 }
 
 /// A condition as people write it: `mu[p] * alpha[p] > 0`.
-fn condition_text(condition: &Expr) -> String {
-    let text = condition.to_token_stream().to_string();
-    text.replace(" [", "[")
-        .replace("[ ", "[")
-        .replace(" ]", "]")
-        .replace("(| ", "(|")
-        .replace(" | ", "| ")
-        .replace(".0 ", " ")
-        .trim_end_matches(".0")
-        .to_owned()
+///
+/// Inside of the compiler tokens are printed with other spaces than outside.
+#[must_use]
+pub fn condition_text(condition: &Expr) -> String {
+    let printed = condition.to_token_stream().to_string();
+    let mut text = String::new();
+    let mut characters = printed.chars().peekable();
+    while let Some(character) = characters.next() {
+        if character != ' ' || characters.peek().is_some_and(|&next| is_space_between(&text, next)) {
+            text.push(character);
+        }
+    }
+    text.replace("(| ", "(|").replace(" | ", "| ").replace(".0 ", " ").trim_end_matches(".0").to_owned()
+}
+
+/// Whether people write a space between a text and the next token.
+fn is_space_between(text: &str, next: char) -> bool {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let is_call = "([".contains(next) && text.ends_with(is_name);
+    let before_minus = text.strip_suffix('-').map(str::trim_end);
+    let is_sign = before_minus.is_some_and(|text| !text.ends_with(|c| is_name(c) || ")]".contains(c)));
+    !(is_call || is_sign || text.ends_with(['(', '[', '.']) || ")].,".contains(next))
 }
 
 /// The generics after `impl`, and those after the name.

@@ -1,8 +1,8 @@
 //! A material as batches see it: one dynamic dispatch for each response of a tile.
 
-use super::tile::{Rows, first_bits, for_each_group};
-use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
-use crate::material::{Blocks, Graded, Material, PerElement, PerPoint};
+use super::tile::{ROW, Rows, first_bits, for_each_group};
+use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
+use crate::material::{Blocks, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
@@ -90,7 +90,7 @@ pub struct Arguments<'a, E> {
 macro_rules! tile_responses {
     ($(
         $(#[$doc:meta])*
-        $tile:ident: $response:ident within $domain:ident,
+        $tile:ident: $response:ident ($Kind:ident) within $domain:ident,
         $rows:literal rows by $to_rows:expr,
         finite where |$at:pat_param, $result:pat_param| $finite:expr;
     )*) => {
@@ -128,15 +128,23 @@ macro_rules! tile_responses {
                             for_each_group!(R, count, |group| {
                                 let at = rows.get_all::<R>(group);
                                 let material = points.at(start + group);
-                                let result = material.$response(at);
-                                let ($at, $result) = (at, &result);
+                                let result = $to_rows(material.$response(at));
+                                let ($at, $result) = (at, result);
                                 finite |= R::bits($finite) << group;
-                                to.set_all(group, $to_rows(result));
+                                to.set_all(group, result);
                                 admitted |= R::bits(material.$domain(at)) << group;
                             });
-                            let points = first_bits(count);
-                            Status { refused: !admitted & points, nonfinite: !finite & points, ..Status::default() }
+                            domain_and_range(count, admitted, finite)
                         }
+                    }
+                    if P::Material::RESPONDS_TOGETHER {
+                        let admitted = together(self, ResponseKind::$Kind, arguments, to.0.as_flattened_mut());
+                        let mut finite = 0;
+                        for_each_group!(E, arguments.count, |point| {
+                            let ($at, $result) = (arguments.rows.get_all::<E>(point), to.get_all::<E>(point));
+                            finite |= u64::from($finite) << point;
+                        });
+                        return domain_and_range(arguments.count, admitted, finite);
                     }
                     arguments.backend.run(Respond(self, arguments, to))
                 }
@@ -151,9 +159,9 @@ macro_rules! tile_responses {
             fn properties(&self) -> Properties {
                 let materials = self.materials();
                 Properties {
-                    has_invariants: P::Material::HAS_INVARIANTS,
-                    has_second_invariant: P::Material::HAS_SECOND_INVARIANT,
-                    has_energy_by_invariants: P::Material::HAS_ENERGY_BY_INVARIANTS,
+                    has_invariants: materials.iter().all(Material::has_invariants),
+                    has_second_invariant: materials.iter().any(Material::has_second_invariant),
+                    has_energy_by_invariants: materials.iter().all(Material::has_energy_by_invariants),
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
                     points: self.count(),
@@ -165,28 +173,28 @@ macro_rules! tile_responses {
 
 tile_responses! {
     /// ψ, Pa, from signed principal stretches.
-    tile_energies: energy within admits,
-    1 rows by |energy| [energy], finite where |stretches, energy| energy_is_finite(stretches, *energy);
+    tile_energies: energy (Energy) within admits,
+    1 rows by |energy| [energy], finite where |stretches, [energy]| energy_is_finite(stretches, energy);
 
     /// ψ1, ψ2, ψ3, Pa.
-    tile_gradients: gradient within admits,
-    3 rows by |gradient| gradient, finite where |_, _| R::Mask::splat(true);
+    tile_gradients: gradient (Gradient) within admits,
+    3 rows by |gradient| gradient, finite where |at, _| anywhere(at);
 
     /// The fifteen components of [`Blocks`], Pa, in the order of its fields.
-    tile_blocks: blocks within admits,
-    15 rows by |blocks| to_rows(&blocks), finite where |_, _| R::Mask::splat(true);
+    tile_blocks: blocks (Blocks) within admits,
+    15 rows by |blocks| to_rows(&blocks), finite where |at, _| anywhere(at);
 
     /// ψ, Pa, from I1, I2, J.
-    tile_energies_by_invariants: energy_by_invariants within admits_invariants,
-    1 rows by |energy| [energy], finite where |_, energy| energy.is_finite();
+    tile_energies_by_invariants: energy_by_invariants (EnergyByInvariants) within admits_invariants,
+    1 rows by |energy| [energy], finite where |_, [energy]| energy.is_finite();
 
     /// W1, W2, WJ, Pa, from I1, I2, J.
-    tile_gradients_by_invariants: gradient_by_invariants within admits_invariants,
-    3 rows by |gradient| gradient, finite where |_, _| R::Mask::splat(true);
+    tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
+    3 rows by |gradient| gradient, finite where |at, _| anywhere(at);
 
     /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J.
-    tile_derivatives_by_invariants: derivatives_by_invariants within admits_invariants,
-    9 rows by |derivatives| derivatives, finite where |_, _| R::Mask::splat(true);
+    tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
+    9 rows by |derivatives| derivatives, finite where |at, _| anywhere(at);
 }
 
 /// Properties of a batch's materials that no deformation decides.
@@ -204,6 +212,41 @@ pub struct Properties {
     pub(crate) ends_at_zero_volume: bool,
     /// Number of points with a material of their own; `None` if one serves any number of points.
     pub(crate) points: Option<usize>,
+}
+
+/// Hands a whole tile to the material. Gives the points inside the domain as bits.
+fn together<E: Scalar, P: Points>(
+    points: &P,
+    response: ResponseKind,
+    Arguments { backend, start, count, rows }: Arguments<'_, E>,
+    results: &mut [E],
+) -> u64 {
+    let (materials, have_own) = (points.materials(), points.count().is_some());
+    P::Material::respond_together(
+        |point| &materials[if have_own { start + point } else { 0 }],
+        response,
+        Tile {
+            backend,
+            count,
+            materials: if have_own { count } else { 1 },
+            stride: ROW,
+            arguments: rows.0.as_flattened(),
+            results,
+        },
+    )
+}
+
+/// Says of all points that their results are finite, as far as that is to be known.
+#[inline(always)]
+fn anywhere<R: Real>(_: [R; 3]) -> R::Mask {
+    R::Mask::splat(true)
+}
+
+/// The status of a tile's points from the bits of those that are admitted and of those that are finite.
+#[inline(always)]
+fn domain_and_range(count: usize, admitted: u64, finite: u64) -> Status<u64> {
+    let points = first_bits(count);
+    Status { refused: !admitted & points, nonfinite: !finite & points, ..Status::default() }
 }
 
 #[inline(always)]

@@ -161,6 +161,15 @@ macro_rules! sum_responses {
                     self.a.$domain(at) & self.b.$domain(at)
                 }
             )*
+            fn has_invariants(&self) -> bool {
+                self.a.has_invariants() && self.b.has_invariants()
+            }
+            fn has_second_invariant(&self) -> bool {
+                self.a.has_second_invariant() || self.b.has_second_invariant()
+            }
+            fn has_energy_by_invariants(&self) -> bool {
+                self.a.has_energy_by_invariants() && self.b.has_energy_by_invariants()
+            }
             fn has_pole(&self) -> bool {
                 self.a.has_pole() || self.b.has_pole()
             }
@@ -200,6 +209,15 @@ macro_rules! sum_responses {
                     self.material.$domain(at)
                 }
             )*
+            fn has_invariants(&self) -> bool {
+                self.material.has_invariants()
+            }
+            fn has_second_invariant(&self) -> bool {
+                self.material.has_second_invariant()
+            }
+            fn has_energy_by_invariants(&self) -> bool {
+                self.material.has_energy_by_invariants()
+            }
             fn has_pole(&self) -> bool {
                 self.material.has_pole()
             }

@@ -66,7 +66,9 @@ pub fn same_length(list: (&'static str, usize), first: (&'static str, usize)) ->
 type Named = (&'static str, Option<usize>, f64);
 
 fn named(given: &[Named]) -> Vec<Argument> {
-    given.iter().map(|&(parameter, index, value)| Argument { parameter, index, value }).collect()
+    let argument =
+        |&(parameter, index, value): &Named| Argument { parameter: parameter.into(), index, value };
+    given.iter().map(argument).collect()
 }
 
 /// Checks a condition of `admissible(…)`.
@@ -74,7 +76,11 @@ fn named(given: &[Named]) -> Vec<Argument> {
 /// # Errors
 /// [`MaterialError::Violated`] unless it holds.
 pub fn admissible(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
-    if holds { Ok(()) } else { Err(MaterialError::Violated { condition, given: named(given) }) }
+    if holds {
+        Ok(())
+    } else {
+        Err(MaterialError::Violated { condition: condition.into(), given: named(given) })
+    }
 }
 
 /// Checks a condition of `extend(…)`.
@@ -82,7 +88,11 @@ pub fn admissible(holds: bool, condition: &'static str, given: &[Named]) -> Resu
 /// # Errors
 /// [`MaterialError::DoesNotRestore`] unless it holds.
 pub fn restoring(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
-    if holds { Ok(()) } else { Err(MaterialError::DoesNotRestore { condition, given: named(given) }) }
+    if holds {
+        Ok(())
+    } else {
+        Err(MaterialError::DoesNotRestore { condition: condition.into(), given: named(given) })
+    }
 }
 
 /// Whether a material is to be extended.
@@ -121,14 +131,18 @@ pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, M
 /// # Errors
 /// [`MaterialError::RestOutside`].
 pub fn inside_at_rest(bound: f64, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
-    if bound > 0.0 { Ok(()) } else { Err(MaterialError::RestOutside { condition, given: named(given) }) }
+    if bound > 0.0 {
+        Ok(())
+    } else {
+        Err(MaterialError::RestOutside { condition: condition.into(), given: named(given) })
+    }
 }
 
 /// A material that is defined where all stretches are 1.
 ///
 /// # Errors
 /// [`MaterialError::UndefinedRest`].
-pub fn defined_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
+pub fn defined_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
     if material.admits([1.0f64; 3]) { Ok(material) } else { Err(MaterialError::UndefinedRest) }
 }
 
@@ -143,8 +157,8 @@ pub fn sign_decides(material: &impl Material) -> bool {
 ///
 /// # Errors
 /// [`MaterialError::UnstableRest`].
-pub fn stable_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
-    let moduli = material.moduli();
+pub fn stable_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
+    let moduli = Moduli::of(&material);
     if moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite() {
         return Ok(material);
     }
@@ -155,8 +169,8 @@ pub fn stable_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
 ///
 /// # Errors
 /// [`MaterialError::StressedRest`].
-pub fn stress_free_at_rest<M: Declared>(material: M) -> Result<M, MaterialError> {
-    let moduli = material.moduli();
+pub fn stress_free_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
+    let moduli = Moduli::of(&material);
     let [stress, ..] = material.gradient([1.0f64; 3]);
     if stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs()) {
         return Ok(material);

@@ -1,37 +1,42 @@
 //! Descriptions of declared materials, for programs that choose one at run time.
 
+use std::borrow::Cow;
+
+/// Text of a declaration: part of the program, or owned where the energy was declared at run time.
+pub type Text = Cow<'static, str>;
+
 /// Texts and data of a declaration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The type's name.
-    pub name: &'static str,
+    pub name: Text,
     /// First paragraph of the documentation.
-    pub summary: &'static str,
+    pub summary: Text,
     /// ψ as a formula in one line.
-    pub formula: &'static str,
+    pub formula: Text,
     /// The parameters in the order of the constructor.
-    pub parameters: &'static [Parameter],
+    pub parameters: Cow<'static, [Parameter]>,
     /// The domain of ψ, such as `J > 0`.
-    pub domain: &'static str,
+    pub domain: Text,
     /// Whether the material can be built with [`Inversion::Extend`](super::Inversion::Extend).
     pub extends: bool,
     /// The reason why it does not extend, if the declaration states one.
-    pub refusal: Option<&'static str>,
+    pub refusal: Option<Text>,
     /// Conditions on the parameters, which must also be finite.
-    pub admissible: &'static [&'static str],
+    pub admissible: Cow<'static, [Text]>,
     /// Small-strain shear modulus and first Lamé parameter as formulas in the parameters.
-    pub moduli: [&'static str; 2],
+    pub moduli: [Text; 2],
     /// Parameters of some real material, if the declaration has them: `typical(…)`.
     pub typical: Option<Typical>,
 }
 
 /// A parameter of a declared energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// The name in the declaration.
-    pub name: &'static str,
+    pub name: Text,
     /// Its documentation, units included.
-    pub doc: &'static str,
+    pub doc: Text,
     /// The unit that its documentation states, as in `Shear modulus μ, Pa.`; of a function that of its
     /// values.
     pub unit: Option<Unit>,
@@ -59,7 +64,7 @@ impl Parameter {
     /// ```
     /// use piola::material::{Form, Parameter, Unit};
     ///
-    /// let curve = Parameter { name: "f", doc: "Energy, Pa.", unit: Some(Unit::Pascal), form: Form::Points };
+    /// let curve = Parameter { name: "f".into(), doc: "Energy, Pa.".into(), unit: Some(Unit::Pascal), form: Form::Points };
     /// let mut points = [0.5, -1e5, 1.0, 0.0, 2.0, 1e5];
     /// assert!(curve.rescale(&mut points, 3.0));
     /// assert_eq!(points, [0.5, -3e5, 1.0, 0.0, 2.0, 3e5]);
@@ -158,11 +163,11 @@ pub enum Form {
 }
 
 /// Parameters of some real material, as declared by `typical("natural rubber", mu = 4e5)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Typical {
     /// One slice for each parameter of the description, in its order, as
     /// [`Declared::from_values`](super::Declared::from_values) takes them.
-    pub values: &'static [&'static [f64]],
+    pub values: Cow<'static, [Cow<'static, [f64]>]>,
     /// The material, and where the values are from.
-    pub source: &'static str,
+    pub source: Text,
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Moduli;
+use super::{Moduli, Text};
 use crate::message::number;
 
 /// Reason why a material cannot be built from given parameters.
@@ -22,7 +22,7 @@ pub enum MaterialError {
     /// A condition of the declaration does not hold.
     Violated {
         /// The condition as declared.
-        condition: &'static str,
+        condition: Text,
         /// The parameters that it names, as given.
         given: Vec<Argument>,
     },
@@ -41,7 +41,7 @@ pub enum MaterialError {
     /// The rest state is outside the domain, whose end parameters decide.
     RestOutside {
         /// The condition of the domain as declared.
-        condition: &'static str,
+        condition: Text,
         /// The numbers among the parameters that it names, as given.
         given: Vec<Argument>,
     },
@@ -60,19 +60,19 @@ pub enum MaterialError {
     /// The material has no extension.
     NoExtension {
         /// Name of the material.
-        material: &'static str,
+        material: Text,
         /// Reason that its declaration states.
-        reason: Option<&'static str>,
+        reason: Option<Text>,
     },
     /// The material does not know the derivatives of its stress by its parameters.
     NotFittable {
         /// Name of the material.
-        material: &'static str,
+        material: Text,
     },
     /// The extension would not restore an inverted point.
     DoesNotRestore {
         /// The condition that would make it restore.
-        condition: &'static str,
+        condition: Text,
         /// The parameters that it names, as given.
         given: Vec<Argument>,
     },
@@ -159,7 +159,7 @@ impl fmt::Display for MaterialError {
             }
             Self::NoExtension { material, reason } => {
                 write!(f, "{material} has no extension beyond its domain")?;
-                reason.map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
+                reason.as_ref().map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
                 write!(f, "; use `Inversion::Refuse`")
             }
             Self::NotFittable { material } => write!(
@@ -189,10 +189,10 @@ impl std::error::Error for MaterialError {}
 
 /// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] =
 /// 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
     /// Name of the parameter.
-    pub parameter: &'static str,
+    pub parameter: Text,
     /// Place in the list, counted from 0, if the parameter is one.
     pub index: Option<usize>,
     /// Its value.
@@ -202,21 +202,21 @@ pub struct Argument {
 impl Argument {
     /// A parameter that is a number.
     #[must_use]
-    pub const fn scalar(parameter: &'static str, value: f64) -> Self {
-        Self { parameter, index: None, value }
+    pub fn scalar(parameter: impl Into<Text>, value: f64) -> Self {
+        Self { parameter: parameter.into(), index: None, value }
     }
 
     /// An entry of a parameter that is a list.
     #[must_use]
-    pub const fn entry(parameter: &'static str, index: usize, value: f64) -> Self {
-        Self { parameter, index: Some(index), value }
+    pub fn entry(parameter: impl Into<Text>, index: usize, value: f64) -> Self {
+        Self { parameter: parameter.into(), index: Some(index), value }
     }
 
     /// Name of the parameter, such as `mu`, with its index if it is an entry, such as `alpha[2]`.
     #[must_use]
     pub fn name(&self) -> String {
         let Self { parameter, index, .. } = self;
-        index.map_or_else(|| (*parameter).to_owned(), |index| format!("{parameter}[{index}]"))
+        index.map_or_else(|| parameter.to_string(), |index| format!("{parameter}[{index}]"))
     }
 }
 
@@ -238,7 +238,7 @@ mod tests {
     fn a_rest_state_outside_of_the_domain_is_told_by_the_condition() {
         let outside = |given: &[Argument]| {
             let given = given.to_vec();
-            MaterialError::RestOutside { condition: "I1b < lm.powi(2)", given }.to_string()
+            MaterialError::RestOutside { condition: "I1b < lm.powi(2)".into(), given }.to_string()
         };
         let text = outside(&[Argument::scalar("lm", 1.5)]);
         assert!(text.contains("`I1b < lm.powi(2)` must hold there too, but lm = 1.5; change"), "{text}");

@@ -1,6 +1,6 @@
 //! Derivatives with respect to the parameters, for fits to measurements.
 
-use super::{Declared, Inversion, MaterialError};
+use super::{Declared, Inversion, MaterialError, Text};
 
 /// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
 ///
@@ -83,7 +83,7 @@ pub trait Fittable: Declared {
     ///
     /// # fn main() -> Result<(), piola::material::MaterialError> {
     /// let [upper, shear, bulk] = <[_; 3]>::try_from(Rubber::new(6e5, 1e6)?.constraints()).expect("three");
-    /// assert_eq!((upper.limit, upper.value), (Limit::Admissible("lambda <= 1e7"), 9e6));
+    /// assert_eq!((upper.limit, upper.value), (Limit::Admissible("lambda <= 1e7".into()), 9e6));
     /// assert_eq!((shear.limit, shear.value), (Limit::ShearModulus, 6e5));
     /// // K = λ + 2/3 μ
     /// assert_eq!((bulk.limit, bulk.gradient), (Limit::BulkModulus, vec![2.0 / 3.0, 1.0]));
@@ -113,17 +113,17 @@ pub struct Constraint {
 }
 
 /// A limit on the parameters of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
     /// A comparison of `admissible(…)`, as declared.
-    Admissible(&'static str),
+    Admissible(Text),
     /// The shear modulus at rest is positive.
     ShearModulus,
     /// The bulk modulus at rest is not negative.
     BulkModulus,
     /// A comparison of `domain(…)`, as declared.
-    Domain(&'static str),
+    Domain(Text),
 }
 
 impl Constraint {

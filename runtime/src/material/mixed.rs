@@ -116,6 +116,15 @@ macro_rules! mixed_responses {
                     each_lane!(self, $domain, at, |lanes, found, others| (lanes & found) | (!lanes & others))
                 }
             )*
+            fn has_invariants(&self) -> bool {
+                self.materials.iter().all(|material| material.has_invariants())
+            }
+            fn has_second_invariant(&self) -> bool {
+                self.materials.iter().any(|material| material.has_second_invariant())
+            }
+            fn has_energy_by_invariants(&self) -> bool {
+                self.materials.iter().all(|material| material.has_energy_by_invariants())
+            }
             fn has_pole(&self) -> bool {
                 self.materials.iter().any(|material| material.has_pole())
             }

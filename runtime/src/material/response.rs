@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Blocks, Inversion, Material, Moduli};
-use crate::lanes::Real;
+use crate::lanes::{Backend, Real, Scalar};
 
 /// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
 ///
@@ -28,6 +28,50 @@ macro_rules! with_responses {
 }
 pub(super) use with_responses;
 
+/// A response that many points compute together: see [`Material::respond_together`].
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResponseKind {
+    /// [`Material::energy`], one number.
+    Energy,
+    /// [`Material::gradient`], three numbers.
+    Gradient,
+    /// [`Material::blocks`], fifteen numbers in the order of the fields of [`Blocks`].
+    Blocks,
+    /// [`Material::energy_by_invariants`], one number.
+    EnergyByInvariants,
+    /// [`Material::gradient_by_invariants`], three numbers.
+    GradientByInvariants,
+    /// [`Material::derivatives_by_invariants`], nine numbers.
+    DerivativesByInvariants,
+}
+
+impl ResponseKind {
+    /// Whether its arguments are I1, I2, J and not stretches.
+    #[must_use]
+    pub fn is_by_invariants(self) -> bool {
+        !matches!(self, Self::Energy | Self::Gradient | Self::Blocks)
+    }
+}
+
+/// Points that compute a response together: see [`Material::respond_together`].
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Tile<'a, E> {
+    /// Vector instructions of the kernels.
+    pub backend: Backend,
+    /// Number of points, at most 64.
+    pub count: usize,
+    /// Number of points with a material of their own; 1 if all have the same.
+    pub materials: usize,
+    /// Distance of the rows of arguments, and of those of results.
+    pub stride: usize,
+    /// Rows of the three arguments.
+    pub arguments: &'a [E],
+    /// Rows for the results.
+    pub results: &'a mut [E],
+}
+
 macro_rules! declare_response {
     ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         /// Responses of a material for one type of real number: implemented for every [`Material`].
@@ -49,11 +93,11 @@ macro_rules! declare_response {
                 #[doc = concat!("Forwards to [`Material::", stringify!($domain), "`].")]
                 fn $domain(&self, at: [R; 3]) -> R::Mask;
             )*
-            /// [`Material::HAS_INVARIANTS`].
+            /// Forwards to [`Material::has_invariants`].
             fn has_invariants(&self) -> bool;
-            /// [`Material::HAS_SECOND_INVARIANT`].
+            /// Forwards to [`Material::has_second_invariant`].
             fn has_second_invariant(&self) -> bool;
-            /// [`Material::HAS_ENERGY_BY_INVARIANTS`].
+            /// Forwards to [`Material::has_energy_by_invariants`].
             fn has_energy_by_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
             fn has_pole(&self) -> bool;
@@ -76,15 +120,15 @@ macro_rules! declare_response {
             )*
             #[inline]
             fn has_invariants(&self) -> bool {
-                M::HAS_INVARIANTS
+                Material::has_invariants(self)
             }
             #[inline]
             fn has_second_invariant(&self) -> bool {
-                M::HAS_SECOND_INVARIANT
+                Material::has_second_invariant(self)
             }
             #[inline]
             fn has_energy_by_invariants(&self) -> bool {
-                M::HAS_ENERGY_BY_INVARIANTS
+                Material::has_energy_by_invariants(self)
             }
             #[inline]
             fn has_pole(&self) -> bool {
@@ -117,6 +161,26 @@ macro_rules! forward_to_pointee {
                     (**self).$domain(at)
                 }
             )*
+            fn has_invariants(&self) -> bool {
+                (**self).has_invariants()
+            }
+            fn has_second_invariant(&self) -> bool {
+                (**self).has_second_invariant()
+            }
+            fn has_energy_by_invariants(&self) -> bool {
+                (**self).has_energy_by_invariants()
+            }
+            const RESPONDS_TOGETHER: bool = M::RESPONDS_TOGETHER;
+            fn respond_together<'m, E: Scalar>(
+                material: impl Fn(usize) -> &'m Self + Copy,
+                response: ResponseKind,
+                tile: Tile<'_, E>,
+            ) -> u64
+            where
+                Self: 'm,
+            {
+                M::respond_together(|point| &**material(point), response, tile)
+            }
             fn has_pole(&self) -> bool {
                 (**self).has_pole()
             }

@@ -1,6 +1,5 @@
 //! Results of a run.
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 use std::ops::AddAssign;
@@ -9,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use piola::message::number;
 use piola::step::Integrator;
+
+use crate::material::Parameters;
 
 /// How far each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -145,7 +146,7 @@ pub struct Summary {
     /// Name of the material.
     pub material: String,
     /// Parameters of the material by name, in SI units.
-    pub parameters: BTreeMap<&'static str, Vec<f64>>,
+    pub parameters: Parameters,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.

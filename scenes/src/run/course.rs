@@ -234,7 +234,7 @@ impl<'a> Course<'a> {
         } = self;
         let summary = Summary {
             scene: settings.scene.name.into(),
-            material: play.material().into(),
+            material: play.material().to_string(),
             parameters: play.parameters().clone(),
             tets: geometry.mesh.tets.len(),
             nodes: geometry.mesh.positions.len(),

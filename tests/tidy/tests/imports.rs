@@ -8,10 +8,14 @@ use piola_tidy::tokens::mentions;
 use piola_tidy::{Crate, crates, files, forbid};
 
 /// Crates that nothing in a folder may name, its tests included.
-const FORBIDDEN: [(&str, &[&str]); 6] = [
+const FORBIDDEN: [(&str, &[&str]); 7] = [
     ("macros/core/src", &["nalgebra", "piola_materials", "faer"]),
     ("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
     ("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]),
+    (
+        "declare/src",
+        &["piola_materials", "piola_laboratory", "piola_scenes", "piola_tests", "nalgebra", "faer"],
+    ),
     ("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
     ("scenes/src", &["piola_cli", "piola_tests", "piola_codegen"]),
     ("cli/src", &["piola_tests", "piola_codegen"]),
@@ -26,7 +30,7 @@ const RUNTIME: [&[&str]; 12] = [
     &["material"],
     &["__private"],
     &["univariate"],
-    &["point"],
+    &["interpreter", "point"],
     &["batch", "contract", "convert"],
     &["dynamic"],
     &["system"],

@@ -2,7 +2,7 @@
 //! its moduli.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
@@ -17,7 +17,8 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let Texts { formula, domain, defined, moduli, summary } = texts;
     let domain = [domain.as_str(), defined].join(" ");
     let domain = domain.trim_end();
-    let type_name = name.to_string();
+    let [type_name, summary, formula, domain] = [&name.to_string(), summary, formula, domain].map(text);
+    let moduli = moduli.each_ref().map(text);
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
         // An exponent has no unit, whatever its documentation leaves out.
@@ -34,18 +35,19 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
             Kind::List(_) => quote!(__p::Form::List),
             Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::FORM),
         };
+        let (name, doc) = (text(name), text(doc));
         quote!(__p::Parameter { name: #name, doc: #doc, unit: #unit, form: #form })
     });
     let typical = option(declaration.options.typical.as_ref().map(typical));
     let extends = declaration.options.extend.is_some();
     let refusal = option(match &declaration.options.refuse {
-        Some(reason) => Some(quote!(#reason)),
+        Some(reason) => Some(text(reason)),
         None if declaration.options.domain.is_empty() => {
-            Some(quote!("it is defined for every deformation gradient already"))
+            Some(text("it is defined for every deformation gradient already"))
         }
         None => None,
     });
-    let admissible = declaration.options.admissible.iter().map(condition_text);
+    let admissible = declaration.options.admissible.iter().map(|condition| text(condition_text(condition)));
 
     let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
     let values =
@@ -65,11 +67,11 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
                 name: #type_name,
                 summary: #summary,
                 formula: #formula,
-                parameters: &[#(#parameters),*],
+                parameters: __p::Borrowed(&[#(#parameters),*]),
                 domain: #domain,
                 extends: #extends,
                 refusal: #refusal,
-                admissible: &[#(#admissible),*],
+                admissible: __p::Borrowed(&[#(#admissible),*]),
                 moduli: [#(#moduli),*],
                 typical: #typical,
             };
@@ -113,10 +115,15 @@ fn typical(typical: &Typical) -> TokenStream {
             let magnitude = Literal::f64_unsuffixed(number.abs());
             if number.is_sign_negative() { quote!(-#magnitude) } else { quote!(#magnitude) }
         });
-        quote!(&[#(#numbers),*])
+        quote!(__p::Borrowed(&[#(#numbers),*]))
     });
-    let source = &typical.source;
-    quote!(__p::Typical { values: &[#(#lists),*], source: #source })
+    let source = text(&typical.source);
+    quote!(__p::Typical { values: __p::Borrowed(&[#(#lists),*]), source: #source })
+}
+
+/// A text of the description.
+fn text(text: impl ToTokens) -> TokenStream {
+    quote!(__p::Borrowed(#text))
 }
 
 fn option(value: Option<TokenStream>) -> TokenStream {

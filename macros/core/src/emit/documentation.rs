@@ -9,7 +9,7 @@ use crate::schedule::count::{LEGEND, table};
 use super::{Texts, condition_text};
 
 /// The documentation of the type, below that of its declaration.
-pub(super) fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
+pub fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
     let Texts { formula, moduli: [shear, lame], .. } = texts;
     let sections = [
         format!("```text\nψ = {formula}\n```"),

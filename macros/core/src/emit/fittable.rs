@@ -258,13 +258,13 @@ fn limit(declaration: &Declaration, limit: Limit) -> TokenStream {
     match limit {
         Limit::Admissible(k) => {
             let text = text(declaration.options.admissible.get(k));
-            quote!(__p::Limit::Admissible(#text))
+            quote!(__p::Limit::Admissible(__p::Borrowed(#text)))
         }
         Limit::ShearModulus => quote!(__p::Limit::ShearModulus),
         Limit::BulkModulus => quote!(__p::Limit::BulkModulus),
         Limit::Domain(k) => {
             let text = text(declaration.bounds().nth(k));
-            quote!(__p::Limit::Domain(#text))
+            quote!(__p::Limit::Domain(__p::Borrowed(#text)))
         }
     }
 }

@@ -24,7 +24,7 @@ impl Declaration {
     }
 
     /// The conditions of the domain except those on the sign of J.
-    pub(crate) fn bounds(&self) -> impl Iterator<Item = &Expr> {
+    pub fn bounds(&self) -> impl Iterator<Item = &Expr> {
         self.options.domain.iter().filter(|condition| volume(condition).is_none())
     }
 }

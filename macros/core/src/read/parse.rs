@@ -193,7 +193,8 @@ pub fn parse_declaration(
 }
 
 /// All names among tokens.
-pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
+#[must_use]
+pub fn identifiers(tokens: TokenStream) -> Vec<Ident> {
     let names = tokens.into_iter().map(|token| match token {
         TokenTree::Ident(name) => vec![name],
         TokenTree::Group(group) => identifiers(group.stream()),
@@ -203,7 +204,8 @@ pub(crate) fn identifiers(tokens: TokenStream) -> Vec<Ident> {
 }
 
 /// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
-pub(crate) fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
+#[must_use]
+pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
     indexed_lists(condition.to_token_stream()).into_iter().next()
 }
 

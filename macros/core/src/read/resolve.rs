@@ -20,6 +20,12 @@ mod stretches;
 mod sums;
 mod tensors;
 
+/// The advice for a name that papers use for what an energy writes in another way, such as `trC`.
+#[must_use]
+pub fn advice(name: &str) -> Option<&'static str> {
+    paper_notation::name(name)
+}
+
 /// A resolver of the names of one declaration.
 pub struct Resolver<'a> {
     declaration: &'a Declaration,

@@ -660,37 +660,53 @@ const _: () = {
     }
     impl __p::Declared for Gent {
         const DESCRIPTION: __p::Description = __p::Description {
-            name: "Gent",
-            summary: "Gent solid: rubber that locks where I1 − 3 reaches Jm.",
-            formula: "1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J",
-            parameters: &[
-                __p::Parameter {
-                    name: "mu",
-                    doc: "Shear modulus μ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::Number,
-                },
-                __p::Parameter {
-                    name: "jm",
-                    doc: "Locking value Jm of I1 − 3, dimensionless.",
-                    unit: Some(__p::Unit::Dimensionless),
-                    form: __p::Form::Number,
-                },
-                __p::Parameter {
-                    name: "kappa",
-                    doc: "Volumetric modulus κ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::Number,
-                },
-            ],
-            domain: "J > 0, I1 - 3 < jm",
+            name: __p::Borrowed("Gent"),
+            summary: __p::Borrowed(
+                "Gent solid: rubber that locks where I1 − 3 reaches Jm.",
+            ),
+            formula: __p::Borrowed(
+                "1/2 κ (J − 1)² − 1/2 μ jm ln(1 − (I1 − 3)/jm) − μ ln J",
+            ),
+            parameters: __p::Borrowed(
+                &[
+                    __p::Parameter {
+                        name: __p::Borrowed("mu"),
+                        doc: __p::Borrowed("Shear modulus μ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::Number,
+                    },
+                    __p::Parameter {
+                        name: __p::Borrowed("jm"),
+                        doc: __p::Borrowed(
+                            "Locking value Jm of I1 − 3, dimensionless.",
+                        ),
+                        unit: Some(__p::Unit::Dimensionless),
+                        form: __p::Form::Number,
+                    },
+                    __p::Parameter {
+                        name: __p::Borrowed("kappa"),
+                        doc: __p::Borrowed("Volumetric modulus κ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::Number,
+                    },
+                ],
+            ),
+            domain: __p::Borrowed("J > 0, I1 - 3 < jm"),
             extends: true,
             refusal: None,
-            admissible: &["mu > 0", "jm > 0"],
-            moduli: ["μ", "κ + 2 μ/jm"],
+            admissible: __p::Borrowed(
+                &[__p::Borrowed("mu > 0"), __p::Borrowed("jm > 0")],
+            ),
+            moduli: [__p::Borrowed("μ"), __p::Borrowed("κ + 2 μ/jm")],
             typical: Some(__p::Typical {
-                values: &[&[330000.0], &[108.0], &[20000000.0]],
-                source: "natural rubber, fitted to Treloar 1944",
+                values: __p::Borrowed(
+                    &[
+                        __p::Borrowed(&[330000.0]),
+                        __p::Borrowed(&[108.0]),
+                        __p::Borrowed(&[20000000.0]),
+                    ],
+                ),
+                source: __p::Borrowed("natural rubber, fitted to Treloar 1944"),
             }),
         };
         fn from_values(
@@ -740,8 +756,8 @@ const _: () = {
             type R = f64;
             let mut constraints = __p::Constraint::all(
                 [
-                    __p::Limit::Admissible("mu > 0"),
-                    __p::Limit::Admissible("jm > 0"),
+                    __p::Limit::Admissible(__p::Borrowed("mu > 0")),
+                    __p::Limit::Admissible(__p::Borrowed("jm > 0")),
                     __p::Limit::ShearModulus,
                     __p::Limit::BulkModulus,
                 ],
@@ -800,7 +816,7 @@ const _: () = {
             use ::piola::Real;
             type R = f64;
             let mut constraints = __p::Constraint::all(
-                [__p::Limit::Domain("I1 - 3 < jm")],
+                [__p::Limit::Domain(__p::Borrowed("I1 - 3 < jm"))],
                 {
                     let jm: R = __p::ParameterValue::on(&self.jm);
                     [

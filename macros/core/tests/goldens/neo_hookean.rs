@@ -524,31 +524,37 @@ const _: () = {
     }
     impl __p::Declared for NeoHookean {
         const DESCRIPTION: __p::Description = __p::Description {
-            name: "NeoHookean",
-            summary: "Compressible neo-Hookean solid with a logarithmic volumetric part: rubber at moderate strain.",
-            formula: "1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J",
-            parameters: &[
-                __p::Parameter {
-                    name: "mu",
-                    doc: "Shear modulus μ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::Number,
-                },
-                __p::Parameter {
-                    name: "lambda",
-                    doc: "First Lamé parameter λ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::Number,
-                },
-            ],
-            domain: "J > 0",
+            name: __p::Borrowed("NeoHookean"),
+            summary: __p::Borrowed(
+                "Compressible neo-Hookean solid with a logarithmic volumetric part: rubber at moderate strain.",
+            ),
+            formula: __p::Borrowed("1/2 μ (I1 − 3) + 1/2 λ (ln J)² − μ ln J"),
+            parameters: __p::Borrowed(
+                &[
+                    __p::Parameter {
+                        name: __p::Borrowed("mu"),
+                        doc: __p::Borrowed("Shear modulus μ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::Number,
+                    },
+                    __p::Parameter {
+                        name: __p::Borrowed("lambda"),
+                        doc: __p::Borrowed("First Lamé parameter λ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::Number,
+                    },
+                ],
+            ),
+            domain: __p::Borrowed("J > 0"),
             extends: true,
             refusal: None,
-            admissible: &["mu > 0"],
-            moduli: ["μ", "λ"],
+            admissible: __p::Borrowed(&[__p::Borrowed("mu > 0")]),
+            moduli: [__p::Borrowed("μ"), __p::Borrowed("λ")],
             typical: Some(__p::Typical {
-                values: &[&[380000.0], &[20000000.0]],
-                source: "natural rubber, fitted to Treloar 1944",
+                values: __p::Borrowed(
+                    &[__p::Borrowed(&[380000.0]), __p::Borrowed(&[20000000.0])],
+                ),
+                source: __p::Borrowed("natural rubber, fitted to Treloar 1944"),
             }),
         };
         fn from_values(
@@ -587,7 +593,7 @@ const _: () = {
             type R = f64;
             let mut constraints = __p::Constraint::all(
                 [
-                    __p::Limit::Admissible("mu > 0"),
+                    __p::Limit::Admissible(__p::Borrowed("mu > 0")),
                     __p::Limit::ShearModulus,
                     __p::Limit::BulkModulus,
                 ],

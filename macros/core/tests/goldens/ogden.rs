@@ -700,41 +700,49 @@ const _: () = {
     }
     impl<const N: usize> __p::Declared for Ogden<N> {
         const DESCRIPTION: __p::Description = __p::Description {
-            name: "Ogden",
-            summary: "Compressible Ogden solid with N terms: rubber at large strain.",
-            formula: "Σₚ μₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3)/αₚ + 1/2 κ (J − 1)² − (Σₚ μₚ) ln J",
-            parameters: &[
-                __p::Parameter {
-                    name: "mu",
-                    doc: "Moduli μₚ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::List,
-                },
-                __p::Parameter {
-                    name: "alpha",
-                    doc: "Exponents αₚ, dimensionless.",
-                    unit: Some(__p::Unit::Dimensionless),
-                    form: __p::Form::List,
-                },
-                __p::Parameter {
-                    name: "kappa",
-                    doc: "Volumetric modulus κ, Pa.",
-                    unit: Some(__p::Unit::Pascal),
-                    form: __p::Form::Number,
-                },
-            ],
-            domain: "J > 0",
+            name: __p::Borrowed("Ogden"),
+            summary: __p::Borrowed(
+                "Compressible Ogden solid with N terms: rubber at large strain.",
+            ),
+            formula: __p::Borrowed(
+                "Σₚ μₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3)/αₚ + 1/2 κ (J − 1)² − (Σₚ μₚ) ln J",
+            ),
+            parameters: __p::Borrowed(
+                &[
+                    __p::Parameter {
+                        name: __p::Borrowed("mu"),
+                        doc: __p::Borrowed("Moduli μₚ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::List,
+                    },
+                    __p::Parameter {
+                        name: __p::Borrowed("alpha"),
+                        doc: __p::Borrowed("Exponents αₚ, dimensionless."),
+                        unit: Some(__p::Unit::Dimensionless),
+                        form: __p::Form::List,
+                    },
+                    __p::Parameter {
+                        name: __p::Borrowed("kappa"),
+                        doc: __p::Borrowed("Volumetric modulus κ, Pa."),
+                        unit: Some(__p::Unit::Pascal),
+                        form: __p::Form::Number,
+                    },
+                ],
+            ),
+            domain: __p::Borrowed("J > 0"),
             extends: true,
             refusal: None,
-            admissible: &["alpha[p] != 0"],
-            moduli: ["1/2 Σₚ μₚ αₚ", "κ"],
+            admissible: __p::Borrowed(&[__p::Borrowed("alpha[p] != 0")]),
+            moduli: [__p::Borrowed("1/2 Σₚ μₚ αₚ"), __p::Borrowed("κ")],
             typical: Some(__p::Typical {
-                values: &[
-                    &[630000.0, 1200.0, -10000.0],
-                    &[1.3, 5.0, -2.0],
-                    &[20000000.0],
-                ],
-                source: "natural rubber, the three terms of the source",
+                values: __p::Borrowed(
+                    &[
+                        __p::Borrowed(&[630000.0, 1200.0, -10000.0]),
+                        __p::Borrowed(&[1.3, 5.0, -2.0]),
+                        __p::Borrowed(&[20000000.0]),
+                    ],
+                ),
+                source: __p::Borrowed("natural rubber, the three terms of the source"),
             }),
         };
         fn from_values(

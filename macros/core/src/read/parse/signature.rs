@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 31] = [
+const MEMBERS: [&str; 36] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -28,6 +28,9 @@ const MEMBERS: [&str; 31] = [
     "HAS_INVARIANTS",
     "HAS_SECOND_INVARIANT",
     "HAS_ENERGY_BY_INVARIANTS",
+    "has_invariants",
+    "has_second_invariant",
+    "has_energy_by_invariants",
     "energy_by_invariants",
     "gradient_by_invariants",
     "derivatives_by_invariants",
@@ -36,6 +39,8 @@ const MEMBERS: [&str; 31] = [
     "ends_at_zero_volume",
     "inversion",
     "stated_moduli",
+    "RESPONDS_TOGETHER",
+    "respond_together",
     // Of `Declared`.
     "DESCRIPTION",
     "from_values",

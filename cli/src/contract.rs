@@ -1,0 +1,44 @@
+//! `piola contract`: the rules that every material must keep, on an energy without a crate.
+
+use clap::Args;
+use piola::Inversion;
+use piola::contract::{Settings, check};
+
+use crate::bench::Material;
+use crate::error::Error;
+
+/// For materials of the catalogue the tests of piola do the same. Prints how near each rule came to its tolerance, or what is broken, and where.
+#[derive(Debug, Args)]
+pub(crate) struct Contract {
+    #[command(flatten)]
+    material: Material,
+
+    /// Check the energy that is continued by polynomials below this stretch, too.
+    #[arg(long, value_name = "STRETCH", allow_negative_numbers = true)]
+    extend: Option<f64>,
+}
+
+impl Contract {
+    /// Checks the rules.
+    pub(crate) fn run(self) -> Result<String, Error> {
+        let spec = self.material.spec()?;
+        let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });
+        let mut text = String::new();
+        for inversion in std::iter::once(Inversion::Refuse).chain(inversions) {
+            let spec = spec.clone().with_inversion(inversion);
+            let material = spec.build()?.name;
+            let interpreted =
+                spec.interpreted()?.ok_or_else(|| Error::OfTheCatalogue(material.to_string()))?;
+            let report = check(&interpreted, &Settings::default())
+                .map_err(|violations| Error::Contract { material: material.to_string(), violations })?;
+            text += &match inversion {
+                Inversion::Refuse => format!("{material} keeps the contract\n"),
+                Inversion::Extend { epsilon } => format!("continued below {epsilon}, it does as well\n"),
+            };
+            for finding in &report.findings {
+                text += &format!("  {finding}\n");
+            }
+        }
+        Ok(text)
+    }
+}

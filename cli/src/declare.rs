@@ -1,0 +1,39 @@
+//! `piola declare`: a formula as a declaration in Rust, and its derivatives as formulas.
+
+use clap::Args;
+use piola_declare::{Energy, FormulaOptions};
+
+use crate::error::Error;
+
+/// The declaration can be pasted into a crate that depends on `piola`, or written to a file and given to
+/// `--material`.
+#[derive(Debug, Args)]
+pub(crate) struct Declare {
+    /// The energy, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`; conditions may follow, as in `…
+    /// where J > 0`.
+    formula: String,
+
+    /// Subtract s ln J from it, s being its stress at rest, which it then has no more.
+    #[arg(long)]
+    free_rest: bool,
+
+    /// Add kappa/2 (J - 1)^2 to it, which resists changes of volume.
+    #[arg(long)]
+    kappa: bool,
+}
+
+impl Declare {
+    /// The declaration and what follows from it.
+    pub(crate) fn run(self) -> Result<String, Error> {
+        let options = FormulaOptions::default().with_free_rest(self.free_rest);
+        let options = if self.kappa { options.with_bulk("kappa") } else { options };
+        let energy = Energy::from_formula_with(&self.formula, &options).map_err(Error::Declaration)?;
+        Ok(format!("{}\n{}", energy.source(), as_comment(energy.documentation())))
+    }
+}
+
+/// Documentation as a comment, so that all of the output is Rust.
+fn as_comment(documentation: &str) -> String {
+    let lines = documentation.trim().lines().map(|line| format!("// {line}").trim_end().to_owned());
+    lines.collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,77 @@
+//! Energies that are declared on the command line: `--energy FORMULA`, or a file in the place of a material's
+//! name.
+
+use std::path::Path;
+
+use clap::Args;
+use piola_declare::{Energy, FormulaOptions};
+use piola_scenes::material::MaterialSpec;
+
+use crate::error::Error;
+use crate::value::Given;
+
+/// Options of a formula.
+#[derive(Debug, Default, PartialEq, Args)]
+pub(crate) struct Formula {
+    /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, in place of a material.
+    ///
+    /// Its names are the stretches l1, l2, l3, the invariants I1, I2, J, I1b and I2b, and parameters, whose
+    /// values --param gives. Conditions may follow, as in `… where J > 0, I1 < 3 + Jm`.
+    #[arg(long, value_name = "FORMULA", conflicts_with = "material")]
+    energy: Option<String>,
+
+    /// Subtract s ln J from the formula, s being its stress at rest, which it then has no more.
+    #[arg(long, requires = "energy")]
+    free_rest: bool,
+
+    /// Add K/2 (J - 1)^2 to the formula, which resists changes of volume; K in Pa.
+    #[arg(long, value_name = "K", requires = "energy", allow_negative_numbers = true)]
+    kappa: Option<f64>,
+}
+
+/// The name of the parameter that `--kappa` adds.
+const BULK: &str = "kappa";
+
+impl Formula {
+    /// The material of the formula with these parameters, if a formula is given.
+    pub(crate) fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
+        let Some(formula) = &self.energy else { return Ok(None) };
+        // A name without a value is a mistake, told at its place, unless none has a value yet.
+        let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
+        let known = (!parameters.is_empty()).then(|| names.collect());
+        let options = FormulaOptions::default().with_parameters(known).with_free_rest(self.free_rest);
+        let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
+        let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
+        let spec = MaterialSpec::declared(energy);
+        Ok(Some(match self.kappa {
+            Some(kappa) => spec.with_parameter(BULK, [kappa]),
+            None => spec,
+        }))
+    }
+}
+
+/// The material of a declaration in Rust, if a name is that of a file.
+pub(crate) fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
+    if !is_file(name) {
+        return Ok(None);
+    }
+    read(Path::new(name)).map(|energy| Some(MaterialSpec::declared(energy)))
+}
+
+/// Whether the name of a material is that of a file of Rust.
+fn is_file(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension == "rs")
+}
+
+/// The energy that a file of Rust declares.
+pub(crate) fn read(path: &Path) -> Result<Energy, Error> {
+    let unreadable = |source| Error::Unreadable { path: path.to_owned(), source };
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
+    Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
+}
+
+/// Adds values of parameters to a material.
+pub(crate) fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> MaterialSpec {
+    parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values))
+}

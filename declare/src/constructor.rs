@@ -1,0 +1,188 @@
+//! The constructor of an energy: checks of the values of parameters, with the errors of a compiled one.
+
+use std::sync::Arc;
+
+use piola::__private::{defined_at_rest, extends, stable_at_rest, stress_free_at_rest};
+use piola::interpreter::{Interpreted, Program, Programs, Value, Values};
+use piola::material::{Argument, Description, Form, MaterialError, Text};
+use piola::{Inversion, Spline, Univariate};
+use piola_codegen::model::Model;
+use piola_codegen::read::parse::{Declaration, Entries};
+
+use crate::condition::Condition;
+use crate::lower::lower;
+
+/// The largest exponent that is a parameter.
+const LARGEST_WHOLE: f64 = 64.0;
+
+/// What the values of an energy's parameters must be like.
+#[derive(Debug)]
+pub(crate) struct Constructor {
+    /// The length of each list, by its place among the lengths.
+    lengths: Vec<Option<usize>>,
+    /// The lengths that the declaration itself states.
+    stated: Vec<Option<usize>>,
+    /// Whether lists of a length are arrays, and not vectors.
+    are_arrays: Vec<bool>,
+    admissible: Vec<Condition>,
+    /// Conditions under which an extension restores; `None` without an extension.
+    extend: Option<Vec<Condition>>,
+    /// Bounds of the domain that parameters decide at rest.
+    at_rest: Vec<(Program, Condition)>,
+    is_prestressed: bool,
+    has_functions: bool,
+}
+
+impl Constructor {
+    /// The checks of a declaration; `None` if a program needs more registers than there are.
+    pub(crate) fn new(declaration: &Declaration, model: &mut Model) -> Option<Self> {
+        let options = &declaration.options;
+        let conditions = |all: &[syn::Expr]| all.iter().map(|one| Condition::new(declaration, one)).collect();
+        let bounds: Vec<_> = declaration.bounds().cloned().collect();
+        let mut at_rest = Vec::new();
+        for (k, value) in model.bounds_at_rest.clone() {
+            let program = lower(declaration, &model.program(&[value]))?;
+            at_rest.extend(bounds.get(k).map(|bound| (program, Condition::new(declaration, bound))));
+        }
+        let stated = declaration.lengths.iter().map(|entries| match entries {
+            Entries::Known(syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(length), .. })) => {
+                length.base10_parse().ok()
+            }
+            _ => None,
+        });
+        Some(Self {
+            lengths: declaration.parameters.iter().map(|parameter| parameter.length()).collect(),
+            stated: stated.collect(),
+            are_arrays: declaration.lengths.iter().map(|entries| !entries.are_known_at_run_time()).collect(),
+            admissible: conditions(&options.admissible),
+            extend: options.extend.as_deref().map(conditions),
+            at_rest,
+            is_prestressed: options.prestressed,
+            has_functions: declaration.has_functions(),
+        })
+    }
+
+    /// The values of the parameters, each in its form.
+    pub(crate) fn values(
+        &self,
+        description: &Description,
+        given: &[&[f64]],
+    ) -> Result<Values, MaterialError> {
+        self.each(description, given, |_, list| Spline::from_values(list))
+    }
+
+    /// Other values for the parameters of a material, in the form that a fit changes.
+    pub(crate) fn changed_values(
+        &self,
+        description: &Description,
+        old: &Values,
+        given: &[Vec<f64>],
+    ) -> Result<Values, MaterialError> {
+        let given: Vec<_> = given.iter().map(Vec::as_slice).collect();
+        self.each(description, &given, |k, list| match old.all().get(k) {
+            Some(Value::Function(function)) => function.with_values(list),
+            _ => Spline::from_values(list),
+        })
+    }
+
+    fn each(
+        &self,
+        description: &Description,
+        given: &[&[f64]],
+        function: impl Fn(usize, &[f64]) -> Result<Spline, MaterialError>,
+    ) -> Result<Values, MaterialError> {
+        let parameters = &description.parameters;
+        if given.len() != parameters.len() {
+            let names: Vec<_> = parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();
+            let expected = format!("{} parameters are expected: {}", names.len(), names.join(", "));
+            return Err(MaterialError::Shape { expected });
+        }
+        let mut lengths: Vec<Option<(usize, &Text)>> = vec![None; self.stated.len()];
+        let mut values = Vec::new();
+        for (k, (parameter, list)) in parameters.iter().zip(given).enumerate() {
+            let name = &parameter.name;
+            if matches!(parameter.form, Form::Points | Form::Function) {
+                values.push(Value::Function(function(k, list)?));
+                continue;
+            }
+            if !parameter.is_list() && list.len() != 1 {
+                return Err(MaterialError::Shape { expected: format!("`{name}` must be one number") });
+            }
+            if let Some(length) = self.lengths[k] {
+                let (first, first_name) = *lengths[length].get_or_insert((list.len(), name));
+                let wanted = self.stated[length].unwrap_or(first);
+                if wanted != list.len() {
+                    let expected = match self.are_arrays[length] {
+                        true => format!("`{name}` must have {wanted} entries"),
+                        false => format!(
+                            "`{name}` must have as many entries as `{first_name}`, {first}, not {}",
+                            list.len()
+                        ),
+                    };
+                    return Err(MaterialError::Shape { expected });
+                }
+            }
+            values.push(Value::Numbers(list.to_vec()));
+        }
+        Ok(Values::new(values))
+    }
+
+    /// The material with these values, if they are admissible.
+    pub(crate) fn build(
+        &self,
+        description: &Description,
+        programs: &Arc<Programs>,
+        values: Values,
+        inversion: Inversion,
+    ) -> Result<Interpreted, MaterialError> {
+        for (parameter, value) in description.parameters.iter().zip(values.all()) {
+            let Value::Numbers(numbers) = value else { continue };
+            let argument = |index: usize, value: f64| match parameter.is_list() {
+                true => Argument::entry(parameter.name.clone(), index, value),
+                false => Argument::scalar(parameter.name.clone(), value),
+            };
+            for (index, &value) in numbers.iter().enumerate() {
+                let is_exponent = value.fract() == 0.0 && (0.0..=LARGEST_WHOLE).contains(&value);
+                if parameter.is_whole() && !is_exponent {
+                    return Err(MaterialError::NotWhole { given: argument(index, value) });
+                }
+                if !value.is_finite() {
+                    return Err(MaterialError::NotFinite { given: argument(index, value) });
+                }
+            }
+        }
+        for condition in &self.admissible {
+            if let Some(given) = condition.violation(&values) {
+                return Err(MaterialError::Violated { condition: condition.text.clone(), given });
+            }
+        }
+        let material = Interpreted::new(programs.clone(), values.clone(), Inversion::Refuse);
+        for (program, condition) in &self.at_rest {
+            let inside = material.compute(program, &[], 0)[0] > 0.0;
+            if !inside {
+                let (condition, given) = (condition.text.clone(), condition.numbers(&values));
+                return Err(MaterialError::RestOutside { condition, given });
+            }
+        }
+        let material = match (self.is_prestressed, self.has_functions) {
+            (true, false) => material,
+            (true, true) => defined_at_rest(material)?,
+            (false, false) => stable_at_rest(material)?,
+            (false, true) => {
+                defined_at_rest(material).and_then(stable_at_rest).and_then(stress_free_at_rest)?
+            }
+        };
+        let Inversion::Extend { .. } = inversion else { return Ok(material) };
+        let Some(conditions) = &self.extend else {
+            let (material, reason) = (description.name.clone(), description.refusal.clone());
+            return Err(MaterialError::NoExtension { material, reason });
+        };
+        extends(inversion)?;
+        for condition in conditions {
+            if let Some(given) = condition.violation(&values) {
+                return Err(MaterialError::DoesNotRestore { condition: condition.text.clone(), given });
+            }
+        }
+        Ok(Interpreted::new(programs.clone(), values, inversion))
+    }
+}

@@ -1,0 +1,306 @@
+//! An energy that was declared at run time, and the materials that it makes.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use piola::Inversion;
+use piola::interpreter::{ByInvariants, Calls, Interpreted, Programs, Value, Variant, Volume};
+#[cfg(doc)]
+use piola::material::Fittable;
+use piola::material::{Constraint, Description, Form, MaterialError, Parameter, Text, Typical, Unit};
+use piola::{Spline, Univariate};
+use piola_codegen::algebra::calls::calls;
+use piola_codegen::algebra::expr::Id;
+use piola_codegen::emit::documentation::documentation;
+use piola_codegen::emit::{Texts, condition_text};
+use piola_codegen::model::{self, Model};
+use piola_codegen::read;
+use piola_codegen::read::parse::{Declaration, Kind};
+
+use crate::constructor::Constructor;
+use crate::fit::Fit;
+use crate::lower::lower;
+
+/// An elastic energy, compiled from text.
+///
+/// Cheap to clone: clones share their programs.
+///
+/// ```
+/// use piola::{Inversion, Material};
+/// use piola_declare::Energy;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let energy = Energy::from_rust(
+///     "/// Compressible neo-Hookean solid.
+///      #[material(domain(J > 0.0), admissible(mu > 0.0))]
+///      fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///          mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+///      }",
+/// )?;
+/// let rubber = energy.material(&[&[1e6], &[5e6]], Inversion::Refuse)?;
+/// assert_eq!(rubber.gradient([2.0, 1.0, 0.5]), [1.5e6, 0.0, -1.5e6]);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Energy(Arc<Compiled>);
+
+#[derive(Debug)]
+struct Compiled {
+    description: Description,
+    documentation: String,
+    text: String,
+    source: String,
+    programs: Arc<Programs>,
+    constructor: Constructor,
+    fit: Option<Fit>,
+}
+
+/// Equal energies are declared by the same text.
+impl PartialEq for Energy {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.0.text == other.0.text
+    }
+}
+
+impl Energy {
+    /// The energy of a checked declaration; `None` if it needs more registers than there are.
+    pub(crate) fn new(
+        declaration: &Declaration,
+        mut model: Model,
+        text: String,
+        source: String,
+    ) -> Option<Self> {
+        let texts = Texts::of(declaration, &mut model);
+        let documentation = documentation(declaration, &mut model, &texts);
+        let programs = Arc::new(programs(declaration, &mut model)?);
+        Some(Self(Arc::new(Compiled {
+            description: description(declaration, texts),
+            documentation,
+            text,
+            source,
+            programs,
+            constructor: Constructor::new(declaration, &mut model)?,
+            fit: if model.by_parameters.is_some() { Some(Fit::new(declaration, &mut model)?) } else { None },
+        })))
+    }
+
+    /// Names, formula, parameters and domain of the declaration.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.0.description
+    }
+
+    /// The documentation that the type of the compiled energy would have, in Markdown: parameters, domain,
+    /// small-strain moduli, derivatives and quotients as formulas.
+    #[must_use]
+    pub fn documentation(&self) -> &str {
+        &self.0.documentation
+    }
+
+    /// The text that the energy was compiled from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.0.text
+    }
+
+    /// The declaration in Rust, to be pasted into a crate that depends on `piola`.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    /// Typical parameters as declared, one list for each; empty if there are none.
+    #[must_use]
+    pub fn typical(&self) -> Vec<&[f64]> {
+        let typical = self.0.description.typical.iter();
+        typical.flat_map(|typical| typical.values.iter().map(|list| &**list)).collect()
+    }
+
+    /// The material with these values, one slice for each parameter of the description, in its order: one
+    /// number, the entries of a list, or the control points x1, y1, x2, y2, … of a spline.
+    ///
+    /// # Errors
+    /// [`MaterialError`], those of the compiled energy's constructor.
+    pub fn material(&self, values: &[&[f64]], inversion: Inversion) -> Result<Interpreted, MaterialError> {
+        let Compiled { description, programs, constructor, .. } = &*self.0;
+        let values = constructor.values(description, values)?;
+        constructor.build(description, programs, values, inversion)
+    }
+
+    /// Whether the derivatives by the parameters are known: formulas have them, and declarations with `fit`.
+    #[must_use]
+    pub fn is_fittable(&self) -> bool {
+        self.0.fit.is_some()
+    }
+
+    /// The values of the parameters of a material of this energy, one list for each, as
+    /// [`with_values`](Self::with_values) takes them: [`Fittable::values`].
+    #[must_use]
+    pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
+        let values = material.values().all().iter();
+        let list = |value: &Value| match value {
+            Value::Numbers(numbers) => numbers.clone(),
+            Value::Function(function) => function.values(),
+        };
+        values.map(list).collect()
+    }
+
+    /// A material of this energy with other values, and without extension: [`Fittable::with_values`].
+    ///
+    /// # Errors
+    /// [`MaterialError`], those of [`Energy::material`].
+    pub fn with_values(
+        &self,
+        material: &Interpreted,
+        values: &[Vec<f64>],
+    ) -> Result<Interpreted, MaterialError> {
+        let Compiled { description, programs, constructor, .. } = &*self.0;
+        let values = constructor.changed_values(description, material.values(), values)?;
+        constructor.build(description, programs, values, Inversion::Refuse)
+    }
+
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, Pa for each unit of p:
+    /// [`Fittable::gradient_by_parameters`]. Empty unless the energy [is fittable](Self::is_fittable).
+    #[must_use]
+    pub fn gradient_by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
+        let material = self.without_extension(material);
+        self.0.fit.as_ref().map(|fit| fit.gradient(&material, stretches)).unwrap_or_default()
+    }
+
+    /// The conditions on the parameters: [`Fittable::constraints`]. Empty unless the energy [is
+    /// fittable](Self::is_fittable).
+    #[must_use]
+    pub fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
+        let material = self.without_extension(material);
+        self.0.fit.as_ref().map(|fit| fit.constraints(&material)).unwrap_or_default()
+    }
+
+    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0: [`Fittable::domain_constraints`]. Empty
+    /// unless the energy [is fittable](Self::is_fittable).
+    #[must_use]
+    pub fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
+        let material = self.without_extension(material);
+        self.0.fit.as_ref().map(|fit| fit.domain_constraints(&material, stretches)).unwrap_or_default()
+    }
+
+    fn without_extension(&self, material: &Interpreted) -> Interpreted {
+        Interpreted::new(self.0.programs.clone(), material.values().clone(), Inversion::Refuse)
+    }
+}
+
+/// The programs of all responses.
+fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
+    let program = |model: &mut Model, roots: &[Id]| lower(declaration, &model.program(roots));
+    let plain = variant(declaration, model, |model| &model.plain)?;
+    let extended = match model.extended.is_some() {
+        true => Some(variant(declaration, model, |model| model.extended.as_ref().unwrap_or(&model.plain))?),
+        false => None,
+    };
+    let by_invariants = match model.invariants.clone() {
+        None => None,
+        Some(by) => Some(ByInvariants {
+            energy: if by.has_energy { Some(program(model, &[by.energy])?) } else { None },
+            gradient: program(model, &by.gradient)?,
+            derivatives: program(model, &[&by.gradient[..], &by.hessian].concat())?,
+            bounds: program(model, &by.bounds)?,
+            calls: calls_of(declaration, model, by.energy)?,
+            has_second_invariant: !model.graph.is_zero(by.gradient[1]),
+        }),
+    };
+    Some(Programs {
+        plain,
+        extended,
+        at_strains: program(model, &model.at_strains.clone())?,
+        bounds: program(model, &model.bounds.clone())?,
+        volume: match model.volume {
+            read::domain::Volume::Any => Volume::Any,
+            read::domain::Volume::Positive => Volume::Positive,
+            read::domain::Volume::Nonzero => Volume::Nonzero,
+        },
+        by_invariants,
+        moduli: program(model, &model.moduli.clone())?,
+        are_whole: declaration.parameters.iter().map(|parameter| parameter.is_whole).collect(),
+    })
+}
+
+fn variant(
+    declaration: &Declaration,
+    model: &mut Model,
+    of: impl Fn(&Model) -> &model::Variant,
+) -> Option<Variant> {
+    let model::Variant { energy, gradient, has_pole, .. } = *of(model);
+    let blocks = of(model).blocks();
+    Some(Variant {
+        energy: lower(declaration, &model.program(&[energy]))?,
+        gradient: lower(declaration, &model.program(&gradient))?,
+        blocks: lower(declaration, &model.program(&blocks))?,
+        calls: calls_of(declaration, model, energy)?,
+        has_pole,
+    })
+}
+
+/// The calls of functions in an energy, those together whose arguments are made of lists of one length.
+fn calls_of(declaration: &Declaration, model: &mut Model, energy: Id) -> Option<Vec<Calls>> {
+    let all = calls(&model.graph, energy);
+    let length = |list: Option<usize>| list.and_then(|k| declaration.parameters[k].length());
+    let mut found = Vec::new();
+    for wanted in std::iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
+        let alike: Vec<_> = all.iter().filter(|call| length(call.list) == wanted).collect();
+        if let Some(first) = alike.first() {
+            let arguments: Vec<_> = alike.iter().map(|call| call.argument).collect();
+            found.push(Calls {
+                list: first.list,
+                arguments: lower(declaration, &model.program(&arguments))?,
+                functions: alike.iter().map(|call| call.function).collect(),
+            });
+        }
+    }
+    Some(found)
+}
+
+/// What the declaration says of itself.
+fn description(declaration: &Declaration, texts: Texts) -> Description {
+    let options = &declaration.options;
+    let parameters = declaration.parameters.iter().map(|parameter| {
+        let unit = match parameter.unit() {
+            _ if parameter.is_whole => Some(Unit::Dimensionless),
+            Some(read::unit::Unit::Pascal) => Some(Unit::Pascal),
+            Some(read::unit::Unit::PerPascal) => Some(Unit::PerPascal),
+            Some(read::unit::Unit::Dimensionless) => Some(Unit::Dimensionless),
+            None => None,
+        };
+        let form = match parameter.kind {
+            Kind::Number if parameter.is_whole => Form::Exponent,
+            Kind::List(_) if parameter.is_whole => Form::Exponents,
+            Kind::Number => Form::Number,
+            Kind::List(_) => Form::List,
+            Kind::Function(_) => Spline::FORM,
+        };
+        Parameter { name: parameter.name.to_string().into(), doc: parameter.doc.clone().into(), unit, form }
+    });
+    let Texts { formula, domain, defined, moduli, summary } = texts;
+    let typical = options.typical.as_ref().map(|typical| Typical {
+        values: typical.values.iter().map(|(_, values)| Cow::Owned(values.numbers.clone())).collect(),
+        source: typical.source.value().into(),
+    });
+    let refusal = match &options.refuse {
+        Some(reason) => Some(reason.value().into()),
+        None if options.domain.is_empty() => {
+            Some(Text::Borrowed("it is defined for every deformation gradient already"))
+        }
+        None => None,
+    };
+    Description {
+        name: declaration.name.to_string().into(),
+        summary: summary.into(),
+        formula: formula.into(),
+        parameters: parameters.collect(),
+        domain: [domain, defined].join(" ").trim_end().to_owned().into(),
+        extends: options.extend.is_some(),
+        refusal,
+        admissible: options.admissible.iter().map(|condition| condition_text(condition).into()).collect(),
+        moduli: moduli.map(Text::from),
+        typical,
+    }
+}

@@ -1,0 +1,214 @@
+//! Derivatives by the parameters, and the conditions that keep these admissible, for fits.
+
+use piola::__private::by_values;
+use piola::Univariate;
+use piola::interpreter::{Interpreted, Program, Value, Values};
+use piola::material::{Constraint, Limit, Material};
+use piola_codegen::algebra::expr::{Graph, Id, Node};
+use piola_codegen::emit::condition_text;
+use piola_codegen::model::{self, Model};
+use piola_codegen::read::parse::Declaration;
+
+use crate::lower::lower;
+
+/// Programs for fits of an energy.
+#[derive(Debug)]
+pub(crate) struct Fit {
+    gradient: Slopes,
+    constraints: Vec<Condition>,
+    domain: Vec<Condition>,
+}
+
+impl Fit {
+    /// The programs of a declaration; `None` if one needs more registers than there are.
+    pub(crate) fn new(declaration: &Declaration, model: &mut Model) -> Option<Self> {
+        let by_parameters = model.by_parameters.clone().unwrap_or_default();
+        let by_parameters = by_parameters.iter().map(|triple| triple.to_vec()).collect::<Vec<_>>();
+        let gradient = Slopes::new(declaration, model, &by_parameters)?;
+        let (mut constraints, mut domain) = (Vec::new(), Vec::new());
+        for constraint in model.constraints.clone() {
+            let condition = Condition::new(declaration, model, &constraint)?;
+            let is_of_domain = matches!(constraint.limit, model::Limit::Domain(_));
+            if is_of_domain { &mut domain } else { &mut constraints }.push(condition);
+        }
+        Some(Self { gradient, constraints, domain })
+    }
+
+    /// ∂ψi/∂p for each number p.
+    pub(crate) fn gradient(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
+        self.gradient.each(material, &stretches, &|material| material.gradient(stretches))
+    }
+
+    /// The conditions on the parameters alone, those on numbers before those on the entries of lists.
+    pub(crate) fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
+        all(&self.constraints, material, &[])
+    }
+
+    /// The conditions of the domain at given stretches.
+    pub(crate) fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
+        all(&self.domain, material, &stretches)
+    }
+}
+
+fn all(conditions: &[Condition], material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
+    let (of_entries, of_numbers): (Vec<_>, Vec<_>) =
+        conditions.iter().partition(|condition| condition.list.is_some());
+    let all = of_numbers.into_iter().chain(of_entries);
+    all.flat_map(|condition| condition.constraints(material, arguments)).collect()
+}
+
+/// A condition on the parameters as a program, with its derivatives.
+#[derive(Debug)]
+struct Condition {
+    limit: Limit,
+    /// A list for each of whose entries it must hold.
+    list: Option<usize>,
+    value: Program,
+    slopes: Slopes,
+}
+
+impl Condition {
+    fn new(declaration: &Declaration, model: &mut Model, constraint: &model::Constraint) -> Option<Self> {
+        let text = |condition: Option<&syn::Expr>| condition.map(condition_text).unwrap_or_default().into();
+        let limit = match constraint.limit {
+            model::Limit::Admissible(k) => Limit::Admissible(text(declaration.options.admissible.get(k))),
+            model::Limit::ShearModulus => Limit::ShearModulus,
+            model::Limit::BulkModulus => Limit::BulkModulus,
+            model::Limit::Domain(k) => Limit::Domain(text(declaration.bounds().nth(k))),
+        };
+        let is_of_length = |length| {
+            let mut parameters = declaration.parameters.iter();
+            parameters.position(|parameter| parameter.length() == Some(length))
+        };
+        let slopes: Vec<_> = constraint.by_parameters.iter().map(|&slope| vec![slope]).collect();
+        Some(Self {
+            limit,
+            list: constraint.length.and_then(is_of_length),
+            value: lower(declaration, &model.program(&[constraint.value]))?,
+            slopes: Slopes::new(declaration, model, &slopes)?,
+        })
+    }
+
+    fn constraints(&self, material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
+        let value = |material: &Interpreted, entry: usize| material.compute(&self.value, arguments, entry)[0];
+        let constraint = |entry: Option<usize>, gradient: Vec<f64>| Constraint {
+            limit: self.limit.clone(),
+            value: value(material, entry.unwrap_or_default()),
+            gradient,
+        };
+        match self.list {
+            None => {
+                let slopes = self.slopes.each(material, arguments, &|material| [value(material, 0)]);
+                vec![constraint(None, slopes.into_iter().map(|[slope]| slope).collect())]
+            }
+            Some(list) => {
+                let entries = 0..length(material.values(), list);
+                let of_entry = |entry| constraint(Some(entry), self.slopes.of_entry(material, entry));
+                entries.map(of_entry).collect()
+            }
+        }
+    }
+}
+
+/// Derivatives of expressions by each number among the parameters.
+#[derive(Debug)]
+struct Slopes {
+    /// Those by numbers, and those by the entries of the lists of one length, whose first is named.
+    programs: Vec<(Option<usize>, Vec<usize>, Program)>,
+    /// Parameters by which no formula differentiates: functions, and what would need a third derivative of
+    /// one.
+    differences: Vec<usize>,
+}
+
+impl Slopes {
+    /// From the derivatives of the expressions by each parameter, or by the current entry of each list.
+    fn new(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> Option<Self> {
+        let is_difference = |model: &Model, k: usize| {
+            declaration.parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
+        };
+        let mut programs = Vec::new();
+        for wanted in std::iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
+            let parameters = 0..by_parameters.len();
+            let alike = parameters.filter(|&k| declaration.parameters[k].length() == wanted);
+            let alike: Vec<_> = alike.filter(|&k| !is_difference(model, k)).collect();
+            if let Some(&first) = alike.first() {
+                let roots: Vec<_> = alike.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
+                let program = lower(declaration, &model.program(&roots))?;
+                programs.push((wanted.map(|_| first), alike, program));
+            }
+        }
+        let differences = (0..by_parameters.len()).filter(|&k| is_difference(model, k)).collect();
+        Some(Self { programs, differences })
+    }
+
+    /// The derivatives of N results by each number, lists entry by entry.
+    fn each<const N: usize>(
+        &self,
+        material: &Interpreted,
+        arguments: &[f64],
+        results: &dyn Fn(&Interpreted) -> [f64; N],
+    ) -> Vec<[f64; N]> {
+        let values = material.values();
+        let mut slopes: Vec<Vec<[f64; N]>> = vec![Vec::new(); values.all().len()];
+        for (list, parameters, program) in &self.programs {
+            for entry in 0..list.map_or(1, |list| length(values, list)) {
+                let computed = material.compute(program, arguments, entry);
+                for (&k, slope) in parameters.iter().zip(computed.chunks_exact(N)) {
+                    slopes[k].push(std::array::from_fn(|result| slope[result]));
+                }
+            }
+        }
+        for &k in &self.differences {
+            slopes[k] = match &values.all()[k] {
+                Value::Numbers(numbers) => by_values(numbers, |moved| {
+                    Some(results(&with(material, k, Value::Numbers(moved.to_vec()))))
+                }),
+                Value::Function(function) => by_values(&function.values(), |moved| {
+                    Some(results(&with(material, k, Value::Function(function.with_values(moved).ok()?))))
+                }),
+            };
+        }
+        slopes.concat()
+    }
+
+    /// The derivatives of one result, a condition on the entry of lists, by each number: by other entries
+    /// they are zero.
+    fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<f64> {
+        let values = material.values();
+        let zeros = |value: &Value| match value {
+            Value::Numbers(numbers) => vec![0.0; numbers.len()],
+            Value::Function(function) => vec![0.0; function.values().len()],
+        };
+        let mut slopes: Vec<Vec<f64>> = values.all().iter().map(zeros).collect();
+        for (list, parameters, program) in &self.programs {
+            let computed = material.compute(program, &[], entry);
+            for (&k, slope) in parameters.iter().zip(computed) {
+                slopes[k][if list.is_some() { entry } else { 0 }] = slope;
+            }
+        }
+        slopes.concat()
+    }
+}
+
+/// The material with another value of a parameter, which is not checked.
+fn with(material: &Interpreted, parameter: usize, value: Value) -> Interpreted {
+    let mut values = material.values().all().to_vec();
+    values[parameter] = value;
+    material.clone_with(Values::new(values))
+}
+
+fn length(values: &Values, parameter: usize) -> usize {
+    match values.all().get(parameter) {
+        Some(Value::Numbers(numbers)) => numbers.len(),
+        _ => 0,
+    }
+}
+
+/// Whether a derivative of a function occurs that functions do not give.
+fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
+    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
+        Node::Function(_, order, _) => order > 2,
+        Node::FunctionQuotient(_, order, ..) => order > 1,
+        _ => false,
+    })
+}

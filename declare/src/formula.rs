@@ -1,0 +1,196 @@
+//! Formulas in the notation of papers: `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`.
+//!
+//! A formula is translated into the Rust function that `#[piola::material]` takes, token by token, so that its
+//! mistakes are told at their places in the formula. Names that mean nothing else are parameters, in the order
+//! in which they occur.
+//!
+//! The domain is stated behind the formula, `… where J > 0, I1 < 3 + Jm`, together with conditions on the
+//! parameters. If nothing is said, the energy is defined for every J, for J > 0 and continued beyond, or for J
+//! > 0 alone: the first of these that its formula allows.
+
+mod notation;
+mod parse;
+
+use piola_codegen::algebra::increment::substitute_rest;
+use piola_codegen::model::Model;
+use piola_codegen::printer;
+use piola_codegen::read::parse::Declaration;
+use piola_codegen::{analyse, read};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+use crate::energy::Energy;
+use crate::mistakes::Mistakes;
+use crate::rust::TOO_LARGE;
+use notation::Notation;
+use parse::{Parsed, parse};
+
+/// Choices for an energy that is given by a formula.
+///
+/// ```
+/// use piola::Inversion;
+/// use piola_declare::{Energy, FormulaOptions};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // Rivlin's solid as printed has a stress at rest, and lets the volume go.
+/// let options = FormulaOptions::default().with_free_rest(true).with_bulk("kappa");
+/// let energy = Energy::from_formula_with("C10*(I1 - 3) + C01*(I2 - 3)", &options)?;
+/// let rubber = energy.material(&[&[2e5], &[1e4], &[1e7]], Inversion::Refuse)?;
+/// assert_eq!(energy.description().moduli[0], "2 C10 + 2 C01");
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct FormulaOptions {
+    /// The names of the parameters, each with its documentation, which may end with a unit, as in `Shear
+    /// modulus, Pa.`; `None` to take every name that means nothing else.
+    pub parameters: Option<Vec<(String, String)>>,
+    /// Whether −s ln J is added, s being the stress at rest, which frees the rest state of it.
+    pub free_rest: bool,
+    /// Name of the bulk modulus κ of a term κ/2 (J − 1)² that is added.
+    pub bulk: Option<String>,
+}
+
+impl FormulaOptions {
+    /// Options with other [`parameters`](Self::parameters).
+    #[must_use]
+    pub fn with_parameters(self, parameters: Option<Vec<(String, String)>>) -> Self {
+        Self { parameters, ..self }
+    }
+
+    /// Options with or without [`free_rest`](Self::free_rest).
+    #[must_use]
+    pub fn with_free_rest(self, free_rest: bool) -> Self {
+        Self { free_rest, ..self }
+    }
+
+    /// Options with a [`bulk`](Self::bulk) modulus of that name.
+    #[must_use]
+    pub fn with_bulk(self, name: impl Into<String>) -> Self {
+        Self { bulk: Some(name.into()), ..self }
+    }
+}
+
+impl Energy {
+    /// The energy of a formula.
+    ///
+    /// ```
+    /// use piola::Inversion;
+    /// use piola_declare::Energy;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2")?;
+    /// let names: Vec<_> = energy.description().parameters.iter().map(|parameter| &*parameter.name).collect();
+    /// assert_eq!((names, &*energy.description().domain), (vec!["mu", "lambda"], "J > 0"));
+    /// let rubber = energy.material(&[&[1e6], &[5e6]], Inversion::Refuse)?;
+    ///
+    /// let mistakes = Energy::from_formula("mu/2*(I1 - 3").unwrap_err();
+    /// assert_eq!(mistakes.list[0].place.map(|place| place.column), Some(6));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// All [`Mistakes`], each at its place in the formula.
+    pub fn from_formula(formula: &str) -> Result<Self, Mistakes> {
+        Self::from_formula_with(formula, &FormulaOptions::default())
+    }
+
+    /// The energy of a formula, with these options.
+    ///
+    /// # Errors
+    /// All [`Mistakes`], each at its place in the formula.
+    pub fn from_formula_with(formula: &str, options: &FormulaOptions) -> Result<Self, Mistakes> {
+        let notation = Notation::read(formula)?;
+        let mistakes = |error: syn::Error| notation.mistakes(formula, error);
+        let mut parsed = parse(notation.tokens.clone(), options).map_err(mistakes)?;
+        if options.free_rest {
+            parsed.free_rest().map_err(mistakes)?;
+        }
+        let (arguments, declaration, model) = parsed.analyse().map_err(mistakes)?;
+        let source = source(&arguments, &parsed.item());
+        let text = if *options == FormulaOptions::default() { formula.to_owned() } else { source.clone() };
+        Self::new(&declaration, model, text, source)
+            .ok_or_else(|| Mistakes::of_all(formula, TOO_LARGE.to_owned()))
+    }
+}
+
+impl Parsed {
+    /// The declared function.
+    fn item(&self) -> TokenStream {
+        let Self { name, parameters, body, .. } = self;
+        let parameters = parameters.iter().map(|parameter| parameter.tokens());
+        let summary = format!(" {}", self.summary);
+        let [l1, l2, l3] = parse::STRETCHES.map(|stretch| Ident::new(stretch, Span::call_site()));
+        quote! {
+            #[doc = #summary]
+            pub fn #name([#l1, #l2, #l3]: [f64; 3], #(#parameters),*) -> f64 {
+                #body
+            }
+        }
+    }
+
+    /// Arguments of the attribute, the most general first.
+    fn arguments(&self) -> Vec<TokenStream> {
+        let Self { domain, admissible, .. } = self;
+        let admissible = (!admissible.is_empty()).then(|| quote!(admissible(#(#admissible),*),));
+        if !domain.is_empty() {
+            let domain = quote!(domain(#(#domain),*), #admissible);
+            return vec![quote!(#domain extend, fit), quote!(#domain fit)];
+        }
+        vec![
+            quote!(#admissible fit),
+            quote!(domain(J > 0.0), #admissible extend, fit),
+            quote!(domain(J > 0.0), #admissible fit),
+        ]
+    }
+
+    /// The first declaration that has no mistakes, with the arguments of its attribute; else the mistakes of
+    /// the last.
+    fn analyse(&self) -> syn::Result<(TokenStream, Declaration, Model)> {
+        let mut mistakes = None;
+        for arguments in self.arguments() {
+            match analyse(arguments.clone(), self.item()) {
+                Ok((declaration, model)) => return Ok((arguments, declaration, model)),
+                Err(error) => mistakes = Some(error),
+            }
+        }
+        Err(mistakes.unwrap_or_else(|| syn::Error::new(Span::call_site(), "this is no energy")))
+    }
+
+    /// Subtracts s ln J, with the stress s at rest.
+    fn free_rest(&mut self) -> syn::Result<()> {
+        let domain = if self.domain.is_empty() { vec![quote!(J > 0.0)] } else { self.domain.clone() };
+        let (declaration, mut model) = analyse(quote!(domain(#(#domain),*), prestressed), self.item())?;
+        let stress = substitute_rest(&mut model.graph, model.plain.gradient[0]);
+        if model.graph.is_zero(stress) {
+            return Ok(());
+        }
+        let stress: TokenStream = printer::rust(&mut model.graph, &declaration, stress)
+            .parse()
+            .map_err(|_| syn::Error::new(Span::call_site(), "the stress at rest has no formula"))?;
+        let body = &self.body;
+        self.body = quote!(#body - (#stress) * J.ln());
+        Ok(())
+    }
+}
+
+/// The declaration as a person would write it.
+fn source(arguments: &TokenStream, item: &TokenStream) -> String {
+    let with_attribute = quote! {
+        use piola::material;
+
+        #[material(#arguments)]
+        #item
+    };
+    match syn::parse2(with_attribute.clone()) {
+        Ok(file) => prettyplease::unparse(&file),
+        Err(_) => with_attribute.to_string(),
+    }
+}
+
+/// Whether papers have a name for something that an energy writes in another way.
+fn is_notation(name: &str) -> bool {
+    read::resolve::advice(name).is_some()
+}

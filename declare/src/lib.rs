@@ -1,0 +1,47 @@
+//! Elastic energies declared at run time: text in, a material out, without a compiler.
+//!
+//! ```
+//! use piola::Inversion;
+//! use piola_declare::Energy;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2")?;
+//! let rubber = energy.material(&[&[1e6], &[5e6]], Inversion::Refuse)?;
+//! assert!(rubber.energy([2.0, 1.0, 0.5]) > 0.0);
+//! # use piola::Material;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The text is a formula in the notation of papers ([`Energy::from_formula`]), or the Rust function that
+//! [`#[piola::material]`](macro@piola::material) takes ([`Energy::from_rust`]), so that one file serves both.
+//! It goes through the compiler of that attribute, `piola-codegen`, and has its checks and messages; what comes
+//! out is not Rust but a program, which an [`Interpreted`](piola::interpreter::Interpreted) material executes.
+//! That computes what the compiled material does, bit by bit, for every kind of real number and on every back
+//! end, and so keeps its digits.
+//!
+//! Texts may come from anybody: their length, their nesting and what becomes of them are limited, and what goes
+//! beyond is a [`Mistake`]. No text makes the crate panic.
+//!
+//! # What it does not do
+//!
+//! No function is a parameter but a [`Spline`](piola::Spline): other types need the declaration to be compiled.
+//! No derivative of a formula is looked for that the compiler does not know, and no branch is understood.
+
+mod condition;
+mod constructor;
+mod energy;
+mod fit;
+mod formula;
+mod lower;
+mod mistakes;
+mod rust;
+mod text;
+
+pub use energy::Energy;
+pub use formula::FormulaOptions;
+pub use mistakes::{Mistake, Mistakes, Place};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

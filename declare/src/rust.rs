@@ -1,0 +1,71 @@
+//! Declarations in Rust: the same function that `#[piola::material]` takes.
+
+use piola_codegen::analyse;
+use piola_codegen::read::parse::{Declaration, Kind};
+use proc_macro2::TokenStream;
+use syn::Type;
+
+use crate::energy::Energy;
+use crate::mistakes::Mistakes;
+
+/// The message about an energy beyond the limits.
+pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, or a list with a sum instead of many terms, keep within the limits";
+
+impl Energy {
+    /// The energy of the one declaration in a text, a function as `#[piola::material]` takes it.
+    ///
+    /// # Errors
+    /// All [`Mistakes`], the messages of the attribute.
+    pub fn from_rust(text: &str) -> Result<Self, Mistakes> {
+        let mut energies = Self::all_from_rust(text)?;
+        match (energies.pop(), energies.len()) {
+            (Some(energy), 0) => Ok(energy),
+            (None, _) => Err(Mistakes::of_all(
+                text,
+                "no energy is declared here: write a function `fn Name([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { … }` with \
+                 `#[material]` before it"
+                    .to_owned(),
+            )),
+            (Some(last), more) => Err(Mistakes::of_all(
+                text,
+                format!("{} energies are declared here, `{}` the last of them: keep one", more + 1, last.description().name),
+            )),
+        }
+    }
+
+    /// The energies of all declarations in a text.
+    ///
+    /// # Errors
+    /// All [`Mistakes`] of the first declaration that has some, or a syntax error.
+    pub fn all_from_rust(text: &str) -> Result<Vec<Self>, Mistakes> {
+        let declarations =
+            piola_codegen::declarations(text).map_err(|error| Mistakes::from_syn(text, error))?;
+        declarations.into_iter().map(|(arguments, item)| compile(text, arguments, item)).collect()
+    }
+}
+
+fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Energy, Mistakes> {
+    let (declaration, model) = analyse(arguments, item).map_err(|error| Mistakes::from_syn(text, error))?;
+    only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
+    Energy::new(&declaration, model, text.to_owned(), text.to_owned())
+        .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))
+}
+
+/// Functions of other types are Rust of their own.
+fn only_splines(declaration: &Declaration) -> syn::Result<()> {
+    let is_spline = |ty: &Type| matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Spline"));
+    let others = declaration.parameters.iter().filter_map(|parameter| match &parameter.kind {
+        Kind::Function(ty) if !is_spline(ty) => Some(syn::Error::new_spanned(
+            ty,
+            "a function that is found at run time is a `Spline`: another type needs the declaration to be compiled, by \
+             `#[piola::material]`",
+        )),
+        _ => None,
+    });
+    others
+        .reduce(|mut all, other| {
+            all.combine(other);
+            all
+        })
+        .map_or(Ok(()), Err)
+}

@@ -1,0 +1,179 @@
+//! Formulas in the notation of papers, and the mistakes in them.
+
+use piola::{Inversion, Material};
+use piola_declare::{Energy, FormulaOptions, Mistake};
+
+/// Checks that two texts declare the same energy of one parameter after the other.
+#[track_caller]
+fn check_equal(formula: &str, rust: &str) {
+    let energy = Energy::from_formula(formula).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let other = Energy::from_rust(rust).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert_eq!(energy.description().formula, other.description().formula);
+    let values: Vec<_> = energy.description().parameters.iter().map(|_| vec![2.5]).collect();
+    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+    let [one, other] =
+        [energy, other].map(|energy| energy.material(&values, Inversion::Refuse).expect("stable at rest"));
+    for at in [[1.0f64, 1.0, 1.0], [1.3, 1.1, 0.7], [2.0, 2.0, 0.1]] {
+        assert_eq!(one.energy(at).to_bits(), other.energy(at).to_bits());
+        assert_eq!(one.blocks(at), other.blocks(at));
+    }
+}
+
+#[test]
+fn a_formula_is_the_declaration_that_it_stands_for() {
+    check_equal(
+        "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2",
+        "#[material(domain(J > 0.0))]
+         fn E([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
+             mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+         }",
+    );
+    // As printed: signs, subscripts, raised digits, products without a sign.
+    check_equal(
+        "ψ = μ/2 * (I₁ − 3 − 2 ln(J)) + (K/2)(J − 1)²",
+        "#[material(domain(J > 0.0))]
+         fn E([l1, l2, l3]: [f64; 3], μ: f64, K: f64) -> f64 {
+             μ / 2.0 * (I1 - 3.0 - 2.0 * J.ln()) + (K / 2.0) * (J - 1.0).powi(2)
+         }",
+    );
+    check_equal(
+        "m*((l1^a + l2^a + l3^a - 3)/a - ln(J)) + k*(J - 1)^2",
+        "#[material(domain(J > 0.0))]
+         fn E([l1, l2, l3]: [f64; 3], m: f64, a: f64, k: f64) -> f64 {
+             m * ((l1.powf(a) + l2.powf(a) + l3.powf(a) - 3.0) / a - J.ln()) + k * (J - 1.0).powi(2)
+         }",
+    );
+}
+
+#[test]
+fn precedence_is_that_of_papers() {
+    let value = |formula: &str| -> f64 {
+        let text = format!("mu*(I1b - 3) + (J - 1)^2*({formula})");
+        let energy = Energy::from_formula(&text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let material = energy
+            .material(&[&[1.0]], Inversion::Refuse)
+            .unwrap_or_else(|error| panic!("{formula}: {error}"));
+        // J = 8, so that (J − 1)² is 49, and I1b is 3 at equal stretches.
+        material.energy([2.0, 2.0, 2.0]) / 49.0
+    };
+    for (formula, expected) in [
+        ("2*3^2", 18.0),
+        ("20 - 3^2", 11.0),
+        ("2^3^2", 512.0),
+        ("(2^3)^2", 64.0),
+        ("12/2 3", 18.0),
+        ("12/(2*3)", 2.0),
+        ("4^(1/2)", 2.0),
+        ("4^-1", 0.25),
+        ("2^(-1)", 0.5),
+        ("10 - 2 - 3", 5.0),
+        ("--2", 2.0),
+        ("sqrt(16)/2", 2.0),
+        ("1e1", 10.0),
+        ("2(3)", 6.0),
+    ] {
+        assert!((value(formula) - expected).abs() < 1e-12 * expected, "{formula}: {}", value(formula));
+    }
+}
+
+#[test]
+fn domains_are_found_or_stated() {
+    let domain = |formula: &str| {
+        let energy = Energy::from_formula(formula).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        (energy.description().domain.to_string(), energy.description().extends)
+    };
+    assert_eq!(domain("mu/2*(I1 - 2*J - 1)").0, "every deformation");
+    assert_eq!(domain("mu/2*(I1 - 3 - 2*ln(J))"), ("J > 0".to_owned(), true));
+    let (gent, _) = domain("-mu*Jm/2*ln(1 - (I1b - 3)/Jm) + K/2*(J - 1)^2 where J > 0, I1b < 3 + Jm, Jm > 0");
+    assert_eq!(gent, "J > 0, I1b < 3 + Jm");
+}
+
+#[test]
+fn the_rest_state_is_freed_of_stress_on_request() {
+    let printed = "C10*(I1 - 3) + C01*(I2 - 3)";
+    let mistakes = Energy::from_formula(printed).unwrap_err();
+    assert!(mistakes.to_string().contains("stress"), "{mistakes}");
+    let options = FormulaOptions::default().with_free_rest(true).with_bulk("K");
+    let energy = Energy::from_formula_with(printed, &options).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let rubber = energy.material(&[&[2e5], &[1e4], &[1e7]], Inversion::Refuse).expect("stable");
+    assert_eq!(rubber.gradient([1.0; 3]), [0.0; 3]);
+    // What it prints is read back as the same energy.
+    let again = Energy::from_text(energy.source()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert_eq!(again.description().formula, energy.description().formula);
+    assert_eq!(Energy::from_text(energy.text()), Ok(again));
+}
+
+#[test]
+fn lists_are_summed() {
+    let energy = Energy::from_formula(
+        "sum(p, mu[p]/alpha[p]*(l1^alpha[p] + l2^alpha[p] + l3^alpha[p] - 3)) - sum(p, mu[p])*ln(J) + k/2*(J - 1)^2",
+    )
+    .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let rubber =
+        energy.material(&[&[6.3e5, -1e4], &[1.3, -2.0], &[2e7]], Inversion::Refuse).expect("Ogden's");
+    assert_eq!(rubber.gradient([1.0; 3]), [0.0; 3]);
+}
+
+/// The mistakes of a formula: the underlined characters, and a part of the message.
+#[track_caller]
+fn check_mistake(formula: &str, options: &FormulaOptions, underlined: &str, message: &str) {
+    let mistakes = match Energy::from_formula_with(formula, options) {
+        Ok(_) => panic!("{formula} is understood"),
+        Err(mistakes) => mistakes,
+    };
+    let Mistake { message: found, place } = &mistakes.list[0];
+    let place = place.unwrap_or_else(|| panic!("{found}: nowhere"));
+    let line = formula.lines().nth(place.line - 1).expect("a line of the formula");
+    let marked: String = line.chars().skip(place.column - 1).take(place.length).collect();
+    assert_eq!(marked, underlined, "{found}");
+    assert!(found.contains(message), "{found}");
+}
+
+#[test]
+fn mistakes_are_told_at_their_places() {
+    let any = FormulaOptions::default();
+    check_mistake("mu/2*(I1 - 3) - mu*lnn(J)", &any, "lnn", "did you mean `.ln()`?");
+    check_mistake("mu/2*(I1 - 3", &any, "(", "this `(` is not closed");
+    check_mistake("mu/2*(I1 - 3) -", &any, "-", "a formula ends with");
+    check_mistake("mu/2*(I1 − 3)² + · 2", &any, "·", "is expected here");
+    check_mistake("mu/2 (I1 - 3) + J(2)", &any, "J", "is no function: write `J * ( … )`");
+    check_mistake("mu*(trC - 3)", &any, "trC", "write `I1`");
+    check_mistake("mu*(I1 - 3) + log(J)", &any, "log", "natural logarithm");
+    check_mistake("mu/2*(I1b - 3)\n  + K*(J - 1)^2\n  + l1", &any, "l1", "are exchanged");
+    check_mistake("mu*(J - 1)^2 where J", &any, "J", "a condition is a comparison");
+    check_mistake("mu*abs(I1b - 3)", &any, "abs", "has a kink");
+    let known = any.with_parameters(Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]));
+    check_mistake("muu/2*(I1b - 3) + mu*(J - 1)^2", &known, "muu", "did you mean `mu`?");
+    check_mistake("mu/2*(I1b - 3)*mu + mu*(J - 1)^2", &known, "mu/2*(I1b - 3)*mu + mu*(J - 1)^2", "in Pa");
+}
+
+#[test]
+fn mistakes_are_shown_with_their_line() {
+    let mistakes = Energy::from_formula("mu/2*(I₁ − 3)\n + mu*lnn(J)").unwrap_err();
+    let shown = mistakes.with_name("rubber").to_string();
+    let expected = "\n --> rubber:2:7\n  |\n2 |  + mu*lnn(J)\n  |       ^^^";
+    assert!(shown.ends_with(expected), "{shown}");
+}
+
+/// A function that is a parameter is a spline at run time.
+#[test]
+fn functions_of_other_types_need_a_compiler() {
+    let text = "#[material] fn E([l1, l2, l3]: [f64; 3], f: Curve) -> f64 { f(l1) + f(l2) + f(l3) }";
+    let mistakes = Energy::from_rust(text).unwrap_err();
+    assert!(mistakes.list[0].message.contains("is a `Spline`"), "{mistakes}");
+    assert!(
+        Energy::from_rust("const X: f64 = 1.0;").unwrap_err().to_string().contains("no energy is declared")
+    );
+}
+
+#[test]
+fn texts_beyond_all_limits_are_refused() {
+    let long = "mu + ".repeat(20_000) + "mu";
+    let deep = "(".repeat(500) + "mu" + &")".repeat(500);
+    let powers = "2^".repeat(500) + "mu";
+    let signs = "-".repeat(5000) + "mu*(I1b - 3)";
+    for text in [long, deep, powers] {
+        assert!(Energy::from_text(&text).is_err());
+    }
+    assert!(Energy::from_text(&signs).is_ok() || Energy::from_text(&signs).is_err());
+}

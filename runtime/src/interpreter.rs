@@ -1,0 +1,26 @@
+//! Materials whose energies are programs found at run time.
+//!
+//! The compiler of declarations orders an energy and its derivatives into operations. `#[piola::material]`
+//! writes these as Rust; the crate `piola-declare` keeps them as a [`Program`] and makes an [`Interpreted`]
+//! material of it, which executes the operations one after the other. The operations are the same ones in the
+//! same order, so that results are the same, bit by bit, for every kind of real number and on every back end.
+//!
+//! ```text
+//! text → piola-codegen → operations → Rust → rustc → a material           compiled
+//!                                   → Program      → Interpreted          at run time
+//! ```
+//!
+//! How a declaration becomes a program is not known here, nor what an energy means.
+
+mod execute;
+mod material;
+mod parameters;
+mod program;
+
+pub use material::Interpreted;
+#[doc(hidden)] // how the compiler fills them in: no part of the interface
+pub use material::{ByInvariants, Calls, Programs, Variant, Volume};
+#[doc(hidden)]
+pub use parameters::{Value, Values};
+#[doc(hidden)]
+pub use program::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};

@@ -1,0 +1,398 @@
+//! The executor: the operations of a program, each at many points before the next.
+//!
+//! An operation is read once for all registers of a tile, so that reading it costs little beside what it
+//! computes. Each is the one that the emitted Rust of the same declaration performs, in the same order, so
+//! that results have the same bits.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+
+use super::parameters::Parameters;
+use super::program::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};
+use crate::lanes::{Backend, Kernel, Lanes, Real, Scalar};
+use crate::quotient::{
+    Pair, above_zero, asinh_quotient, atan_quotient, cos_quotient, cosh_quotient, erf_quotient,
+    exp_m1_quotient, exp_quotient, ln_1p_quotient, ln_product, pole_floor, share_above, share_below,
+    sigmoid_quotient, sin_quotient, sinh_quotient, softplus_quotient, tanh_quotient, whole_power,
+    whole_power_quotient,
+};
+use crate::univariate::Univariate;
+
+/// Registers of a program, each as many real numbers side by side as there are groups of points.
+pub(super) struct Registers<R: Real> {
+    numbers: Vec<R>,
+    logarithms: Vec<R::Logarithm>,
+    pairs: Vec<Pair<R>>,
+    groups: usize,
+}
+
+thread_local! {
+    /// Registers that the thread has used, one set for each type of real number.
+    static USED: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+}
+
+impl<R: Real> Registers<R> {
+    /// Registers of at least these sizes; nothing is allocated once a thread has had them.
+    #[inline(never)]
+    pub(super) fn take(sizes: Sizes, groups: usize) -> Box<Self> {
+        let used = USED.with_borrow_mut(|all| {
+            let place = all.iter().position(|one| one.is::<Self>())?;
+            all.swap_remove(place).downcast::<Self>().ok()
+        });
+        let none = || Self { numbers: Vec::new(), logarithms: Vec::new(), pairs: Vec::new(), groups };
+        let mut registers = used.unwrap_or_else(|| Box::new(none()));
+        registers.groups = groups;
+        let one = R::splat(1.0);
+        let Self { numbers, logarithms, pairs, .. } = &mut *registers;
+        grow(numbers, sizes.numbers * groups, || one);
+        grow(logarithms, sizes.logarithms * groups, || one.logarithm());
+        grow(pairs, sizes.pairs * groups, || Pair::of(one, one));
+        registers
+    }
+
+    /// Keeps the registers for the next program of the thread.
+    #[inline(never)]
+    pub(super) fn give_back(self: Box<Self>) {
+        USED.with_borrow_mut(|all| all.push(self));
+    }
+
+    /// All registers for numbers, one after the other.
+    pub(super) fn numbers(&mut self) -> &mut [R] {
+        &mut self.numbers
+    }
+
+    /// The number in a register at a group of points.
+    #[inline(always)]
+    pub(super) fn number(&self, register: Register, group: usize) -> R {
+        self.numbers[usize::from(register) * self.groups + group]
+    }
+}
+
+fn grow<T: Clone>(list: &mut Vec<T>, length: usize, entry: impl FnOnce() -> T) {
+    if list.len() < length {
+        list.resize(length, entry());
+    }
+}
+
+/// What a program computes with: the parameters, the entry of lists that it reads outside of sums, and the
+/// threshold of an extension.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) parameters: Parameters<'a>,
+    pub(super) entry: usize,
+    pub(super) epsilon: f64,
+}
+
+/// Executes a program for one point, or one register of points.
+///
+/// Not inlined into the function of a back end, and so slow on lanes: see [`execute_tile`].
+#[inline(never)]
+pub(super) fn execute_alone<R: Real>(
+    program: &Program,
+    context: Context<'_>,
+    arguments: &[R],
+    registers: &mut Registers<R>,
+) {
+    execute(program, context, |k, _| arguments[k], registers);
+}
+
+/// Executes a program for a tile of points. Rows of arguments and of results are `stride` apart.
+///
+/// One kernel for all programs: what differs between them is data.
+pub(super) fn execute_tile<E: Scalar>(
+    backend: Backend,
+    program: &Program,
+    context: Context<'_>,
+    (count, stride): (usize, usize),
+    arguments: &[E],
+    results: &mut [E],
+) {
+    backend.run(Tile { program, context, count, stride, arguments, results });
+}
+
+/// [`execute_tile`] on the lanes of a back end.
+struct Tile<'a, 'c, E> {
+    program: &'a Program,
+    context: Context<'c>,
+    count: usize,
+    stride: usize,
+    arguments: &'a [E],
+    results: &'a mut [E],
+}
+
+impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) {
+        let Self { program, mut context, count, stride, arguments, results } = self;
+        context.parameters.lanes = R::LANES;
+        let groups = count.div_ceil(R::LANES);
+        let mut registers = Registers::<R>::take(program.sizes, groups);
+        let argument = |k: usize, group: usize| R::load(&arguments[k * stride + group * R::LANES..]);
+        execute(program, context, argument, &mut registers);
+        for (k, &register) in program.results.iter().enumerate() {
+            for group in 0..groups {
+                let to = &mut results[k * stride + group * R::LANES..];
+                registers.number(register, group).store(to);
+            }
+        }
+        registers.give_back();
+    }
+}
+
+/// Executes a program for all groups of points; `argument(k, group)` gives argument k at a group.
+#[inline(always)]
+pub(super) fn execute<R: Real>(
+    program: &Program,
+    context: Context<'_>,
+    argument: impl Fn(usize, usize) -> R,
+    registers: &mut Registers<R>,
+) {
+    let Context { ref parameters, entry, epsilon } = context;
+    let groups = registers.groups;
+    let file = Files {
+        numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells(),
+        logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells(),
+        pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells(),
+        groups,
+    };
+    let fill = |register: Register, value: R| {
+        for number in file.number(register) {
+            number.set(value);
+        }
+    };
+    let load = |register: Register, parameter: usize, entry: usize| {
+        for (group, number) in file.number(register).iter().enumerate() {
+            number.set(parameters.number(parameter, entry, group));
+        }
+    };
+    for &(register, k) in &program.arguments {
+        for (group, number) in file.number(register).iter().enumerate() {
+            number.set(argument(k, group));
+        }
+    }
+    for &(register, value) in &program.literals {
+        fill(register, R::splat(value));
+    }
+    if let Some(register) = program.epsilon {
+        fill(register, R::splat(epsilon));
+    }
+    for &(register, parameter) in &program.parameters {
+        load(register, parameter, 0);
+    }
+    for &(register, list) in &program.entries {
+        load(register, list, entry);
+    }
+    // One loop over operations for both: the code of each operation stands once.
+    let mut step = 0;
+    let mut place = Place::OUTSIDE;
+    loop {
+        let operation = if place.is_inside {
+            let Some(Step::Loop { list, entries, body, totals }) = program.steps.get(step) else { return };
+            if let Some(operation) = body.get(place.operation) {
+                place.operation += 1;
+                operation
+            } else {
+                for &(total, term) in totals {
+                    for (total, term) in file.number(total).iter().zip(file.number(term)) {
+                        total.set(total.get() + term.get());
+                    }
+                }
+                place.entry += 1;
+                place.operation = 0;
+                if place.entry < parameters.length(*list) {
+                    entries.iter().for_each(|&(register, list)| load(register, list, place.entry));
+                } else {
+                    place = Place::OUTSIDE;
+                    step += 1;
+                }
+                continue;
+            }
+        } else {
+            match program.steps.get(step) {
+                None => return,
+                Some(Step::Compute(operation)) => {
+                    step += 1;
+                    operation
+                }
+                Some(Step::Loop { list, entries, totals, .. }) => {
+                    totals.iter().for_each(|&(total, _)| fill(total, R::splat(0.0)));
+                    if parameters.length(*list) == 0 {
+                        step += 1;
+                    } else {
+                        place = Place { is_inside: true, ..Place::OUTSIDE };
+                        entries.iter().for_each(|&(register, list)| load(register, list, 0));
+                    }
+                    continue;
+                }
+            }
+        };
+        compute(operation, &file, parameters, if place.is_inside { place.entry } else { entry });
+    }
+}
+
+/// The place of the next operation: in a loop or outside.
+struct Place {
+    is_inside: bool,
+    entry: usize,
+    operation: usize,
+}
+
+impl Place {
+    const OUTSIDE: Self = Self { is_inside: false, entry: 0, operation: 0 };
+}
+
+/// The registers of each kind, as cells: an operand may be in the register of the result.
+struct Files<'a, R: Real> {
+    numbers: &'a [Cell<R>],
+    logarithms: &'a [Cell<R::Logarithm>],
+    pairs: &'a [Cell<Pair<R>>],
+    groups: usize,
+}
+
+impl<'a, R: Real> Files<'a, R> {
+    #[inline(always)]
+    fn number(&self, register: Register) -> &'a [Cell<R>] {
+        of(self.numbers, register, self.groups)
+    }
+
+    #[inline(always)]
+    fn logarithm(&self, register: Register) -> &'a [Cell<R::Logarithm>] {
+        of(self.logarithms, register, self.groups)
+    }
+
+    #[inline(always)]
+    fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>] {
+        of(self.pairs, register, self.groups)
+    }
+}
+
+#[inline(always)]
+fn of<T>(all: &[Cell<T>], register: Register, groups: usize) -> &[Cell<T>] {
+    &all[usize::from(register) * groups..][..groups]
+}
+
+/// Computes one operation at all groups.
+#[inline(always)]
+fn compute<R: Real>(operation: &Operation, file: &Files<'_, R>, parameters: &Parameters<'_>, entry: usize) {
+    /// A loop over the groups: `to = value` with the operands read from their registers.
+    macro_rules! each {
+        ($kind:ident $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
+            let to = file.$kind($to);
+            $(let $x = file.$operand_kind($register);)+
+            for group in 0..file.groups {
+                let value = { $(let $x = $x[group].get();)+ $value };
+                to[group].set(value);
+            }
+        }};
+    }
+    macro_rules! unary {
+        ($to:expr, $a:expr, |$x:ident| $value:expr) => { each!(number $to, [number $x: $a] $value) };
+    }
+    macro_rules! binary {
+        ($to:expr, $a:expr, $b:expr, |$x:ident, $y:ident| $value:expr) => {
+            each!(number $to, [number $x: $a, number $y: $b] $value)
+        };
+    }
+    macro_rules! ternary {
+        ($to:expr, $operands:expr, |$x:ident, $y:ident, $z:ident| $value:expr) => {
+            each!(number $to, [number $x: $operands[0], number $y: $operands[1], number $z: $operands[2]] $value)
+        };
+    }
+    let whole = |exponent: Exponent| match exponent {
+        Exponent::Parameter(k) => parameters.whole(k, 0),
+        Exponent::Entry(k) => parameters.whole(k, entry),
+    };
+    match *operation {
+        Operation::Neg(to, a) => unary!(to, a, |x| -x),
+        Operation::Add(to, a, b) => binary!(to, a, b, |x, y| x + y),
+        Operation::Sub(to, a, b) => binary!(to, a, b, |x, y| x - y),
+        Operation::Mul(to, a, b) => binary!(to, a, b, |x, y| x * y),
+        Operation::Div(to, a, b) => binary!(to, a, b, |x, y| x / y),
+        Operation::MulAdd(to, of) => ternary!(to, of, |x, y, z| x.mul_add(y, z)),
+        Operation::NegMulAdd(to, of) => ternary!(to, of, |x, y, z| (-x).mul_add(y, z)),
+        Operation::MulSub(to, of) => ternary!(to, of, |x, y, z| x.mul_add(y, -z)),
+        Operation::Sqrt(to, a) => unary!(to, a, |x| x.sqrt()),
+        Operation::Cbrt(to, a) => unary!(to, a, |x| x.cbrt()),
+        Operation::Ln(to, a) => unary!(to, a, |x| x.ln()),
+        Operation::Exp(to, a) => unary!(to, a, |x| x.exp()),
+        Operation::Max(to, a, b) => binary!(to, a, b, |x, y| x.max(y)),
+        Operation::Below(to, a, b) => binary!(to, a, b, |x, y| (x - y).min(R::splat(0.0))),
+        Operation::AboveZero(to, a) => unary!(to, a, |x| above_zero(x)),
+        Operation::WhereNegative(to, of) => {
+            ternary!(to, of, |x, y, z| R::select(x.less(R::splat(0.0)), y, z))
+        }
+        Operation::ShareAbove(to, of) => ternary!(to, of, |x, y, z| share_above(x, y, z)),
+        Operation::ShareBelow(to, of) => ternary!(to, of, |x, y, z| share_below(x, y, z)),
+        Operation::PoleFloor(to, of) => ternary!(to, of, |x, y, z| pole_floor([x, y, z])),
+        Operation::LnProduct(to, of) => ternary!(to, of, |x, y, z| ln_product([x, y, z])),
+        Operation::Elementary(function, to, a) => match function {
+            Elementary::Asinh => unary!(to, a, |x| x.asinh()),
+            Elementary::Atan => unary!(to, a, |x| x.atan()),
+            Elementary::Cos => unary!(to, a, |x| x.cos()),
+            Elementary::Cosh => unary!(to, a, |x| x.cosh()),
+            Elementary::Erf => unary!(to, a, |x| x.erf()),
+            Elementary::ExpM1 => unary!(to, a, |x| x.exp_m1()),
+            Elementary::Ln1p => unary!(to, a, |x| x.ln_1p()),
+            Elementary::Sigmoid => unary!(to, a, |x| x.sigmoid()),
+            Elementary::Sin => unary!(to, a, |x| x.sin()),
+            Elementary::Sinh => unary!(to, a, |x| x.sinh()),
+            Elementary::Softplus => unary!(to, a, |x| x.softplus()),
+            Elementary::Tanh => unary!(to, a, |x| x.tanh()),
+        },
+        Operation::ElementaryQuotient(function, to, a, b) => match function {
+            Elementary::Asinh => binary!(to, a, b, |x, y| asinh_quotient(x, y)),
+            Elementary::Atan => binary!(to, a, b, |x, y| atan_quotient(x, y)),
+            Elementary::Cos => binary!(to, a, b, |x, y| cos_quotient(x, y)),
+            Elementary::Cosh => binary!(to, a, b, |x, y| cosh_quotient(x, y)),
+            Elementary::Erf => binary!(to, a, b, |x, y| erf_quotient(x, y)),
+            Elementary::ExpM1 => binary!(to, a, b, |x, y| exp_m1_quotient(x, y)),
+            Elementary::Ln1p => binary!(to, a, b, |x, y| ln_1p_quotient(x, y)),
+            Elementary::Sigmoid => binary!(to, a, b, |x, y| sigmoid_quotient(x, y)),
+            Elementary::Sin => binary!(to, a, b, |x, y| sin_quotient(x, y)),
+            Elementary::Sinh => binary!(to, a, b, |x, y| sinh_quotient(x, y)),
+            Elementary::Softplus => binary!(to, a, b, |x, y| softplus_quotient(x, y)),
+            Elementary::Tanh => binary!(to, a, b, |x, y| tanh_quotient(x, y)),
+        },
+        Operation::Logarithm(to, a) => each!(logarithm to, [number x: a] x.logarithm()),
+        Operation::Power(to, logarithm, exponent) => {
+            each!(number to, [logarithm ln: logarithm, number r: exponent] R::power(ln, r));
+        }
+        Operation::Pair { to, values: [a, b], reciprocals: [ra, rb], logarithms: [la, lb] } => {
+            each!(pair to, [number a: a, number b: b, number ra: ra, number rb: rb, logarithm la: la, logarithm lb: lb] {
+                Pair::new([a, b], [ra, rb], [la, lb])
+            });
+        }
+        Operation::LnQuotient(to, pair) => each!(number to, [pair both: pair] both.ln_quotient()),
+        Operation::PowerQuotient { to, pair, powers: [a, b], exponent } => {
+            each!(number to, [pair both: pair, number a: a, number b: b, number r: exponent] {
+                both.power_quotient([a, b], r)
+            });
+        }
+        Operation::ExpQuotient(to, [a, ea], [b, eb]) => {
+            each!(number to, [number a: a, number ea: ea, number b: b, number eb: eb] {
+                exp_quotient([a, ea], [b, eb])
+            });
+        }
+        Operation::WholePower(to, a, exponent, order) => {
+            let n = whole(exponent);
+            unary!(to, a, |x| whole_power(x, n, u32::from(order)));
+        }
+        Operation::WholePowerQuotient(to, [a, b], exponent, order) => {
+            let n = whole(exponent);
+            binary!(to, a, b, |x, y| whole_power_quotient([x, y], n, u32::from(order)));
+        }
+        Operation::Function(to, k, order, a) => match (order, parameters.function(k)) {
+            (0, Some(function)) => unary!(to, a, |x| function.value(x)),
+            (1, Some(function)) => unary!(to, a, |x| function.derivative(x)),
+            (2, Some(function)) => unary!(to, a, |x| function.second_derivative(x)),
+            _ => unary!(to, a, |_x| R::splat(f64::NAN)),
+        },
+        Operation::FunctionQuotient(to, k, order, [a, b]) => match (order, parameters.function(k)) {
+            (0, Some(function)) => binary!(to, a, b, |x, y| function.quotient(x, y)),
+            (1, Some(function)) => binary!(to, a, b, |x, y| function.derivative_quotient(x, y)),
+            _ => unary!(to, a, |_x| R::splat(f64::NAN)),
+        },
+    }
+}

@@ -1,0 +1,424 @@
+//! A material whose responses are programs.
+
+use std::sync::Arc;
+
+use super::execute::{Context, Registers, execute_alone, execute_tile};
+use super::parameters::{Parameters, Values};
+use super::program::{Program, Sizes};
+use crate::lanes::{Mask, Real, Scalar};
+use crate::material::{Blocks, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
+use crate::univariate::Univariate;
+
+/// Programs of an energy and of all its responses.
+#[derive(Debug, PartialEq)]
+pub struct Programs {
+    /// The energy inside its domain.
+    pub plain: Variant,
+    /// The energy continued beyond J = 0, if it can be.
+    pub extended: Option<Variant>,
+    /// ψ1, ψ2, ψ3, Pa, from stretches and, as arguments 3 to 5, strains.
+    pub at_strains: Program,
+    /// Expressions in the stretches that are positive inside the domain, J apart.
+    pub bounds: Program,
+    /// The volumes of the domain.
+    pub volume: Volume,
+    /// Programs by I1, I2 and J, if ψ is a function of these alone.
+    pub by_invariants: Option<ByInvariants>,
+    /// Small-strain μ and λ, Pa.
+    pub moduli: Program,
+    /// Whether each parameter is a whole exponent or a list of such.
+    pub are_whole: Vec<bool>,
+}
+
+/// Programs of an energy and its derivatives by the stretches.
+#[derive(Debug, PartialEq)]
+pub struct Variant {
+    /// ψ, Pa.
+    pub energy: Program,
+    /// ψ1, ψ2, ψ3, Pa.
+    pub gradient: Program,
+    /// The fifteen components of [`Blocks`], Pa, in the order of its fields.
+    pub blocks: Program,
+    /// Calls of functions that are parameters.
+    pub calls: Vec<Calls>,
+    /// Whether a twist has a pole at λi + λj = 0.
+    pub has_pole: bool,
+}
+
+/// Programs of an energy and its derivatives by I1, I2 and J.
+#[derive(Debug, PartialEq)]
+pub struct ByInvariants {
+    /// ψ, Pa, if it is as accurate as by stretches.
+    pub energy: Option<Program>,
+    /// W1, W2, WJ, Pa.
+    pub gradient: Program,
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa.
+    pub derivatives: Program,
+    /// Expressions that are positive inside the domain, J apart.
+    pub bounds: Program,
+    /// Calls of functions that are parameters.
+    pub calls: Vec<Calls>,
+    /// Whether ψ depends on I2.
+    pub has_second_invariant: bool,
+}
+
+/// Calls of functions: an energy is defined where each function admits its argument.
+#[derive(Debug, PartialEq)]
+pub struct Calls {
+    /// A list whose entries, one by one, make the arguments, by its place in the declaration.
+    pub list: Option<usize>,
+    /// The arguments of the calls.
+    pub arguments: Program,
+    /// The function of each call, by its place in the declaration.
+    pub functions: Vec<usize>,
+}
+
+/// The volumes J for which an energy is defined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Volume {
+    /// All of them.
+    Any,
+    /// J > 0.
+    Positive,
+    /// J ≠ 0.
+    Nonzero,
+}
+
+/// A material whose energy was declared at run time, as the crate `piola-declare` makes it.
+///
+/// It computes what a material compiled from the same declaration does, to the last bit, and is as good
+/// behind `dyn` [`DynMaterial`](crate::DynMaterial). Batches and bodies execute each operation for a tile of
+/// 64 points before the next, which costs little beside the operation; a single point takes two to three
+/// times as long as compiled.
+#[derive(Clone, Debug)]
+pub struct Interpreted {
+    programs: Arc<Programs>,
+    values: Values,
+    inversion: Inversion,
+}
+
+impl PartialEq for Interpreted {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_of_the_same_energy(other) && self.values == other.values && self.inversion == other.inversion
+    }
+}
+
+impl Interpreted {
+    /// The material with these values, which have been checked, and without extension.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn new(programs: Arc<Programs>, values: Values, inversion: Inversion) -> Self {
+        Self { programs, values, inversion }
+    }
+
+    /// The values of the parameters.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// The material of the same energy with other values, which are not checked.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn clone_with(&self, values: Values) -> Self {
+        Self { values, ..self.clone() }
+    }
+
+    /// Executes a program of numbers that depend on the parameters and on these arguments alone, at the entry
+    /// of lists that it reads outside of sums.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn compute(&self, program: &Program, arguments: &[f64], entry: usize) -> Vec<f64> {
+        let mut registers = Registers::take(program.sizes, 1);
+        execute_alone(program, Context { entry, ..self.context() }, arguments, &mut registers);
+        let results = program.results.iter().map(|&register| registers.number(register, 0)).collect();
+        registers.give_back();
+        results
+    }
+
+    fn context(&self) -> Context<'_> {
+        let epsilon = match self.inversion {
+            Inversion::Refuse => f64::NAN,
+            Inversion::Extend { epsilon } => epsilon,
+        };
+        Context { parameters: Parameters::same(&self.values), entry: 0, epsilon }
+    }
+
+    fn is_of_the_same_energy(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.programs, &other.programs) || self.programs == other.programs
+    }
+
+    /// The programs in use.
+    fn variant(&self) -> &Variant {
+        match (&self.programs.extended, self.inversion) {
+            (Some(extended), Inversion::Extend { .. }) => extended,
+            _ => &self.programs.plain,
+        }
+    }
+
+    /// The program of a response, if there is one.
+    fn program(&self, response: ResponseKind) -> Option<&Program> {
+        let (variant, by_invariants) = (self.variant(), self.programs.by_invariants.as_ref());
+        match response {
+            ResponseKind::Energy => Some(&variant.energy),
+            ResponseKind::Gradient => Some(&variant.gradient),
+            ResponseKind::Blocks => Some(&variant.blocks),
+            ResponseKind::EnergyByInvariants => by_invariants?.energy.as_ref(),
+            ResponseKind::GradientByInvariants => Some(&by_invariants?.gradient),
+            ResponseKind::DerivativesByInvariants => Some(&by_invariants?.derivatives),
+        }
+    }
+
+    /// The results of a response at one point, or one register of them.
+    fn alone<R: Real, const N: usize>(&self, response: ResponseKind, at: [R; 3]) -> [R; N] {
+        match self.program(response) {
+            None => [R::splat(f64::NAN); N],
+            Some(program) => self.results(program, &at),
+        }
+    }
+
+    fn results<R: Real, const N: usize>(&self, program: &Program, arguments: &[R]) -> [R; N] {
+        let mut registers = Registers::take(program.sizes, 1);
+        execute_alone(program, self.context(), arguments, &mut registers);
+        let results = std::array::from_fn(|k| registers.number(program.results[k], 0));
+        registers.give_back();
+        results
+    }
+
+    /// Programs of the domain: expressions that are positive inside of it, and calls of functions; `None`
+    /// where there are no invariants.
+    fn domain(&self, is_by_invariants: bool) -> Option<(&Program, &[Calls])> {
+        if !is_by_invariants {
+            return Some((&self.programs.bounds, &self.variant().calls));
+        }
+        let programs = self.programs.by_invariants.as_ref()?;
+        Some((&programs.bounds, &programs.calls))
+    }
+
+    /// Whether volumes are inside the domain, by stretches or by invariants.
+    fn has_volume<R: Real>(&self, is_by_invariants: bool, [first, _, last]: [R; 3]) -> R::Mask {
+        let zero = R::splat(0.0);
+        match (self.programs.volume, self.inversion) {
+            (Volume::Any, _) => R::Mask::splat(true),
+            // λ1 λ2 ≤ (λ1² + λ2²)/2, so λ3 ≥ 2J/I1: no stretch is below ε where 2J > ε I1.
+            (_, Inversion::Extend { epsilon }) if is_by_invariants => {
+                (R::splat(epsilon) * first).less(last + last)
+            }
+            (_, Inversion::Extend { .. }) => R::Mask::splat(true),
+            // J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0.
+            (Volume::Positive, Inversion::Refuse) => zero.less(last),
+            (Volume::Nonzero, Inversion::Refuse) => zero.less(last.abs()),
+        }
+    }
+
+    fn admits_alone<R: Real>(&self, is_by_invariants: bool, at: [R; 3]) -> R::Mask {
+        let Some((bounds, calls)) = self.domain(is_by_invariants) else { return R::Mask::splat(false) };
+        let mut mask = self.has_volume(is_by_invariants, at);
+        let context = self.context();
+        let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
+            let mut registers = Registers::take(program.sizes, 1);
+            execute_alone(program, Context { entry, ..context }, &at, &mut registers);
+            for (k, &register) in program.results.iter().enumerate() {
+                mask = mask & holds(k, registers.number(register, 0));
+            }
+            registers.give_back();
+        };
+        and(bounds, 0, &|_, bound| R::splat(0.0).less(bound));
+        for Calls { list, arguments, functions } in calls {
+            for entry in 0..list.map_or(1, |list| context.parameters.length(list)) {
+                and(arguments, entry, &|k, argument| admits(&context.parameters, functions[k], argument));
+            }
+        }
+        mask
+    }
+
+    /// A response of a tile whose points have this material but for real numbers among its parameters. Gives
+    /// the points inside the domain as bits.
+    fn respond<E: Scalar>(
+        &self,
+        response: ResponseKind,
+        parameters: Parameters<'_>,
+        tile: &mut Tile<'_, E>,
+    ) -> u64 {
+        let Tile { backend, count, stride, arguments, ref mut results, .. } = *tile;
+        let context = Context { parameters, ..self.context() };
+        if let Some(program) = self.program(response) {
+            execute_tile(backend, program, context, (count, stride), arguments, results);
+        }
+        let is_by_invariants = response.is_by_invariants();
+        let Some((bounds, calls)) = self.domain(is_by_invariants) else { return 0 };
+        let at = |point: usize| [0, 1, 2].map(|k| arguments[k * stride + point]);
+        let mut admitted = bits(count, |point| self.has_volume(is_by_invariants, at(point)));
+        let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, E) -> bool| {
+            if program.results.is_empty() {
+                return;
+            }
+            let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
+            let mut rows = Registers::<E>::take(sizes, 1);
+            let context = Context { entry, ..context };
+            execute_tile(backend, program, context, (count, stride), arguments, rows.numbers());
+            for (k, row) in rows.numbers().chunks(stride).take(program.results.len()).enumerate() {
+                admitted &= bits(count, |point| holds(k, row[point]));
+            }
+            rows.give_back();
+        };
+        and(bounds, 0, &|_, bound| E::default() < bound);
+        for Calls { list, arguments, functions } in calls {
+            for entry in 0..list.map_or(1, |list| parameters.length(list)) {
+                and(arguments, entry, &|k, argument| admits(&parameters, functions[k], argument));
+            }
+        }
+        admitted
+    }
+}
+
+/// Where a function that is a parameter is defined.
+fn admits<R: Real>(parameters: &Parameters<'_>, function: usize, argument: R) -> R::Mask {
+    parameters.function(function).map_or(R::Mask::splat(true), |function| function.admits(argument))
+}
+
+/// The points for which something holds, as bits.
+fn bits(count: usize, holds: impl Fn(usize) -> bool) -> u64 {
+    (0..count).fold(0, |bits, point| bits | u64::from(holds(point)) << point)
+}
+
+impl Material for Interpreted {
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        let [energy] = self.alone(ResponseKind::Energy, stretches);
+        energy
+    }
+
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.alone(ResponseKind::Gradient, stretches)
+    }
+
+    fn gradient_at_strains<R: Real>(&self, strains: [R; 3]) -> [R; 3] {
+        let stretches = strains.map(|strain| R::splat(1.0) + strain);
+        let [[l1, l2, l3], [s1, s2, s3]] = [stretches, strains];
+        let inside = self.results(&self.programs.at_strains, &[l1, l2, l3, s1, s2, s3]);
+        if let (Inversion::Extend { epsilon }, Some(_)) = (self.inversion, &self.programs.extended) {
+            let below = s3.less(R::splat(epsilon - 1.0));
+            if below.any() {
+                let extended = self.gradient(stretches);
+                return std::array::from_fn(|k| R::select(below, extended[k], inside[k]));
+            }
+        }
+        inside
+    }
+
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        let all: [R; 15] = self.alone(ResponseKind::Blocks, stretches);
+        Blocks {
+            gradient: std::array::from_fn(|k| all[k]),
+            hessian: std::array::from_fn(|k| all[3 + k]),
+            flip: std::array::from_fn(|k| all[9 + k]),
+            twist: std::array::from_fn(|k| all[12 + k]),
+        }
+    }
+
+    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+        self.admits_alone(false, stretches)
+    }
+
+    const HAS_INVARIANTS: bool = true;
+
+    fn has_invariants(&self) -> bool {
+        self.programs.by_invariants.is_some()
+    }
+
+    fn has_second_invariant(&self) -> bool {
+        self.programs.by_invariants.as_ref().is_none_or(|programs| programs.has_second_invariant)
+    }
+
+    fn has_energy_by_invariants(&self) -> bool {
+        self.programs.by_invariants.as_ref().is_some_and(|programs| programs.energy.is_some())
+    }
+
+    fn energy_by_invariants<R: Real>(&self, invariants: [R; 3]) -> R {
+        let [energy] = self.alone(ResponseKind::EnergyByInvariants, invariants);
+        energy
+    }
+
+    fn gradient_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 3] {
+        self.alone(ResponseKind::GradientByInvariants, invariants)
+    }
+
+    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
+        self.alone(ResponseKind::DerivativesByInvariants, invariants)
+    }
+
+    fn admits_invariants<R: Real>(&self, invariants: [R; 3]) -> R::Mask {
+        self.admits_alone(true, invariants)
+    }
+
+    fn has_pole(&self) -> bool {
+        self.variant().has_pole
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        let is_refused = self.inversion == Inversion::Refuse || self.programs.extended.is_none();
+        self.programs.volume == Volume::Positive && is_refused
+            || !self.variant().calls.is_empty() && crate::material::constructor::sign_decides(self)
+    }
+
+    fn inversion(&self) -> Inversion {
+        self.inversion
+    }
+
+    fn stated_moduli(&self) -> Option<Moduli> {
+        let moduli = self.compute(&self.programs.moduli, &[], 0);
+        Some(Moduli { mu: moduli[0], lambda: moduli[1] })
+    }
+
+    const RESPONDS_TOGETHER: bool = true;
+
+    fn respond_together<'m, E: Scalar>(
+        material: impl Fn(usize) -> &'m Self + Copy,
+        response: ResponseKind,
+        mut tile: Tile<'_, E>,
+    ) -> u64 {
+        let first = material(0);
+        let others = || (1..tile.materials).map(material);
+        if others().all(|other| std::ptr::eq(other, first) || other == first) {
+            return first.respond(response, Parameters::same(&first.values), &mut tile);
+        }
+        let is_alike = |other: &Self| {
+            other.is_of_the_same_energy(first)
+                && other.values.are_alike(&first.values, &first.programs.are_whole)
+        };
+        if others().all(is_alike) {
+            // Lanes beyond the points have the values of the last.
+            let last = tile.materials - 1;
+            let each = |point: usize| &material(point.min(last)).values;
+            let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
+            return first.respond(response, parameters, &mut tile);
+        }
+        // Each different material at all points, of which those that have it take its results.
+        let mut admitted = 0;
+        let mut together = tile.results.to_vec();
+        for k in 0..tile.count {
+            let one = material(k);
+            if (0..k).any(|earlier| material(earlier) == one) {
+                continue;
+            }
+            let own = bits(tile.count, |point| material(point) == one);
+            admitted |= own & one.respond(response, Parameters::same(&one.values), &mut tile);
+            for (to, from) in together.chunks_mut(tile.stride).zip(tile.results.chunks(tile.stride)) {
+                for point in (0..tile.count).filter(|point| own >> point & 1 == 1) {
+                    to[point] = from[point];
+                }
+            }
+        }
+        tile.results.copy_from_slice(&together);
+        admitted
+    }
+}
+
+impl Graded for Interpreted {
+    type OnLanes<'a> = Mixed<'a, Self>;
+
+    fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a> {
+        Mixed::new(material)
+    }
+}

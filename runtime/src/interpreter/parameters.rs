@@ -1,0 +1,102 @@
+//! The values of the parameters of an interpreted material, at one point or at many.
+
+use crate::lanes::Real;
+use crate::univariate::Spline;
+
+/// The values of all parameters, in the order of the declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values(Vec<Value>);
+
+/// The value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number, as one entry, or the entries of a list; whole exponents too.
+    Numbers(Vec<f64>),
+    /// A function.
+    Function(Spline),
+}
+
+impl Values {
+    /// One value for each parameter of the declaration.
+    #[must_use]
+    pub fn new(values: Vec<Value>) -> Self {
+        Self(values)
+    }
+
+    /// The values, one for each parameter.
+    #[must_use]
+    pub fn all(&self) -> &[Value] {
+        &self.0
+    }
+
+    /// An entry of a list, or the value of a number; NaN where there is none.
+    #[inline(always)]
+    pub(super) fn number(&self, parameter: usize, entry: usize) -> f64 {
+        match self.0.get(parameter) {
+            Some(Value::Numbers(numbers)) => numbers.get(entry).copied().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        }
+    }
+
+    /// The number of entries of a list.
+    pub(super) fn length(&self, parameter: usize) -> usize {
+        match self.0.get(parameter) {
+            Some(Value::Numbers(numbers)) => numbers.len(),
+            _ => 0,
+        }
+    }
+
+    /// Whether both differ in real numbers alone, so that lanes can hold values of both.
+    pub(super) fn are_alike(&self, other: &Self, is_whole: &[bool]) -> bool {
+        let mut pairs = self.0.iter().zip(&other.0).zip(is_whole);
+        pairs.all(|((one, other), &is_whole)| match (one, other) {
+            (Value::Numbers(one), Value::Numbers(other)) if !is_whole => one.len() == other.len(),
+            (one, other) => one == other,
+        })
+    }
+}
+
+/// The parameters of the materials at all points of a program.
+#[derive(Clone, Copy)]
+pub(super) struct Parameters<'a> {
+    /// The values of some point, of which all have the lengths, functions and whole exponents.
+    pub(super) some: &'a Values,
+    /// The values of each point where these differ, in real numbers alone.
+    pub(super) each: Option<&'a dyn Fn(usize) -> &'a Values>,
+    /// The number of points side by side in a group.
+    pub(super) lanes: usize,
+}
+
+impl<'a> Parameters<'a> {
+    /// Values that are the same at all points.
+    pub(super) fn same(values: &'a Values) -> Self {
+        Self { some: values, each: None, lanes: 1 }
+    }
+
+    /// An entry of a list, or a number, at a group of points.
+    #[inline(always)]
+    pub(super) fn number<R: Real>(&self, parameter: usize, entry: usize, group: usize) -> R {
+        match self.each {
+            None => R::splat(self.some.number(parameter, entry)),
+            Some(each) => R::from_fn(|lane| each(group * self.lanes + lane).number(parameter, entry)),
+        }
+    }
+
+    /// A whole exponent.
+    pub(super) fn whole(&self, parameter: usize, entry: usize) -> u32 {
+        self.some.number(parameter, entry) as u32
+    }
+
+    /// A function, if the parameter is one.
+    pub(super) fn function(&self, parameter: usize) -> Option<&'a Spline> {
+        match self.some.all().get(parameter) {
+            Some(Value::Function(function)) => Some(function),
+            _ => None,
+        }
+    }
+
+    /// The number of entries of a list.
+    pub(super) fn length(&self, parameter: usize) -> usize {
+        self.some.length(parameter)
+    }
+}
