@@ -76,11 +76,13 @@ fn edges(fit: &Fit) -> Vec<&TrialError> {
 
 /// The conditions at whose edge a fit ends.
 fn conditions(fit: &Fit) -> Vec<&str> {
-    let condition = |reason: &&TrialError| match reason {
-        TrialError::Inadmissible(MaterialError::Violated { condition, .. }) => *condition,
-        other => panic!("{other:?}"),
-    };
-    edges(fit).iter().map(condition).collect()
+    fn condition(reason: &TrialError) -> &str {
+        match reason {
+            TrialError::Inadmissible(MaterialError::Violated { condition, .. }) => condition,
+            other => panic!("{other:?}"),
+        }
+    }
+    edges(fit).into_iter().map(condition).collect()
 }
 
 /// What each term of a stress that is linear in its parameters makes of the difference at each point, and Σ

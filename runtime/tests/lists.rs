@@ -168,7 +168,8 @@ fn a_material_lends_its_lists_and_replaces_them() -> Result<(), MaterialError> {
 
 #[test]
 fn a_description_tells_lists() {
-    let forms = Terms::DESCRIPTION.parameters.iter().map(|parameter| parameter.form);
+    let description = Terms::DESCRIPTION;
+    let forms = description.parameters.iter().map(|parameter| parameter.form);
     assert_eq!(forms.collect::<Vec<_>>(), [Form::List, Form::List, Form::Number]);
     let fixed = Ogden::<2>::DESCRIPTION;
     assert_eq!(Terms::DESCRIPTION.formula, fixed.formula);
@@ -179,7 +180,7 @@ fn a_description_tells_lists() {
 fn constraints_are_as_many_as_entries() -> Result<(), MaterialError> {
     let limits = Groups::new(vec![1.0; 2], vec![2.0; 3], [0.0; 2])?.constraints();
     assert_eq!(limits.len(), 2);
-    assert_eq!((limits[0].limit, limits[0].gradient.len()), (Limit::ShearModulus, 7));
+    assert_eq!((limits[0].limit.clone(), limits[0].gradient.len()), (Limit::ShearModulus, 7));
     Ok(())
 }
 
@@ -203,8 +204,10 @@ fn Implied([l1, l2, l3]: [f64; 3], jm: f64) -> f64 {
 
 #[test]
 fn a_material_that_would_refuse_rest_is_not_made() {
-    let outside =
-        |condition, given: &[Argument]| MaterialError::RestOutside { condition, given: given.to_vec() };
+    let outside = |condition: &'static str, given: &[Argument]| MaterialError::RestOutside {
+        condition: condition.into(),
+        given: given.to_vec(),
+    };
     let given = |lm, n| [Argument::scalar("lm", lm), Argument::scalar("n", n)];
     assert_eq!(Locking::new(1.0, 1.5, 2, 1.0).err(), Some(outside("I1b < lm.powi(n)", &given(1.5, 2.0))));
     let solid = Locking::new(1.0, 1.5, 3, 1.0).expect("1.5³ is above 3");

@@ -341,7 +341,7 @@ mod tests {
             domain: "J > 0".into(),
             extends: true,
             refusal: None,
-            admissible: [].into(),
+            admissible: Vec::new().into(),
             moduli: ["mu".into(), "kappa".into()],
             typical: None,
         }

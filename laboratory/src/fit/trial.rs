@@ -44,7 +44,7 @@ mod tests {
             Argument::scalar("kappa", 2.0),
             Argument::entry("alpha", 11, 0.5),
         ];
-        let violated = TrialError::Inadmissible(MaterialError::Violated { condition: "", given });
+        let violated = TrialError::Inadmissible(MaterialError::Violated { condition: "".into(), given });
         let names = [("mu[0]", "mu_1"), ("alpha[11]", "alpha_12")];
         assert_eq!(violated.entries(), names.map(|(entry, number)| (entry.to_owned(), number.to_owned())));
     }

@@ -229,5 +229,5 @@ fn values_are_those_of_the_constructor() -> Result<(), MaterialError> {
 fn curves_cannot_be_fitted() {
     let drawn = find("stretch_spline").expect("in the catalogue");
     let refused = visit(drawn, &values(drawn), Values);
-    assert_eq!(refused, Err(MaterialError::NotFittable { material: "StretchSpline" }));
+    assert_eq!(refused, Err(MaterialError::NotFittable { material: "StretchSpline".into() }));
 }

@@ -135,7 +135,8 @@ impl Unit {
 /// }
 ///
 /// # fn main() -> Result<(), piola::material::MaterialError> {
-/// let forms = Rivlin::DESCRIPTION.parameters.iter().map(|parameter| parameter.form);
+/// let description = Rivlin::DESCRIPTION;
+/// let forms = description.parameters.iter().map(|parameter| parameter.form);
 /// assert!(forms.eq([Form::List, Form::Exponents, Form::Exponents, Form::Number]));
 /// // C10, C01 and C20.
 /// let terms: [&[f64]; 4] = [&[1.6e5, 2e4, 1e3], &[1.0, 0.0, 2.0], &[0.0, 1.0, 0.0], &[1e7]];
