@@ -197,6 +197,7 @@ impl Error {
             | Self::Random(_)
             | Self::Signals(_)
             | Self::StandardOutput(_)
+            | Self::Contract { .. }
             | Self::Scene(
                 SceneError::Threads(_)
                 | SceneError::Write { .. }

@@ -100,12 +100,13 @@ impl fmt::Display for Mistakes {
 
 impl Mistakes {
     fn write(&self, Mistake { message, place }: &Mistake, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(message)?;
+        // What is quoted from the text cannot speak to the terminal.
+        f.write_str(&message.replace(|c: char| c.is_control() && c != '\n', "�"))?;
         let Some(Place { line, column, length }) = *place else { return Ok(()) };
         let source = self.text.lines().nth(line - 1).unwrap_or_default();
         let margin = " ".repeat(line.to_string().len());
         // As wide as the characters are shown; a tab is shown as four spaces.
-        let shown = |text: &str| text.replace('\t', "    ");
+        let shown = |text: &str| text.replace('\t', "    ").replace(char::is_control, "�");
         let part = |from: usize, count: usize| source.chars().skip(from).take(count).collect::<String>();
         let width = |text: &str| unicode_width::UnicodeWidthStr::width(shown(text).as_str());
         let before = " ".repeat(width(&part(0, column - 1)));

@@ -5,15 +5,21 @@
 //! file in it, and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated
 //! seeds, and `fuzz/` with what libFuzzer thinks of.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
+
 pub mod mutation;
 
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use piola::Inversion;
+use piola::material::Form;
+use piola::point::{Filter, Matrix3, evaluate};
 use piola_cli::view::recording::Recording;
 use piola_cli::view::session::Session;
 use piola_cli::view::state::State;
+use piola_declare::Energy;
 use piola_laboratory::chart::{self, Curve};
 use piola_laboratory::curve::{Volume, sweep};
 use piola_laboratory::data::Measurements;
@@ -45,6 +51,7 @@ pub const FORMATS: &[Format] = &[
     Format { name: "tetgen", judge: tetgen },
     Format { name: "obj", judge: obj },
     Format { name: "csv", judge: csv },
+    Format { name: "energy", judge: energy },
     Format { name: "state", judge: state },
     Format { name: "recording", judge: recording },
 ];
@@ -103,6 +110,40 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
     match chart::draw("gent", "typical", &curves, compared) {
         Ok(svg) => assert!(!svg.contains("NaN") && !svg.contains("\"inf"), "{svg}"),
         Err(error) => check_message(&error),
+    }
+    true
+}
+
+/// The text of an energy, and the material that it makes.
+pub fn energy(_: &Path, bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    let energy = match Energy::from_text(text) {
+        Ok(energy) => energy,
+        Err(mistakes) => {
+            let shown = mistakes.to_string();
+            let is_plain = |c: char| !c.is_control() || c == '\n';
+            assert!(!shown.is_empty() && shown.chars().all(is_plain), "control characters in {shown:?}");
+            return false;
+        }
+    };
+    let curve = [0.5, -1e5, 1.0, 0.0, 2.0, 1e5];
+    let values = energy.description().parameters.iter().map(|parameter| match parameter.form {
+        Form::Points | Form::Function => &curve[..],
+        _ => &[2.0],
+    });
+    let values: Vec<&[f64]> = values.collect();
+    for inversion in [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }] {
+        match energy.material(&values, inversion) {
+            Err(error) => check_message(&error),
+            Ok(material) => {
+                for F in [[1.0, 1.0, 1.0], [1.2, 1.1, 0.7], [2.0, 1.0, -0.1]] {
+                    let F: Matrix3<f64> = [[F[0], 0.1, 0.0], [0.0, F[1], 0.0], [0.0, 0.0, F[2]]];
+                    let point = evaluate(&material, &F, Filter::None);
+                    let is_finite = point.stress.as_flattened().iter().all(|entry| entry.is_finite());
+                    assert!(is_finite || !point.status.is_clean(), "{point:?}");
+                }
+            }
+        }
     }
     true
 }

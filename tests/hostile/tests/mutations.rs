@@ -68,7 +68,7 @@ macro_rules! formats {
     )+};
 }
 
-formats!(msh, tetgen, obj, csv, state, recording);
+formats!(msh, tetgen, obj, csv, energy, state, recording);
 
 /// Seeds of the viewer's files, which have checksums: a cube that is pulled, let go, and changed.
 #[test]
