@@ -188,6 +188,11 @@ impl Error {
         Self::Bench(Box::new(source))
     }
 
+    /// Whether its message is laid out in lines, as a compiler's is.
+    pub(crate) fn has_lines(&self) -> bool {
+        matches!(self, Self::Declaration(_) | Self::Contract { .. })
+    }
+
     /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if
     /// something failed on the way.
     #[must_use]

@@ -58,7 +58,11 @@ pub fn main() -> ExitCode {
         Command::Contract(contract) => contract.run().and_then(say),
     };
     result.unwrap_or_else(|error| {
-        warn(format_args!("error: {error}{}", error.remedy()));
+        let message = format!("error: {error}{}", error.remedy());
+        match error.has_lines() {
+            true => message.lines().for_each(warn),
+            false => warn(message),
+        }
         ExitCode::from(error.exit_code())
     })
 }

@@ -68,7 +68,8 @@ fn curves_and_fits_take_formulas_and_files() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let typical = ["--mode", "uniaxial", "--rows", "3"];
     let of = |material: &[&str]| {
-        let arguments: Vec<_> = ["curve"].into_iter().chain(material.iter().copied()).chain(typical).collect();
+        let arguments: Vec<_> =
+            ["curve"].into_iter().chain(material.iter().copied()).chain(typical).collect();
         let text = answer(folder.path(), &arguments);
         text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
     };
@@ -78,7 +79,8 @@ fn curves_and_fits_take_formulas_and_files() {
         let arguments: Vec<_> = ["fit"].into_iter().chain(material.iter().copied()).chain(options).collect();
         answer(folder.path(), &arguments)
     };
-    let formula = fitted(&["--energy", "mu/2*(I1 - 3)", "--free-rest", "--kappa", "2e7", "--param", "mu=0.4MPa"]);
+    let formula =
+        fitted(&["--energy", "mu/2*(I1 - 3)", "--free-rest", "--kappa", "2e7", "--param", "mu=0.4MPa"]);
     assert!(formula.contains("kappa=2e7") && formula.contains(" held"), "{formula}");
     assert!(fitted(&[OGDEN]).contains("--param mu="), "Ogden's from its file");
 }
@@ -86,15 +88,25 @@ fn curves_and_fits_take_formulas_and_files() {
 #[test]
 fn the_contract_is_checked_without_a_crate() {
     let folder = tempfile::tempdir().expect("a scratch folder");
-    let text = answer(folder.path(), &["contract", OGDEN, "--param", "mu=1e5", "--param", "alpha=2", "--extend", "0.1"]);
+    let text = answer(
+        folder.path(),
+        &["contract", OGDEN, "--param", "mu=1e5", "--param", "alpha=2", "--extend", "0.1"],
+    );
     assert!(text.contains("keeps the contract") && text.contains("below 0.1, it does as well"), "{text}");
     assert!(text.lines().filter(|line| line.contains("comparisons")).count() >= 26, "{text}");
     // ln 1 of a difference of terms that are large and nearly equal: f32 keeps none of it.
-    let lossy = ["contract", "--energy", "mu/2*(I1 - 3 - 2*ln(J)) + k*((J + 1e6)^2 - (1 + 1e6)^2 - 2*(J - 1)*(1 + 1e6))"];
+    let lossy = [
+        "contract",
+        "--energy",
+        "mu/2*(I1 - 3 - 2*ln(J)) + k*((J + 1e6)^2 - (1 + 1e6)^2 - 2*(J - 1)*(1 + 1e6))",
+    ];
     let output = piola(folder.path(), &[&lossy[..], &["--param", "mu=1", "--param", "k=1"]].concat());
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(message.contains("does not keep the contract") && message.contains("single_precision"), "{message}");
+    assert!(
+        message.contains("does not keep the contract") && message.contains("single_precision"),
+        "{message}"
+    );
     assert!(refusal(&["contract", "gent"]).contains("is of the catalogue"));
 }
 
@@ -103,12 +115,15 @@ fn the_contract_is_checked_without_a_crate() {
 fn a_formula_is_printed_as_a_declaration() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let text = answer(folder.path(), &["declare", "C10*(I1 - 3) + C01*(I2 - 3)", "--free-rest", "--kappa"]);
-    for part in ["#[material(domain(J > 0.0), extend, fit)]", "C10: f64", "* J.ln()", "// ψ₁ = ", "// D⁻₁₂ = "] {
+    for part in
+        ["#[material(domain(J > 0.0), extend, fit)]", "C10: f64", "* J.ln()", "// ψ₁ = ", "// D⁻₁₂ = "]
+    {
         assert!(text.contains(part), "`{part}` is not in: {text}");
     }
     fs::write(folder.path().join("rivlin.rs"), text).expect("a file");
     let parameters = ["--param", "C10=1e5", "--param", "C01=1e4", "--param", "kappa=1e7"];
-    let checked = answer(folder.path(), &[&["check", "rivlin.rs", "--resolution", "5"][..], &parameters].concat());
+    let checked =
+        answer(folder.path(), &[&["check", "rivlin.rs", "--resolution", "5"][..], &parameters].concat());
     assert!(checked.contains("C10"), "{checked}");
 }
 
@@ -117,10 +132,16 @@ fn mistakes_are_told_at_their_places() {
     let wrong = "mu/2*(I1 - 3) - mu*lnn(J) + lambda/2*ln(J)^2";
     let message = refusal(&["run", "dinosaur", "--energy", wrong, "--param", "mu=1", "--param", "lambda=1"]);
     assert!(message.contains("did you mean `.ln()`?"), "{message}");
-    assert!(message.contains("1 | mu/2*(I1 - 3) - mu*lnn(J)") && message.contains("|                    ^^^"), "{message}");
+    assert!(
+        message.contains("1 | mu/2*(I1 - 3) - mu*lnn(J)") && message.contains("|                    ^^^"),
+        "{message}"
+    );
     let message = refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1", "--param", "lamda=1"]);
     assert!(message.contains("unknown name `lambda`: did you mean `lamda`?"), "{message}");
     assert!(refusal(&["curve", "--energy", NEO_HOOKEAN]).contains("needs a value for `mu`, `lambda`"));
     assert!(refusal(&["curve", "nowhere.rs"]).contains("nowhere.rs: cannot be read"));
-    assert!(refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1 psi"]).contains("`1 psi` is not a number"));
+    assert!(
+        refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1 psi"])
+            .contains("`1 psi` is not a number")
+    );
 }

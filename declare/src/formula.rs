@@ -15,13 +15,13 @@ use piola_codegen::algebra::increment::substitute_rest;
 use piola_codegen::model::Model;
 use piola_codegen::printer;
 use piola_codegen::read::parse::Declaration;
-use piola_codegen::{analyse, read};
+use piola_codegen::{analyse_within, read};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::energy::Energy;
 use crate::mistakes::Mistakes;
-use crate::rust::TOO_LARGE;
+use crate::rust::{MOST_EXPRESSIONS, TOO_LARGE};
 use notation::Notation;
 use parse::{Parsed, parse};
 
@@ -151,7 +151,7 @@ impl Parsed {
     fn analyse(&self) -> syn::Result<(TokenStream, Declaration, Model)> {
         let mut mistakes = None;
         for arguments in self.arguments() {
-            match analyse(arguments.clone(), self.item()) {
+            match analyse_within(arguments.clone(), self.item(), MOST_EXPRESSIONS) {
                 Ok((declaration, model)) => return Ok((arguments, declaration, model)),
                 Err(error) => mistakes = Some(error),
             }
@@ -162,7 +162,8 @@ impl Parsed {
     /// Subtracts s ln J, with the stress s at rest.
     fn free_rest(&mut self) -> syn::Result<()> {
         let domain = if self.domain.is_empty() { vec![quote!(J > 0.0)] } else { self.domain.clone() };
-        let (declaration, mut model) = analyse(quote!(domain(#(#domain),*), prestressed), self.item())?;
+        let (declaration, mut model) =
+            analyse_within(quote!(domain(#(#domain),*), prestressed), self.item(), MOST_EXPRESSIONS)?;
         let stress = substitute_rest(&mut model.graph, model.plain.gradient[0]);
         if model.graph.is_zero(stress) {
             return Ok(());

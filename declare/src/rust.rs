@@ -1,6 +1,6 @@
 //! Declarations in Rust: the same function that `#[piola::material]` takes.
 
-use piola_codegen::analyse;
+use piola_codegen::analyse_within;
 use piola_codegen::read::parse::{Declaration, Kind};
 use proc_macro2::TokenStream;
 use syn::Type;
@@ -10,6 +10,13 @@ use crate::mistakes::Mistakes;
 
 /// The message about an energy beyond the limits.
 pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, or a list with a sum instead of many terms, keep within the limits";
+
+/// The longest text of an energy, bytes.
+const LARGEST_TEXT: usize = 1 << 16;
+
+/// The most different expressions of an energy, derivatives included: some forty times as many as those of
+/// the catalogue have, and compiled within seconds.
+pub(crate) const MOST_EXPRESSIONS: Option<usize> = Some(100_000);
 
 impl Energy {
     /// The energy of the one declaration in a text, a function as `#[piola::material]` takes it.
@@ -38,6 +45,7 @@ impl Energy {
     /// # Errors
     /// All [`Mistakes`] of the first declaration that has some, or a syntax error.
     pub fn all_from_rust(text: &str) -> Result<Vec<Self>, Mistakes> {
+        check_size(text)?;
         let declarations =
             piola_codegen::declarations(text).map_err(|error| Mistakes::from_syn(text, error))?;
         declarations.into_iter().map(|(arguments, item)| compile(text, arguments, item)).collect()
@@ -45,10 +53,23 @@ impl Energy {
 }
 
 fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Energy, Mistakes> {
-    let (declaration, model) = analyse(arguments, item).map_err(|error| Mistakes::from_syn(text, error))?;
+    let (declaration, model) =
+        analyse_within(arguments, item, MOST_EXPRESSIONS).map_err(|error| Mistakes::from_syn(text, error))?;
     only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
     Energy::new(&declaration, model, text.to_owned(), text.to_owned())
         .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))
+}
+
+/// Checks that a text is no longer than any energy.
+///
+/// # Errors
+/// [`Mistakes`] about all of it.
+pub(crate) fn check_size(text: &str) -> Result<(), Mistakes> {
+    if text.len() <= LARGEST_TEXT {
+        return Ok(());
+    }
+    let message = format!("this text has {} bytes; that of an energy has at most {LARGEST_TEXT}", text.len());
+    Err(Mistakes::of_all("", message))
 }
 
 /// Functions of other types are Rust of their own.

@@ -3,9 +3,7 @@
 use proc_macro2::TokenStream;
 
 use crate::mistakes::{Mistake, Mistakes, Place};
-
-/// The largest text of an energy, bytes.
-pub(crate) const LARGEST_TEXT: usize = 1 << 16;
+use crate::rust::check_size;
 
 /// A formula in the characters of Rust.
 pub(super) struct Notation {
@@ -22,11 +20,7 @@ impl Notation {
     /// # Errors
     /// [`Mistakes`] where its characters make no tokens.
     pub(super) fn read(formula: &str) -> Result<Self, Mistakes> {
-        if formula.len() > LARGEST_TEXT {
-            let message =
-                format!("this text has {} bytes; an energy has at most {LARGEST_TEXT}", formula.len());
-            return Err(Mistakes::of_all(formula, message));
-        }
+        check_size(formula)?;
         let (mut text, mut origins) = (String::new(), Vec::new());
         let mut is_raised = false;
         for (place, character) in formula.chars().enumerate() {

@@ -48,9 +48,22 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
 pub fn analyse(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
+    analyse_within(arguments, item, None)
+}
+
+/// Like [`analyse`], for a declaration of so many different expressions at most, derivatives included: texts
+/// of anybody take no longer than that allows.
+///
+/// # Errors
+/// All mistakes of form and meaning, each at its tokens.
+pub fn analyse_within(
+    arguments: TokenStream,
+    item: TokenStream,
+    most: Option<usize>,
+) -> syn::Result<(Declaration, Model)> {
     let mut diagnostics = Diagnostics::default();
     let analysed = parse::parse_declaration(arguments, item, &mut diagnostics).and_then(|declaration| {
-        let model = model::read(&declaration, &mut diagnostics)?;
+        let model = model::read_within(&declaration, &mut diagnostics, most)?;
         Some((declaration, model))
     });
     diagnostics.finish(analysed)

@@ -163,9 +163,31 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
 /// The model of a declaration that may have mistakes of form: then names are resolved, and nothing further is
 /// checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
+    read_within(declaration, diagnostics, None)
+}
+
+/// The model of a declaration of so many different expressions at most, derivatives included.
+pub fn read_within(
+    declaration: &Declaration,
+    diagnostics: &mut Diagnostics,
+    most: Option<usize>,
+) -> Option<Model> {
+    let (graph, is_full) = Graph::with_most(most);
+    let model = read_into(graph, declaration, diagnostics);
+    if !is_full.get() {
+        return model;
+    }
+    // What was found of expressions that were left out means nothing.
+    *diagnostics = Diagnostics::default();
+    let message = "this energy is too large for one that is compiled at run time: write sums over lists as `sum(…)`, and nest \
+                   powers and functions less";
+    diagnostics.error(&declaration.body, message);
+    None
+}
+
+fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let options = &declaration.options;
     let is_well_formed = diagnostics.is_clean();
-    let mut graph = Graph::default();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
     let written = resolver.energy();
     let written_bounds: Vec<_> =

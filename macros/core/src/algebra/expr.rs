@@ -7,6 +7,9 @@
 //!
 //! The graph knows no derivative: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use rustc_hash::FxHashMap;
 
 use crate::algebra::rational::Rational;
@@ -121,9 +124,21 @@ pub struct Graph {
     /// Nodes with their stretches replaced.
     substitutions: FxHashMap<(Id, [Id; 3]), Id>,
     overflowed: bool,
+    /// The most nodes; `None` for as many as memory holds.
+    most: Option<usize>,
+    /// Whether there were to be more nodes.
+    is_full: Rc<Cell<bool>>,
 }
 
 impl Graph {
+    /// A graph of so many nodes at most. Beyond, every node is the first one, so that whatever goes on comes to
+    /// an end soon, with results that mean nothing; the cell then says so.
+    pub fn with_most(most: Option<usize>) -> (Self, Rc<Cell<bool>>) {
+        let graph = Self { most, ..Self::default() };
+        let is_full = graph.is_full.clone();
+        (graph, is_full)
+    }
+
     /// The node of an id.
     #[must_use]
     pub fn node(&self, id: Id) -> &Node {
@@ -156,6 +171,10 @@ impl Graph {
         }
         if let Some(&id) = self.ids.get(&node) {
             return id;
+        }
+        if self.most.is_some_and(|most| self.nodes.len() >= most) {
+            self.is_full.set(true);
+            return Id(0);
         }
         let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
         self.nodes.push(node.clone());
