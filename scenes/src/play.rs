@@ -21,7 +21,8 @@ mod start;
 /// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
 const DRAG_STIFFNESS: f64 = 10.0;
 
-/// Share of a frame below which an event and the frame's end are the same instant: times of frames are rounded.
+/// Share of a frame below which an event and the frame's end are the same instant: times of frames are
+/// rounded.
 const NEAR: f64 = 1e-6;
 
 /// A scene in motion, step by step.

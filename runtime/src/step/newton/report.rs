@@ -52,7 +52,7 @@ pub struct NewtonReport {
 
 impl NewtonReport {
     /// The report before the first iteration.
-    pub(in crate::step) fn before(settings: &NewtonSettings) -> Self {
+    pub(crate) fn before(settings: &NewtonSettings) -> Self {
         Self {
             convergence: Convergence::Limit,
             iterations: 0,
@@ -70,7 +70,7 @@ impl NewtonReport {
     }
 
     /// The report of this minimisation and those before it in a step.
-    pub(in crate::step) fn after(self, before: Option<Self>) -> Self {
+    pub(crate) fn after(self, before: Option<Self>) -> Self {
         let Some(before) = before else { return self };
         let mut step_lengths = before.step_lengths;
         step_lengths.extend(self.step_lengths);

@@ -11,7 +11,7 @@ pub(crate) struct NewtonWorkspace {
     pub(super) solver: Box<dyn Solver>,
     choice: Choice,
     pins: Pins,
-    pub(in crate::step) model: Option<Model>,
+    pub(crate) model: Option<Model>,
     pub(super) gradient: Vec<[f64; 3]>,
     pub(super) direction: Vec<[f64; 3]>,
     pub(super) trial: Vec<[f64; 3]>,
@@ -38,12 +38,12 @@ impl NewtonWorkspace {
     }
 
     /// Whether the linear solver is a caller's own.
-    pub(in crate::step) fn has_own_solver(&self) -> bool {
+    pub(crate) fn has_own_solver(&self) -> bool {
         matches!(self.choice, Choice::Own(_))
     }
 
     /// Replaces the pins, with a solver that is set up anew where the old one cannot serve.
-    pub(in crate::step) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
+    pub(crate) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
         if !self.solver.set_pins(pins) {
             self.solver = self.choice.set_up(body, pins, &[])?;
         }
@@ -63,7 +63,7 @@ impl NewtonWorkspace {
     }
 
     /// The nodes that are not pinned.
-    pub(in crate::step) fn free_nodes(&self) -> &[usize] {
+    pub(crate) fn free_nodes(&self) -> &[usize] {
         self.solver.free_nodes()
     }
 

@@ -1,4 +1,4 @@
-//! What a caller changes between two steps: the state, pins, forces, terms, materials and settings.
+//! Changes between two steps: of the state, pins, forces, terms, materials and settings.
 
 use std::sync::Arc;
 
@@ -80,8 +80,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces the material of a part of the body, counted as [`Body::from_parts`](crate::system::Body::from_parts) took them, from the next
-    /// step on.
+    /// Replaces the material of a part of the body, counted as
+    /// [`Body::from_parts`](crate::system::Body::from_parts) took them, from the next step on.
     ///
     /// # Errors
     /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
