@@ -1,5 +1,6 @@
 //! A moment of a scene in motion, to continue from.
 
+use piola::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
@@ -8,7 +9,8 @@ use crate::geometry::Geometry;
 use crate::play::Play;
 use crate::settings::{Files, Settings};
 
-/// Everything that determines the steps to come of a scene, to the last bit; JSON keeps every bit of it.
+/// Everything that determines the steps to come of a scene, to the last bit; JSON keeps every bit of it. Only
+/// backward differences begin anew, without the step before.
 ///
 /// A body from files is not part of it, nor are their names: [`with_files`](Self::with_files) gives them
 /// again, and a checksum tells whether it is the body that it was.
@@ -23,6 +25,10 @@ pub struct Moment {
     positions: Vec<[f64; 3]>,
     /// Velocity of each node, m/s.
     velocities: Vec<[f64; 3]>,
+    /// Acceleration of each node, m/s², after steps of an integrator that knows it: beside it is judged how
+    /// far the next step is solved.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    accelerations: Vec<[f64; 3]>,
 }
 
 impl Moment {
@@ -30,12 +36,14 @@ impl Moment {
     #[must_use]
     pub fn of(settings: &Settings, geometry: &Geometry, play: &Play) -> Self {
         let simulation = play.simulation();
+        let counts = play.clock().frame() > 0 && settings.integrator != Integrator::ImplicitEuler;
         Self {
             settings: settings.clone(),
             body: geometry.checksum(),
             clock: play.clock(),
             positions: simulation.positions().to_vec(),
             velocities: simulation.velocities().to_vec(),
+            accelerations: if counts { simulation.accelerations().to_vec() } else { Vec::new() },
         }
     }
 
@@ -62,7 +70,8 @@ impl Moment {
     ///
     /// # Errors
     /// [`Error::OtherBody`] if it is another one, [`Error::Unsound`] if the clock is wrong, [`Error::Setup`]
-    /// unless there is one finite position and velocity for each node, and those of [`Play::new`].
+    /// unless there is one finite position, velocity and acceleration for each node, and those of
+    /// [`Play::new`].
     pub fn resume(&self, geometry: &Geometry) -> Result<Play, Error> {
         if !self.clock.is_sound() || self.clock.dt() != self.settings.dt {
             return Err(Error::Unsound("its clock is wrong"));
@@ -72,6 +81,9 @@ impl Moment {
         }
         let mut play = Play::new(&self.settings, geometry)?;
         play.resume(self.clock, &self.positions, &self.velocities)?;
+        if !self.accelerations.is_empty() {
+            play.simulation_mut().set_accelerations(&self.accelerations)?;
+        }
         Ok(play)
     }
 }
@@ -79,14 +91,18 @@ impl Moment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Body, HORSE};
+    use crate::output::Newton;
+    use crate::scene::{Body, HORSE, TWIST};
 
     fn moment() -> (Moment, Geometry) {
-        let settings = Settings::new(&HORSE).with_body(Body::BAR);
-        let geometry = Geometry::load(&settings).expect("a body of the program");
-        let mut play = Play::new(&settings, &geometry).expect("a scene that plays");
-        play.step().expect("a step");
-        (Moment::of(&settings, &geometry, &play), geometry)
+        moment_after(&Settings::new(&HORSE).with_body(Body::BAR), 1)
+    }
+
+    fn moment_after(settings: &Settings, frames: usize) -> (Moment, Geometry) {
+        let geometry = Geometry::load(settings).expect("a body of the program");
+        let mut play = Play::new(settings, &geometry).expect("a scene that plays");
+        (0..frames).for_each(|_| drop(play.step().expect("a step")));
+        (Moment::of(settings, &geometry, &play), geometry)
     }
 
     fn written(moment: &Moment) -> String {
@@ -106,6 +122,22 @@ mod tests {
         let end = |play| written(&Moment::of(moment.settings(), &geometry, play));
         assert!(end(&play) == end(&again), "the moment went on in another way");
         assert_eq!(play.clock().frame(), 4);
+    }
+
+    /// Newmark's method goes on from them, and others judge beside them how far a step is solved.
+    #[test]
+    fn accelerations_go_on_as_well() {
+        for integrator in [Integrator::Newmark, Integrator::Sdirk2] {
+            let settings = Settings::new(&TWIST).with_integrator(integrator).with_newton(Newton::Full);
+            let (whole, geometry) = moment_after(&settings, 12);
+            for frame in [0, 1, 7, 11] {
+                let (moment, _) = moment_after(&settings, frame);
+                let mut play = moment.resume(&geometry).expect("a moment that plays");
+                (frame..12).for_each(|_| drop(play.step().expect("a step")));
+                let end = written(&Moment::of(&settings, &geometry, &play));
+                assert!(end == written(&whole), "{integrator:?} went on in another way after frame {frame}");
+            }
+        }
     }
 
     #[test]
@@ -133,6 +165,7 @@ mod tests {
         refused(&|moment| moment.clock = Clock::new(0.5), "clock");
         refused(&|moment| moment.positions.truncate(2), "found 2");
         refused(&|moment| moment.velocities[3][1] = f64::NAN, "finite");
+        refused(&|moment| moment.accelerations = vec![[0.0; 3]; 2], "found 2");
         refused(&|moment| moment.settings.density = -1.0, "density");
     }
 }

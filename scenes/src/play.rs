@@ -4,7 +4,7 @@ use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
 use piola::mesh::Anchor;
 use piola::mesh::{Bounds, TetMesh};
-use piola::step::{self, Integrator, NewtonSettings, Simulation, StepReport};
+use piola::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
 use piola::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
@@ -20,6 +20,10 @@ mod start;
 
 /// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
 const DRAG_STIFFNESS: f64 = 10.0;
+
+/// Share of a frame below which an event and the frame's end are the same instant: times of frames are
+/// rounded.
+const NEAR: f64 = 1e-6;
 
 /// A scene in motion, step by step.
 #[derive(Debug)]
@@ -177,7 +181,7 @@ impl Play {
     }
 
     /// Makes the next frame, in the rayon pool of the caller: one step of time, or as many as the tolerance
-    /// takes.
+    /// takes. A step ends wherever a pull changes at once, between two frames too.
     ///
     /// # Errors
     /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] where no time is left; the state before
@@ -188,50 +192,78 @@ impl Play {
             let (quantity, value) = ("the time after the step", clock.time());
             return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
         }
-        let report = match self.tolerance {
-            None => {
-                self.pull(clock.time(), clock.time())?;
-                self.steps = StepCounts { taken: 1, ..StepCounts::default() };
-                let failed = |source| Error::Step { frame: clock.frame(), source };
-                self.simulation.step(clock.dt()).map_err(failed)?
+        let (start, events) = self.events_before(clock);
+        let before = (!events.is_empty()).then(|| self.simulation.clone());
+        match self.step_by_events(start, &events, clock) {
+            Ok((report, counts)) => {
+                (self.clock, self.steps) = (clock, counts);
+                Ok(report)
             }
-            Some(tolerance) => self.advance_within(clock, tolerance)?,
-        };
-        self.clock = clock;
-        Ok(report)
+            Err(error) => {
+                if let Some(before) = before {
+                    self.simulation = before;
+                }
+                Err(error)
+            }
+        }
     }
 
-    /// Makes a frame in steps as short as the tolerance, m/s, takes, and ends one wherever a pull changes at
-    /// once.
-    fn advance_within(&mut self, clock: Clock, tolerance: f64) -> Result<StepReport, Error> {
-        let (mut start, end) = (self.clock.time(), clock.time());
-        let events = self.pulls.iter().flat_map(|springs| springs.pull.events());
-        let mut ends: Vec<f64> = events.filter(|&event| start < event && event < end).chain([end]).collect();
-        ends.sort_unstable_by(f64::total_cmp);
-        ends.dedup();
-        let before = (ends.len() > 1).then(|| self.simulation.clone());
+    /// The present time, s, as that of an event where it is one but for rounding, and the times between it
+    /// and the next frame when a pull changes at once.
+    fn events_before(&self, next: Clock) -> (f64, Vec<f64>) {
+        let near = NEAR * next.dt();
+        let (now, end) = (self.clock.time(), next.time());
+        let events = || self.pulls.iter().flat_map(|springs| springs.pull.events());
+        let start = events().find(|event| (event - now).abs() <= near).unwrap_or(now);
+        let is_between = |&event: &f64| event - start > near && end - event > near;
+        let mut between: Vec<f64> = events().filter(is_between).collect();
+        between.sort_unstable_by(f64::total_cmp);
+        between.dedup();
+        (start, between)
+    }
+
+    /// Makes a frame that begins at a time, s, and in which a pull changes at once at others.
+    fn step_by_events(
+        &mut self,
+        mut start: f64,
+        events: &[f64],
+        clock: Clock,
+    ) -> Result<(StepReport, StepCounts), Error> {
         let (mut counts, mut iterations) = (StepCounts::default(), 0);
-        loop {
-            let end = ends.remove(0);
-            self.pull(start, end)?;
-            // A whole frame is as long as steps without a tolerance are, to the last bit.
-            let length = if before.is_none() { clock.dt() } else { end - start };
-            let mut report = match self.simulation.advance_within(length, tolerance) {
-                Ok(report) => report,
-                Err(source) => {
-                    self.simulation = before.unwrap_or_else(|| self.simulation.clone());
-                    return Err(Error::Step { frame: clock.frame(), source });
-                }
-            };
-            counts +=
-                StepCounts { taken: report.taken, refused: report.refused, unresolved: report.unresolved };
-            iterations += report.step.newton.iterations;
-            if ends.is_empty() {
-                self.steps = counts;
-                report.step.newton.iterations = iterations;
-                return Ok(report.step);
+        for &event in events {
+            let (report, more) = self.step_between(start, event, event - start, clock.frame())?;
+            counts += more;
+            iterations += report.newton.iterations;
+            start = event;
+        }
+        // A whole frame is as long as its clock says, to the last bit.
+        let length = if events.is_empty() { clock.dt() } else { clock.time() - start };
+        let (mut report, more) = self.step_between(start, clock.time(), length, clock.frame())?;
+        counts += more;
+        report.newton.iterations += iterations;
+        Ok((report, counts))
+    }
+
+    /// Advances between two times, s, by this length, s.
+    fn step_between(
+        &mut self,
+        start: f64,
+        end: f64,
+        length: f64,
+        frame: usize,
+    ) -> Result<(StepReport, StepCounts), Error> {
+        self.pull(start, end)?;
+        let failed = |source| Error::Step { frame, source };
+        match self.tolerance {
+            None => {
+                let report = self.simulation.step(length).map_err(failed)?;
+                Ok((report, StepCounts { taken: 1, ..StepCounts::default() }))
             }
-            start = end;
+            Some(tolerance) => {
+                let report = self.simulation.advance_within(length, tolerance).map_err(failed)?;
+                let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
+                Ok((step, StepCounts { taken, refused, unresolved }))
+            }
         }
     }
 
@@ -351,7 +383,7 @@ impl DragSprings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Body, HORSE};
+    use crate::scene::{Body, HORSE, Motion, Scene, TWIST};
 
     #[test]
     fn no_step_leads_beyond_all_time() {
@@ -368,5 +400,56 @@ mod tests {
             "{refused}"
         );
         assert_eq!(play.clock(), late);
+    }
+
+    /// Of the bar, drawn sideways by its upper end and let go after 0.2 s.
+    fn drawn(dt: f64) -> Play {
+        const PULL: Pull = Pull {
+            region: Bounds { min: [f64::NEG_INFINITY, 0.9, f64::NEG_INFINITY], max: [f64::INFINITY; 3] },
+            motion: Motion::Shift([0.5, 0.0, 0.0]),
+            reached: 0.1,
+            released: 0.2,
+        };
+        static DRAWN: Scene = Scene { pulls: &[PULL], ..TWIST };
+        let settings = Settings::new(&DRAWN).with_dt(dt);
+        let geometry = Geometry::load(&settings).expect("a body of the program");
+        Play::new(&settings, &geometry).expect("a scene that plays")
+    }
+
+    /// The springs, and the steps of time, by which each of some frames was made.
+    fn springs_and_steps(mut play: Play, frames: usize) -> Vec<(bool, usize)> {
+        let mut frame = || {
+            play.step().expect("a step");
+            (!play.simulation().springs().is_empty(), play.steps().taken)
+        };
+        (0..frames).map(|_| frame()).collect()
+    }
+
+    #[test]
+    fn a_pull_acts_through_the_step_that_ends_when_it_is_let_go() {
+        let (pulled, free) = ((true, 1), (false, 1));
+        assert_eq!(springs_and_steps(drawn(0.05), 6), [pulled, pulled, pulled, pulled, free, free]);
+        // 0.1 is reached and 0.2 passed within frames.
+        let frames = springs_and_steps(drawn(0.08), 4);
+        assert_eq!(frames, [pulled, (true, 2), (false, 2), free]);
+        // Multiples of a third and a seventh of 0.2 are rounded.
+        for parts in [3, 7] {
+            let frames = springs_and_steps(drawn(0.2 / f64::from(parts)), parts as usize + 1);
+            assert!(frames[..parts as usize].iter().all(|&(is_pulled, _)| is_pulled), "{frames:?}");
+            assert_eq!(frames[parts as usize], free);
+        }
+    }
+
+    #[test]
+    fn a_pull_is_where_it_is_reached_at_once() {
+        let mut play = drawn(0.08);
+        let target = |play: &Play| play.simulation().springs()[0].target;
+        play.step().expect("a step");
+        let early = target(&play);
+        play.step().expect("a step");
+        assert_eq!(target(&play)[1], early[1]);
+        let rest = play.pulls[0].nodes[0].1;
+        let height = play.pulls[0].bounds.size()[1];
+        assert_eq!(target(&play)[0], rest[0] + 0.5 * height);
     }
 }

@@ -8,6 +8,12 @@
 //! A body is back from the frame on from which every node stays within a thousandth of the body's height. All
 //! energies have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and
 //! with which seeds. A last table has what other ways back gain where many bodies are lost.
+//!
+//! ```sh
+//! cargo bench -p piola-tests --bench recovery -- --integrators
+//! ```
+//!
+//! makes another table alone: from which frame on three bodies are back with other integrators.
 
 use std::error::Error;
 use std::fmt;
@@ -17,13 +23,16 @@ use clap::Parser;
 use rayon::prelude::*;
 
 use piola::point::Filter;
-use piola::step::{self, Filtering, NewtonSettings};
+use piola::step::{Filtering, Integrator, NewtonSettings};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::{MaterialSpec, soft_moduli};
-use piola_scenes::output::{FinalPlace, Newton};
+use piola_scenes::measure;
+use piola_scenes::output::{FinalPlace, Newton, Summary};
 use piola_scenes::play::Play;
 use piola_scenes::recovery_trial::{TrialOutcome, continue_trial};
-use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
+use piola_scenes::scene::{
+    Amplitude, Body, DINOSAUR_OVERSTRETCHED, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start,
+};
 use piola_scenes::settings::Settings;
 
 const MATERIALS: [&str; 5] =
@@ -53,6 +62,10 @@ struct Options {
     #[arg(long, num_args = 0.., default_values = ["1", "2", "box"])]
     ways: Vec<Amplitude>,
 
+    /// Other integrators at three scenes, and nothing else.
+    #[arg(long)]
+    integrators: bool,
+
     /// What `cargo bench` adds.
     #[arg(long, hide = true)]
     bench: bool,
@@ -61,6 +74,9 @@ struct Options {
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let options = Options::parse();
     let mut page = io::stdout().lock();
+    if options.integrators {
+        return compare_integrators(&mut page);
+    }
     for newton in options.newton {
         let name = match newton {
             Newton::Single => "one Newton iteration per step",
@@ -128,6 +144,87 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     Ok(())
 }
 
+/// With how many steps a frame, for each of which an integrator is tried.
+const INTEGRATORS: [(&str, Integrator, usize); 6] = [
+    ("implicit Euler", Integrator::ImplicitEuler, 1),
+    ("BDF2", Integrator::Bdf2, 1),
+    ("SDIRK2", Integrator::Sdirk2, 1),
+    ("SDIRK3", Integrator::Sdirk3, 1),
+    ("implicit Euler", Integrator::ImplicitEuler, 8),
+    ("SDIRK2", Integrator::Sdirk2, 8),
+];
+
+/// Writes from which frame on each body is back with each integrator.
+fn compare_integrators(page: &mut impl Write) -> Result<(), Box<dyn Error + Send + Sync>> {
+    writeln!(
+        page,
+        "| scene | Newton | integrator | steps a frame | back from frame on | smallest det F | after 150 frames |"
+    )?;
+    writeln!(page, "|---|---|---|---:|---:|---:|---:|")?;
+    for scene in [&HORSE, &DINOSAUR_OVERSTRETCHED, &SCRAMBLE] {
+        for newton in [Newton::Single, Newton::Full] {
+            // Shorter steps show how fast the damping of a scene is by itself.
+            let is_long = scene.name != SCRAMBLE.name && newton == Newton::Single;
+            let is_shown = |steps: usize| steps == 1 || is_long;
+            for (name, integrator, steps) in INTEGRATORS.into_iter().filter(|&(.., steps)| is_shown(steps)) {
+                let way = way_back(scene, newton, integrator, steps)?;
+                let newton = if newton == Newton::Single { "one iteration" } else { "full" };
+                writeln!(page, "| `{}` | {newton} | {name} | {steps} | {way} |", scene.name)?;
+                page.flush()?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// How a body has come back.
+struct WayBack {
+    /// The frame from which on it is near rest.
+    frame: Option<usize>,
+    min_det_f: f64,
+    /// Distance from rest after 150 frames, body heights.
+    distance: f64,
+}
+
+/// Follows a body for as many frames as the scene has, and 300 at least.
+fn way_back(
+    scene: &'static Scene,
+    newton: Newton,
+    integrator: Integrator,
+    steps: usize,
+) -> Result<WayBack, Box<dyn Error + Send + Sync>> {
+    let settings = Settings::new(scene).with_newton(newton).with_integrator(integrator);
+    let settings = settings.with_dt(scene.dt / steps as f64);
+    let geometry = Geometry::load(&settings)?;
+    let mut play = Play::new(&settings, &geometry)?;
+    let mut way = WayBack { frame: None, min_det_f: f64::INFINITY, distance: f64::NAN };
+    for frame in 1..=scene.frames.max(300) {
+        for _ in 0..steps {
+            way.min_det_f = way.min_det_f.min(play.step()?.min_det);
+        }
+        let simulation = play.simulation();
+        let pinned = simulation.pinned().len();
+        let distance = measure::distance_from_rest(&geometry.mesh, simulation.positions(), pinned);
+        if distance > Summary::RECOVERED {
+            way.frame = None;
+        } else {
+            way.frame.get_or_insert(frame);
+        }
+        if frame == 150 {
+            way.distance = distance;
+        }
+    }
+    Ok(way)
+}
+
+impl fmt::Display for WayBack {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { frame, min_det_f, distance } = self;
+        let frame = frame.map_or_else(|| "–".to_owned(), |frame| frame.to_string());
+        write!(f, "{frame} | {min_det_f:.2} | {distance:.1e}")
+    }
+}
+
 /// How a body is brought back.
 #[derive(Clone, Copy)]
 enum Way {
@@ -158,8 +255,8 @@ impl Way {
         match self {
             Self::Plain(_) => {}
             Self::Filtered(filtering) => {
-                let newton = NewtonSettings { filtering, ..NewtonSettings::single() };
-                play.set_step_settings(step::SimulationSettings { newton, ..*play.simulation().settings() })?;
+                let newton = NewtonSettings::single().with_filtering(filtering);
+                play.set_step_settings(play.simulation().settings().with_newton(newton))?;
             }
             Self::Shrunk(share) => {
                 let bounds = geometry.mesh.bounds();

@@ -66,7 +66,10 @@ pub(crate) struct StepRow {
     /// Largest distance of a node from the reference trajectory at the instants compared, body heights.
     #[serde(with = "finite")]
     pub(crate) error: f64,
-    /// The same distance from the motion with the same time step whose steps are solved as far as rounding
+    /// The same after the last of them.
+    #[serde(with = "finite")]
+    pub(crate) final_error: f64,
+    /// The largest distance from the motion with the same time step whose steps are solved as far as rounding
     /// allows.
     #[serde(with = "finite")]
     pub(crate) algebraic_error: f64,

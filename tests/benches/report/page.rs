@@ -9,6 +9,7 @@ use crate::charts::{Chart, best_settings, materials};
 use crate::data::{GrowthRow, PointRow, Report, StepRow};
 use crate::growth::{DIRECT, ITERATIVE, slope};
 use crate::point::{HARD, ORDINARY, OURS, Work};
+use crate::steps::{Body, arrivals};
 
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
@@ -41,6 +42,7 @@ fn write(text: &mut String, report: &Report, charts: &[Chart]) -> fmt::Result {
         writeln!(text, "{STEPS}")?;
         pictures(text, charts, &["steps-", "momenta-", "tolerance-"])?;
         steps(text, &report.steps)?;
+        costs(text, &report.steps)?;
     }
     if !report.growth.is_empty() {
         writeln!(text, "{GROWTH}")?;
@@ -49,6 +51,13 @@ fn write(text: &mut String, report: &Report, charts: &[Chart]) -> fmt::Result {
     }
     Ok(())
 }
+
+/// Error, body heights, whose cost is told.
+const ENOUGH: f64 = 0.02;
+
+/// Errors of a trajectory.
+const FINAL: fn(&StepRow) -> f64 = |row| row.final_error;
+const LARGEST: fn(&StepRow) -> f64 = |row| row.error;
 
 const POINT: &str = "\
 ## A point: P and dP/dF
@@ -65,7 +74,7 @@ const STEPS: &str = "\
 ## A trajectory
 
 Wall time of the solver for a second of motion, one thread, against the largest distance of a node from the reference with 1/16 of the
-scene's time step, in body heights; the row `reference` is the distance of that reference from one with 1/32. The
+scene's time step, of rubber let go 1/32, in body heights; the row `reference` is the distance of that reference from one with steps half as long. The
 algebraic error is the distance from the same time steps solved as far as rounding allows: what filter, solver and stop add to the error of implicit
 Euler. The largest change of the energy and the drifts from begin to end are those of free bodies. Steps by error, the rows `tolerance`, are of
 SDIRK2; iterations are those of a frame there.
@@ -206,14 +215,14 @@ fn paper(text: &mut String, rows: &[PointRow]) -> fmt::Result {
 fn steps(text: &mut String, rows: &[StepRow]) -> fmt::Result {
     writeln!(
         text,
-        "| body | axis | setting | h | ms per second | Newton iterations a step | linear iterations a step | error | algebraic error | largest change of the energy | energy | momentum | angular momentum |"
+        "| body | axis | setting | h | ms per second | Newton iterations a step | linear iterations a step | error | error at the end | algebraic error | largest change of the energy | energy | momentum | angular momentum |"
     )?;
-    writeln!(text, "|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")?;
+    writeln!(text, "|---|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")?;
     for row in rows {
         if let Some(failure) = &row.failure {
             writeln!(
                 text,
-                "| {} | {} | {} | 1/{:.0} | failed: {failure} | | | | | | | | |",
+                "| {} | {} | {} | 1/{:.0} | failed: {failure} | | | | | | | | | |",
                 row.scene,
                 row.axis,
                 row.setting,
@@ -227,7 +236,7 @@ fn steps(text: &mut String, rows: &[StepRow]) -> fmt::Result {
             if milliseconds.is_finite() { format!("{milliseconds:.0}") } else { String::new() };
         writeln!(
             text,
-            "| {} | {} | {} | 1/{:.0} | {milliseconds} | {:.2} | {:.1} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | 1/{:.0} | {milliseconds} | {:.2} | {:.1} | {} | {} | {} | {} | {} | {} | {} |",
             row.scene,
             row.axis,
             row.setting,
@@ -235,6 +244,7 @@ fn steps(text: &mut String, rows: &[StepRow]) -> fmt::Result {
             per_step(row.newton_iterations),
             per_step(row.linear_iterations),
             number(row.error),
+            number(row.final_error),
             number(row.algebraic_error),
             number(row.largest_energy_error),
             number(row.energy_drift),
@@ -243,6 +253,37 @@ fn steps(text: &mut String, rows: &[StepRow]) -> fmt::Result {
         )?;
     }
     writeln!(text)
+}
+
+/// What an error costs that the eye would not see.
+fn costs(text: &mut String, rows: &[StepRow]) -> fmt::Result {
+    let scene = Body::LetGo.name();
+    for (name, error) in [("at the end", FINAL), ("at any frame", LARGEST)] {
+        let arrivals = arrivals(rows, scene, ENOUGH, error);
+        let Some(first) = arrivals.first() else { continue };
+        writeln!(
+            text,
+            "### {scene}: an error of {ENOUGH} body heights {name}\n\nFor a second of motion, between two time steps on a \
+             line in logarithms; times are the least of some runs in turns, beside {}.\n",
+            first.setting
+        )?;
+        writeln!(text, "| integrator | h | iterations | ms | iterations, relative | time, relative |")?;
+        writeln!(text, "|---|--:|--:|--:|--:|--:|")?;
+        for arrival in &arrivals {
+            writeln!(
+                text,
+                "| {} | 1/{:.0} | {:.0} | {:.0} | {:.2} | {:.2} |",
+                arrival.setting,
+                1.0 / arrival.h,
+                arrival.iterations,
+                arrival.milliseconds,
+                arrival.iterations / first.iterations,
+                arrival.milliseconds / first.milliseconds
+            )?;
+        }
+        writeln!(text)?;
+    }
+    Ok(())
 }
 
 fn growth(text: &mut String, rows: &[GrowthRow]) -> fmt::Result {

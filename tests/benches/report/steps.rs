@@ -6,6 +6,9 @@
 //! reference is the same motion by the integrator of third order with 1/16 of the scene's time step and
 //! Newton's method to a relative 10⁻¹⁰; that of 1/32 says how far the reference itself may be off.
 //!
+//! A dinosaur of rubber is drawn by half its height and let go, without damping: of it the page tells what an
+//! error of 0.02 body heights costs with each integrator. Its reference has 1/32 of the time step.
+//!
 //! Three more bodies fly free, without pins, pulls and damping, so that no force changes their momenta: the
 //! dinosaur turning and stretching, a stiff and nearly incompressible one turning fast, and a bar that
 //! vibrates gently for ten thousand steps. Their energy and angular momentum are followed over time. The bar
@@ -21,13 +24,21 @@ use piola::step::{Filtering, Integrator, LinearSolver, NewtonSettings, Simulatio
 use crate::data::{AdaptiveRow, HistoryRow, StepRow};
 
 pub(crate) mod adaptive;
+mod arrival;
 mod embedded;
 mod motion;
 
+pub(crate) use arrival::arrivals;
 use motion::{Motion, Track};
 
-/// How much finer than the scene the reference is.
+/// How much finer than the scene the reference of the scenes is.
 const FINE: usize = 16;
+
+/// How often the ways of a body are gone whose times are compared; the least counts.
+const REPEATS: usize = 5;
+
+/// Ways that take longer, s, are gone once.
+const LONG: f64 = 3.0;
 
 /// Integrators over which the time step is varied, with Newton's method to the end.
 pub(crate) const INTEGRATORS: [(&str, Integrator); 8] = [
@@ -62,6 +73,7 @@ pub(crate) enum Body {
     FlatHorse,
     Horse,
     Dinosaur,
+    LetGo,
     Free,
     Spinning,
     Quiet,
@@ -73,6 +85,7 @@ impl Body {
             Self::FlatHorse => "flattened horse",
             Self::Horse => "horse",
             Self::Dinosaur => "dinosaur",
+            Self::LetGo => "rubber dinosaur let go",
             Self::Free => "dinosaur in free flight",
             Self::Spinning => "stiff dinosaur, spinning",
             Self::Quiet => "bar, ten thousand steps",
@@ -99,6 +112,7 @@ pub(crate) fn plan(is_quick: bool, bodies: &[Body]) -> Vec<Course> {
     let mut plan = vec![
         course(Body::Horse, [2, 30]),
         course(Body::Dinosaur, [4, 75]),
+        course(Body::LetGo, [4, 30]),
         course(Body::Free, [4, 30]),
         course(Body::Spinning, [4, 30]),
         course(Body::Quiet, [100, 10_000]),
@@ -137,14 +151,20 @@ fn measure_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Mea
     for course in plan {
         progress.set_message(course.body.name());
         let references = references(course, progress, &mut measured)?;
-        for way in course.ways() {
+        let ways = course.ways();
+        let mut rows = Vec::new();
+        for way in &ways {
             let result = follow(course, way.division, way.settings);
             if let Ok((track, _)) = &result {
-                measured.histories.extend(track.history(course.body, &way));
+                measured.histories.extend(track.history(course.body, way));
             }
-            measured.rows.push(judged(course, &way, result, references.as_ref()));
+            rows.push(judged(course, way, result, references.as_ref()));
             progress.inc(1);
         }
+        if course.body == Body::LetGo {
+            time_again(course, &ways, &mut rows);
+        }
+        measured.rows.append(&mut rows);
         if let (Body::Free, Some(references)) = (course.body, &references) {
             measured.rows.extend(embedded::rows(course.frames, references)?);
         }
@@ -153,6 +173,17 @@ fn measure_by_this_thread(plan: &[Course], progress: &ProgressBar) -> Result<Mea
         }
     }
     Ok(measured)
+}
+
+/// Times the ways again, in turns, and keeps the least time of each.
+fn time_again(course: &Course, ways: &[Way], rows: &mut [StepRow]) {
+    for _ in 1..if course.is_quick { 1 } else { REPEATS } {
+        for (way, row) in ways.iter().zip(&mut *rows).filter(|(_, row)| row.seconds < LONG) {
+            if let Ok((_, seconds)) = follow(course, way.division, way.settings) {
+                row.seconds = row.seconds.min(seconds);
+            }
+        }
+    }
 }
 
 /// What tracks of a body are compared with.
@@ -173,14 +204,15 @@ fn references(
         progress.inc(3);
         return Ok(None);
     }
-    let exact = reference(course, FINE, progress)?;
-    let finer = reference(course, 2 * FINE, progress)?;
+    let fine = course.fine();
+    let exact = reference(course, fine, progress)?;
+    let finer = reference(course, 2 * fine, progress)?;
     let to_rounding = NewtonSettings::default().with_tolerance(1e-12).with_max_iterations(100);
     let (solved, _) = follow(course, 1.0, solved_by(to_rounding)).map_err(|error| named(course, &error))?;
     progress.inc(1);
-    let setting = format!("h/{FINE} beside h/{}", 2 * FINE);
+    let setting = format!("h/{fine} beside h/{}", 2 * fine);
     let settings = SimulationSettings::default();
-    let way = Way { axis: "reference", setting, division: FINE as f64, settings };
+    let way = Way { axis: "reference", setting, division: fine as f64, settings };
     let beside_finer = References { exact: finer, solved };
     measured.rows.push(judged(course, &way, Ok((exact.clone(), f64::NAN)), Some(&beside_finer)));
     Ok(Some(References { exact, ..beside_finer }))
@@ -191,9 +223,20 @@ fn named(course: &Course, error: &str) -> String {
 }
 
 impl Course {
+    /// How much finer than the scene its reference is.
+    fn fine(&self) -> usize {
+        if self.body == Body::LetGo { 2 * FINE } else { FINE }
+    }
+
     /// Those that tell something about it.
     fn ways(&self) -> Vec<Way> {
         let mut ways = ways();
+        if self.body == Body::LetGo {
+            ways.retain(|way| way.axis == "h");
+            // As scenes solve steps of higher order; those of first order lose nothing by it either.
+            let full = ways.iter_mut().filter(|way| way.setting != SINGLE);
+            full.for_each(|way| way.settings.newton.error_share = 0.03);
+        }
         if self.body == Body::Horse {
             ways.retain(|way| way.division <= 8.0);
         }
@@ -306,6 +349,7 @@ fn empty_row(body: Body, way: &Way) -> StepRow {
         newton_iterations: 0,
         linear_iterations: 0,
         error: f64::NAN,
+        final_error: f64::NAN,
         algebraic_error: f64::NAN,
         largest_energy_error: f64::NAN,
         energy_drift: f64::NAN,
@@ -324,6 +368,7 @@ impl StepRow {
         self.linear_iterations = track.linear_iterations;
         if let Some(References { exact, solved }) = references {
             self.error = track.distance(exact);
+            self.final_error = track.final_distance(exact);
             if self.h == motion::TIME_STEP {
                 self.algebraic_error = track.distance(solved);
             }

@@ -5,7 +5,10 @@ use crate::batch::TileMaterial;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
 use crate::random::Random;
-use crate::step::{Convergence, Filtering, InitialGuess, LinearSolver, NewtonSettings};
+use crate::step::{
+    Convergence, Damping, Filtering, InitialGuess, Integrator, LineSearchSettings, LinearSolver, NewtonError,
+    NewtonReport, NewtonSettings,
+};
 use crate::system::LinearError;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};
 

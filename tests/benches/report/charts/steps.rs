@@ -70,7 +70,7 @@ fn of(scene: &str, rows: &[StepRow]) -> Result<Chart, String> {
         title: format!("integrators, h = 1/{:.0} s on the left, halved from mark to mark", 1.0 / longest),
         x_axis: "wall time, milliseconds per second of motion",
         y_axis: if has_reference {
-            "error beside third order with h/16, body heights"
+            "error beside third order with far shorter steps, body heights"
         } else {
             "largest change of the energy, relative"
         },

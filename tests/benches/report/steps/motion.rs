@@ -2,11 +2,13 @@
 
 use std::f64::consts::PI;
 
+use piola::Inversion;
+use piola::batch::TileMaterial;
 use piola::material::{MaterialError, Moduli};
-use piola::mesh::{TetMesh, tetrahedral_box};
-use piola::step::{Simulation, SimulationSettings};
+use piola::mesh::{Bounds, TetMesh, tetrahedral_box};
+use piola::step::{Simulation, SimulationSettings, Spring};
 use piola::system::{self, Pins};
-use piola_materials::StableNeoHookean;
+use piola_materials::{NeoHookean, StableNeoHookean};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::play::Play;
 use piola_scenes::scene::{DINOSAUR, HORSE};
@@ -28,11 +30,11 @@ pub(super) struct Motion {
 
 enum Stage {
     Scene(Play),
-    Free(Flight),
+    Undamped(Undamped),
 }
 
-/// A body that nothing holds.
-struct Flight {
+/// A body that moves by its own stiffness alone; but for the one that is let go, nothing holds it.
+struct Undamped {
     simulation: Simulation,
     /// Of the body at rest, J: the energy of its material is not zero there.
     rest_energy: f64,
@@ -44,7 +46,7 @@ pub(super) struct Track {
     /// Positions at the time steps of the scene, m.
     frames: Vec<Vec<[f64; 3]>>,
     height: f64,
-    /// Before the first step and after each frame; none of a body that is held.
+    /// Before the first step and after each frame; none of a scene.
     momenta: Vec<Momenta>,
     pub(super) steps: usize,
     pub(super) newton_iterations: usize,
@@ -81,7 +83,7 @@ impl Motion {
         for step in 1..=steps {
             let report = match &mut self.stage {
                 Stage::Scene(play) => play.step().map_err(|error| error.to_string())?,
-                Stage::Free(flight) => flight.simulation.step(self.dt).map_err(|error| error.to_string())?,
+                Stage::Undamped(body) => body.simulation.step(self.dt).map_err(|error| error.to_string())?,
             };
             self.track.steps += 1;
             self.track.newton_iterations += report.newton.iterations;
@@ -90,7 +92,7 @@ impl Motion {
             if self.division < 1.0 || step % self.division as usize == 0 {
                 let positions = match &self.stage {
                     Stage::Scene(play) => play.simulation().positions(),
-                    Stage::Free(flight) => flight.simulation.positions(),
+                    Stage::Undamped(body) => body.simulation.positions(),
                 };
                 self.track.frames.push(positions.to_vec());
                 self.note_momenta();
@@ -104,8 +106,8 @@ impl Motion {
     }
 
     fn note_momenta(&mut self) {
-        if let Stage::Free(flight) = &mut self.stage {
-            self.track.momenta.push(Momenta::of(flight));
+        if let Stage::Undamped(body) = &mut self.stage {
+            self.track.momenta.push(Momenta::of(body));
         }
     }
 }
@@ -124,19 +126,23 @@ fn stage(
         geometry.mesh.clone()
     };
     let stage = match body {
-        Body::Free => {
-            Stage::Free(Flight::new(&mesh, free_material()?, settings, turning_and_stretching(&mesh))?)
-        }
+        Body::Free => Stage::Undamped(Undamped::flying(
+            &mesh,
+            free_material()?,
+            settings,
+            turning_and_stretching(&mesh),
+        )?),
         Body::Spinning => {
             // Two turns in a second.
             let turning = velocities(&mesh, 4.0 * PI, [0.0; 3]);
-            Stage::Free(Flight::new(&mesh, neo_hookean(1e7, 0.49)?, settings, turning)?)
+            Stage::Undamped(Undamped::flying(&mesh, neo_hookean(1e7, 0.49)?, settings, turning)?)
         }
         Body::Quiet => {
             // A vibration along the bar of some twenty steps to a period, by a few per cent of its length.
             let gentle = velocities(&mesh, 0.2, [-0.15, 0.3, -0.15]);
-            Stage::Free(Flight::new(&mesh, neo_hookean(1e4, 0.45)?, settings, gentle)?)
+            Stage::Undamped(Undamped::flying(&mesh, neo_hookean(1e4, 0.45)?, settings, gentle)?)
         }
+        Body::LetGo => Stage::Undamped(Undamped::let_go(&mesh, settings)?),
         Body::FlatHorse | Body::Horse | Body::Dinosaur => {
             let mut play = Play::new(&scene_settings, &geometry)?;
             play.set_step_settings(settings.with_damping(scene.damping))?;
@@ -157,17 +163,54 @@ fn pressed(mesh: &TetMesh, pinned: &[usize]) -> Vec<[f64; 3]> {
     mesh.positions.iter().map(press).collect()
 }
 
-impl Flight {
-    fn new(
+impl Undamped {
+    fn flying(
         mesh: &TetMesh,
         material: StableNeoHookean,
         settings: SimulationSettings,
         velocities: Vec<[f64; 3]>,
     ) -> Result<Self, Box<dyn std::error::Error>> {
+        let mut body = Self::at_rest(mesh, material, &Pins::none())?;
+        body.simulation.set_settings(settings)?;
+        body.simulation.set_velocities(&velocities)?;
+        Ok(body)
+    }
+
+    /// Of rubber, its feet pinned: drawn sideways by half its height at the node that is farthest up and
+    /// ahead, until it is at rest.
+    fn let_go(mesh: &TetMesh, settings: SimulationSettings) -> Result<Self, Box<dyn std::error::Error>> {
+        /// So that each equilibrium is near the one before.
+        const PARTS: usize = 10;
+        let bounds = mesh.bounds();
+        let height = bounds.size()[1];
+        let feet = Bounds {
+            min: [f64::NEG_INFINITY; 3],
+            max: [f64::INFINITY, bounds.min[1] + 0.08 * height, f64::INFINITY],
+        };
+        let rubber = NeoHookean::new(344_830.0, 3_103_400.0)?;
+        let rubber = rubber.with_inversion(Inversion::Extend { epsilon: 0.1 })?;
+        let mut body = Self::at_rest(mesh, rubber, &Pins::in_box(mesh, feet)?)?;
+        let places = mesh.positions.iter().enumerate();
+        let head = places.max_by(|(_, a), (_, b)| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        let (head, &[x, y, z]) = head.ok_or("a mesh without nodes")?;
+        for part in 1..=PARTS {
+            let target = [x, y, z + 0.5 * height * part as f64 / PARTS as f64];
+            body.simulation.set_springs(&[Spring::on_node(head, target, 1e6)])?;
+            body.simulation.equilibrate()?;
+        }
+        body.simulation.set_springs(&[])?;
+        body.simulation.set_settings(settings)?;
+        Ok(body)
+    }
+
+    fn at_rest(
+        mesh: &TetMesh,
+        material: impl TileMaterial<f64> + 'static,
+        pins: &Pins,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
         let body = system::Body::new(mesh, material, DINOSAUR.density)?;
-        let mut simulation = Simulation::new(body, &Pins::none(), settings)?;
+        let mut simulation = Simulation::new(body, pins, SimulationSettings::default())?;
         let rest_energy = simulation.energies().elastic;
-        simulation.set_velocities(&velocities)?;
         Ok(Self { simulation, rest_energy })
     }
 }
@@ -201,7 +244,7 @@ fn velocities(mesh: &TetMesh, spin: f64, stretching: [f64; 3]) -> Vec<[f64; 3]> 
 }
 
 impl Momenta {
-    fn of(Flight { simulation, rest_energy }: &mut Flight) -> Self {
+    fn of(Undamped { simulation, rest_energy }: &mut Undamped) -> Self {
         let energies = simulation.energies();
         let energy = energies.kinetic + energies.elastic - *rest_energy;
         let mut momenta = Self { energy, linear: [0.0; 3], angular: [0.0; 3], size: 0.0 };
@@ -244,12 +287,19 @@ impl Track {
         largest / self.height
     }
 
+    /// The largest distance of a node between two tracks after the last frame, body heights.
+    pub(super) fn final_distance(&self, other: &Self) -> f64 {
+        let (Some(one), Some(other)) = (self.frames.last(), other.frames.last()) else { return f64::NAN };
+        let distances = one.iter().zip(other).map(|(a, b)| distance(*a, *b));
+        distances.fold(0.0, f64::max) / self.height
+    }
+
     /// Of a free body that was followed with the time step of the scene.
     pub(super) fn history(&self, body: Body, way: &Way) -> Option<HistoryRow> {
         /// More would not be seen.
         const AT_MOST: usize = 250;
         let first = *self.momenta.first()?;
-        if way.axis != "h" || way.division != 1.0 {
+        if body == Body::LetGo || way.axis != "h" || way.division != 1.0 {
             return None;
         }
         let instants = self.momenta.iter().enumerate().step_by(self.momenta.len().div_ceil(AT_MOST));

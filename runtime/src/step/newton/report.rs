@@ -1,0 +1,112 @@
+//! Report of a minimisation.
+
+use super::{NewtonError, NewtonSettings};
+
+/// Reason why Newton's method stopped, from the best on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+pub enum Convergence {
+    /// The gradient, or what was left to go, fell below the tolerance.
+    Tolerance,
+    /// All further gain is below the rounding error of the objective.
+    Rounding,
+    /// The limit of iterations is reached, as always in the mode of one iteration.
+    Limit,
+}
+
+/// Report of a minimisation, or of all those of a step of several stages together.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct NewtonReport {
+    /// Reason why it stopped; the worst one of several stages.
+    pub convergence: Convergence,
+    /// Number of directions that were found.
+    pub iterations: usize,
+    /// Norm of the gradient over the free nodes before the first iteration, N. Where pins move, right after
+    /// they have.
+    pub first_residual: f64,
+    /// Norm of the gradient evaluated last, N: in the mode of one iteration equal to the first.
+    pub residual: f64,
+    /// Change of the objective after the motion of the pins, J: never above the rounding error of its
+    /// differences.
+    pub change: f64,
+    /// Length of each step, 1 for a whole one.
+    pub step_lengths: Vec<f64>,
+    /// Number of line-search trials that left the domain of a material or a term.
+    pub refused_trials: usize,
+    /// Largest number of elements in an iteration whose tangent the filter changed.
+    pub filtered: usize,
+    /// Largest number of elements in an iteration whose tangent is at a pole.
+    pub bounded: usize,
+    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that had to be added for
+    /// a positive definite matrix; 0 as a rule.
+    pub shift: f64,
+    /// Number of iterations of the linear solver, over all systems: 0 for
+    /// [`LinearSolver::Cholesky`](crate::step::LinearSolver::Cholesky).
+    pub linear_iterations: usize,
+    /// Number of linear systems that were given up before their tolerance, for negative curvature or at the
+    /// limit of iterations. Their directions descend, but do not make for fast convergence.
+    pub truncated: usize,
+}
+
+impl NewtonReport {
+    /// The report before the first iteration.
+    pub(crate) fn before(settings: &NewtonSettings) -> Self {
+        Self {
+            convergence: Convergence::Limit,
+            iterations: 0,
+            first_residual: f64::NAN,
+            residual: f64::NAN,
+            change: 0.0,
+            step_lengths: Vec::with_capacity(settings.max_iterations.min(8)),
+            refused_trials: 0,
+            filtered: 0,
+            bounded: 0,
+            shift: 0.0,
+            linear_iterations: 0,
+            truncated: 0,
+        }
+    }
+
+    /// The report of this minimisation and those before it in a step.
+    pub(crate) fn after(self, before: Option<Self>) -> Self {
+        let Some(before) = before else { return self };
+        let mut step_lengths = before.step_lengths;
+        step_lengths.extend(self.step_lengths);
+        Self {
+            convergence: before.convergence.max(self.convergence),
+            iterations: before.iterations + self.iterations,
+            first_residual: before.first_residual,
+            residual: self.residual,
+            change: before.change + self.change,
+            step_lengths,
+            refused_trials: before.refused_trials + self.refused_trials,
+            filtered: before.filtered.max(self.filtered),
+            bounded: before.bounded.max(self.bounded),
+            shift: before.shift.max(self.shift),
+            linear_iterations: before.linear_iterations + self.linear_iterations,
+            truncated: before.truncated + self.truncated,
+        }
+    }
+
+    /// Keeps the norm of a gradient; true where it is small enough.
+    pub(super) fn note_residual(
+        &mut self,
+        residual: f64,
+        settings: &NewtonSettings,
+    ) -> Result<bool, NewtonError> {
+        if !residual.is_finite() {
+            return Err(NewtonError::NotFinite);
+        }
+        if self.first_residual.is_nan() {
+            self.first_residual = residual;
+        }
+        self.residual = residual;
+        let converged = residual <= settings.tolerance * self.first_residual;
+        if converged {
+            self.convergence = Convergence::Tolerance;
+        }
+        Ok(converged)
+    }
+}

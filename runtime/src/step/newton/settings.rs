@@ -1,0 +1,85 @@
+//! Settings of Newton's method.
+
+use crate::point::Filter;
+use crate::step::filtering::Filtering;
+use crate::step::solver::LinearSolver;
+
+/// Settings of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[non_exhaustive]
+pub struct NewtonSettings {
+    /// Treatment of negative eigenvalues of dP/dF.
+    pub filtering: Filtering,
+    /// Positions from which the iteration starts.
+    pub start: InitialGuess,
+    /// Number of iterations after which to stop; 1 is the mode of the paper.
+    pub max_iterations: usize,
+    /// Share of the first gradient's norm at which the minimum counts as found.
+    pub tolerance: f64,
+    /// Share of the error in time that a step has anyway at which the minimum counts as found as well; 0 for
+    /// the tolerance alone. Has no effect in statics and on the energy–momentum method.
+    ///
+    /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a of methods of higher
+    /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two
+    /// iterations, as q/(1 − q) |d| with their ratio q \[HW96, IV.8\].
+    ///
+    /// \[HW96\] Hairer, Wanner, *Solving Ordinary Differential Equations II*, 1996.
+    pub error_share: f64,
+    /// Solver of the linear systems.
+    pub linear: LinearSolver,
+}
+
+impl Default for NewtonSettings {
+    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped where the matrix
+    /// demands it and a linear solver chosen by the size of the body.
+    fn default() -> Self {
+        Self {
+            filtering: Filtering::OnDemand,
+            start: InitialGuess::Position,
+            max_iterations: 50,
+            tolerance: 1e-6,
+            error_share: 0.0,
+            linear: LinearSolver::Automatic,
+        }
+    }
+}
+
+impl NewtonSettings {
+    /// One iteration per step, as in the paper, with clamped eigenvalues: the gradient after it is not
+    /// evaluated.
+    #[must_use]
+    pub fn single() -> Self {
+        Self { filtering: Filtering::Always(Filter::Clamp), max_iterations: 1, ..Self::default() }
+    }
+}
+
+crate::chained::chained!(NewtonSettings {
+    with_filtering(filtering: Filtering),
+    with_start(start: InitialGuess),
+    with_max_iterations(max_iterations: usize),
+    with_tolerance(tolerance: f64),
+    with_error_share(error_share: f64),
+    with_linear(linear: LinearSolver),
+});
+
+/// Positions from which an iteration starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum InitialGuess {
+    /// The current positions.
+    #[default]
+    Position,
+    /// The positions to which the velocities would take the body, if they are admissible and no worse. The
+    /// first residual, to which the tolerance is relative, is then taken there. Equal to `Position` in
+    /// statics and where pins move.
+    Velocity,
+    /// The positions to which velocities and the accelerations of the stage or step before would take the
+    /// body, otherwise as `Velocity`: closer to where smooth motions go.
+    Acceleration,
+}

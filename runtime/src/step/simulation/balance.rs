@@ -1,0 +1,59 @@
+//! Forces on all nodes, and what follows from their balance: accelerations, and forces of pins.
+
+use crate::step::integrator::State;
+use crate::step::newton::{NewtonError, demand_admissible};
+
+use super::Simulation;
+
+impl Simulation {
+    /// Sets the accelerations that the forces at the current state give, zero at pinned nodes. The energies
+    /// must have been evaluated there last.
+    pub(super) fn accelerate(&mut self) {
+        let forces = self.balance();
+        for (node, (a, force)) in self.state.a.iter_mut().zip(forces).enumerate() {
+            *a = force.map(|force| -force / self.body.masses()[node]);
+        }
+        self.pins.nodes().iter().for_each(|&node| self.state.a[node] = [0.0; 3]);
+        self.state.has_accelerations = true;
+    }
+
+    /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
+    /// energies must have been evaluated there last.
+    fn balance(&mut self) -> Vec<[f64; 3]> {
+        let State { x, v, .. } = &self.state;
+        let mut total = vec![[0.0; 3]; x.len()];
+        self.elastic.evaluate_gradients(&self.body);
+        self.elastic.add_gradient(&self.body, &mut total);
+        self.all_terms().add_gradient(x, &mut total);
+        if let Some(viscosity) = &mut self.viscosity {
+            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time());
+            viscosity.add_product(&self.body, |node| v[node], &mut total);
+        }
+        let (rate, gravity) = (self.settings.damping.rate(), self.settings.gravity);
+        for (node, (total, mass)) in total.iter_mut().zip(self.body.masses()).enumerate() {
+            for c in 0..3 {
+                let force = self.forces.get(node).map_or(0.0, |force| force[c]);
+                total[c] += mass * (rate * v[node][c] - gravity[c]) - force;
+            }
+        }
+        total
+    }
+
+    /// Force of the pins on each pinned node, N, in the order of [`Simulation::pinned`]: what the node needs
+    /// beside all other forces to have its acceleration, at the end of the last step.
+    ///
+    /// In statics their sum balances gravity, given forces and springs.
+    ///
+    /// # Errors
+    /// [`NewtonError::Inadmissible`] or [`NewtonError::ElementNotFinite`] for an element that has no forces at
+    /// the current positions.
+    pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
+        let survey = *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.state.x));
+        demand_admissible(&survey, &self.body, &self.elastic)?;
+        let forces = self.balance();
+        let reaction = |&node: &usize| {
+            std::array::from_fn(|c| forces[node][c] + self.body.masses()[node] * self.state.a[node][c])
+        };
+        Ok(self.pins.nodes().iter().map(reaction).collect())
+    }
+}

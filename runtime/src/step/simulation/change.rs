@@ -1,0 +1,267 @@
+//! Changes between two steps: of the state, pins, forces, terms, materials and settings.
+
+use std::sync::Arc;
+
+use crate::batch::TileMaterial;
+use crate::step::integrator::Stages;
+use crate::step::line_search::LineSearch;
+use crate::step::newton::NewtonWorkspace;
+use crate::step::solver::{Choice, SparseSolver};
+use crate::step::spring::Spring;
+use crate::step::term::Term;
+use crate::system::{BodyError, Pins};
+
+use super::settings::check_settings;
+use super::{SetupError, Simulation, SimulationSettings, static_regularisation};
+
+impl Simulation {
+    /// Sets the position of each node, m, however deformed or collapsed the body then is. Pins hold their
+    /// nodes there.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(positions)?;
+        self.state.x.copy_from_slice(positions);
+        self.targets.copy_from_slice(positions);
+        self.evaluated = None;
+        self.state.forget();
+        Ok(())
+    }
+
+    /// Sets the velocity of each node, m/s; of a pinned node it lasts until the next step.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(velocities)?;
+        self.state.v.copy_from_slice(velocities);
+        self.state.forget();
+        Ok(())
+    }
+
+    /// Sets the acceleration of each node, m/s², from which Newmark's method and generalised α go on: with
+    /// positions and velocities the whole state of a motion that is resumed.
+    ///
+    /// Without it, after positions or velocities have been set, they begin with the accelerations that the
+    /// forces give.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
+    /// node.
+    pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(accelerations)?;
+        self.state.a.copy_from_slice(accelerations);
+        self.state.has_accelerations = true;
+        Ok(())
+    }
+
+    /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
+    ///
+    /// Pins among nodes that were free when the linear solver was set up cost nothing but the next
+    /// factorisation; nodes let go that were pinned then cost a new symbolic analysis.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
+    pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
+        let nodes = self.state.x.len();
+        if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        self.workspace.set_pins(&self.body, pins)?;
+        for node in 0..nodes {
+            let was_pinned = self.pins.nodes().binary_search(&node).is_ok();
+            if !(was_pinned && pins.nodes().binary_search(&node).is_ok()) {
+                self.targets[node] = self.state.x[node];
+                self.pins_move[node] = [0.0; 3];
+            }
+        }
+        self.pins = pins.clone();
+        Ok(())
+    }
+
+    /// Replaces the material of a part of the body, counted as
+    /// [`Body::from_parts`](crate::system::Body::from_parts) took them, from the next step on.
+    ///
+    /// # Errors
+    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    pub fn set_material(
+        &mut self,
+        part: usize,
+        material: impl TileMaterial<f64> + 'static,
+    ) -> Result<(), BodyError> {
+        self.body.set_material(part, material)?;
+        self.static_regularisation = static_regularisation(&self.body);
+        self.evaluated = None;
+        Ok(())
+    }
+
+    /// Sets a force on each node, N, that keeps its size and direction from the next step on; an empty slice
+    /// removes them.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
+    pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
+        if !forces.is_empty() {
+            self.check_nodal(forces)?;
+        }
+        self.forces.clear();
+        self.forces.extend_from_slice(forces);
+        Ok(())
+    }
+
+    /// Replaces all [terms](Term) of the energy but deformation, gravity and springs, from the next step on.
+    ///
+    /// ```
+    /// # use piola::step::{NodeBlocks, Term};
+    /// # struct Weight;
+    /// # impl Term for Weight {
+    /// #     fn energy(&self, x: &[[f64; 3]]) -> Option<f64> { Some(x.iter().map(|x| 10.0 * x[1]).sum()) }
+    /// #     fn add_gradient(&self, _: &[[f64; 3]], g: &mut [[f64; 3]]) { g.iter_mut().for_each(|g| g[1] += 10.0) }
+    /// #     fn add_second_derivatives(&self, _: &[[f64; 3]], _: &mut NodeBlocks) {}
+    /// # }
+    /// use std::sync::Arc;
+    /// use piola::mesh::tetrahedral_box;
+    /// use piola::step::{Simulation, SimulationSettings};
+    /// use piola::system::{Body, Pins};
+    ///
+    /// /// Rubber.
+    /// #[piola::material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    /// let mut simulation = Simulation::new(body, &Pins::none(), SimulationSettings::default())?;
+    /// simulation.set_terms(vec![Arc::new(Weight)]);
+    /// let report = simulation.step(0.01)?;
+    /// assert!(report.energies.terms < 10.0 * 8.0 * 0.1 && simulation.velocities()[0][1] < 0.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_terms(&mut self, terms: Vec<Arc<dyn Term>>) {
+        self.terms = terms;
+    }
+
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        if self.pinned().binary_search(&node).is_err() {
+            return Err(SetupError::NotPinned { node });
+        }
+        if position.iter().any(|x| !x.is_finite()) {
+            return Err(SetupError::NotFinite { node });
+        }
+        self.targets[node] = position;
+        Ok(())
+    }
+
+    /// Replaces all springs.
+    ///
+    /// A spring at the same index and anchor as one before has its target moved: evenly in the course of the
+    /// next step. Implicit Euler looks at the end of a step only, and other integrators at what is between.
+    ///
+    /// # Errors
+    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
+        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
+            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
+            _ => spring.target,
+        };
+        self.targets_before = springs.iter().enumerate().map(before).collect();
+        self.springs.clear();
+        self.springs.extend_from_slice(springs);
+        Ok(())
+    }
+
+    /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set
+    /// up as by [`Simulation::new`].
+    ///
+    /// # Errors
+    /// [`SetupError::Setting`], [`SetupError::Linear`]. The settings then stay as they were.
+    pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
+        check_settings(&settings)?;
+        let (new, old) = (&settings.newton, &self.settings.newton);
+        let is_other = (new.linear, new.filtering) != (old.linear, old.filtering);
+        if is_other || self.workspace.has_own_solver() {
+            let choice = Choice::Setting(new.linear);
+            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, new.filtering)?;
+        }
+        if settings.integrator != self.settings.integrator {
+            self.stages = Stages::new(settings.integrator, self.state.x.len());
+        }
+        if settings.damping != self.settings.damping {
+            self.viscosity = settings.damping.viscosity(&self.body);
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Solves the linear systems of Newton's method by a solver that is not piola's own, until the settings
+    /// are replaced.
+    ///
+    /// # Errors
+    /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.
+    pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
+        let (choice, filtering) = (Choice::Own(Arc::new(solver)), self.settings.newton.filtering);
+        self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, filtering)?;
+        Ok(())
+    }
+
+    /// Shortens the steps of Newton's method by a line search that is not piola's own; `None` for that of the
+    /// settings. The energy–momentum method, which has no objective, keeps to the settings.
+    ///
+    /// ```
+    /// # use piola::mesh::tetrahedral_box;
+    /// # use piola::step::{Line, Simulation, SimulationSettings};
+    /// # use piola::system::{Body, Pins};
+    /// # use std::sync::Arc;
+    /// # /// Rubber.
+    /// # #[piola::material(domain(J > 0.0))]
+    /// # fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    /// #     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// # }
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// # let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    /// # let mut simulation = Simulation::new(body, &Pins::at([0, 1]), SimulationSettings::default())?;
+    /// // Whole steps, or half ones that go downhill.
+    /// let search = |line: &mut dyn Line, longest: f64, _slope: f64| {
+    ///     let mut steps = [longest, 0.5 * longest].into_iter();
+    ///     steps.find(|&step| line.change(step).is_some_and(|change| change.difference < change.noise))
+    /// };
+    /// simulation.set_line_search(Some(Arc::new(search)));
+    /// # simulation.step(0.01)?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_line_search(&mut self, search: Option<Arc<dyn LineSearch>>) {
+        self.line_search = search;
+    }
+
+    fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
+        if vectors.len() != self.state.x.len() {
+            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
+        }
+        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            Some(node) => Err(SetupError::NotFinite { node }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
+        let nodes = self.state.x.len();
+        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
+        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+            return Err(SetupError::Spring { index });
+        }
+        Ok(())
+    }
+}

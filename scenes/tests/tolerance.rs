@@ -1,0 +1,90 @@
+//! Steps chosen by a tolerance, in both scenes: what a frame adds to the error of the motion.
+//!
+//! A scene is played to a state, and the frame after it made twice: to the tolerance, and by third order to a
+//! small part of it. Beside that the error is judged, not beside a motion from the start: of the horse, which
+//! begins with all nodes in a plane, motions end a body height apart however short their steps are.
+
+use piola::step::Integrator;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::output::{Newton, StepCounts};
+use piola_scenes::play::Play;
+use piola_scenes::scene::{DINOSAUR, HORSE, Scene};
+use piola_scenes::settings::Settings;
+
+/// A scene in a state between two of its frames.
+struct State {
+    settings: Settings,
+    geometry: Geometry,
+    play: Play,
+}
+
+impl State {
+    /// After so many frames, as the scene makes them.
+    fn after(scene: &'static Scene, frames: usize) -> Self {
+        let settings = Settings::new(scene);
+        let geometry = Geometry::load(&settings).expect("the body of the scene");
+        let mut play = Play::new(&settings, &geometry).expect("a scene that plays");
+        for _ in 0..frames {
+            play.step().expect("a frame");
+        }
+        Self { settings, geometry, play }
+    }
+
+    /// The positions after the next frame, made to a tolerance, body heights per second, and the steps of it.
+    fn frame(&self, integrator: Integrator, tolerance: f64) -> (Vec<[f64; 3]>, StepCounts) {
+        let settings = self.settings.clone().with_integrator(integrator).with_newton(Newton::Full);
+        let settings = settings.with_tolerance(Some(tolerance));
+        let mut play = Play::new(&settings, &self.geometry).expect("a scene that plays");
+        let now = self.play.simulation();
+        play.resume(self.play.clock(), now.positions(), now.velocities()).expect("a state of the body");
+        play.step().expect("a frame");
+        (play.simulation().positions().to_vec(), play.steps())
+    }
+
+    /// Errors of the next frame for some tolerances, each over what the tolerance allows.
+    #[expect(clippy::print_stderr, reason = "the figures that documents quote")]
+    fn ratios(&self, tolerances: &[f64]) -> Vec<f64> {
+        let finest = tolerances.iter().copied().fold(f64::INFINITY, f64::min);
+        let (reference, steps) = self.frame(Integrator::Sdirk3, finest / 20.0);
+        assert_eq!(steps.unresolved, 0, "the reference");
+        let allowed = self.settings.dt * self.geometry.mesh.bounds().size()[1];
+        let ratio = |&tolerance: &f64| {
+            let (positions, steps) = self.frame(Integrator::Sdirk2, tolerance);
+            let pairs = positions.iter().zip(&reference);
+            let distances = pairs.map(|(x, y)| (0..3).map(|c| (x[c] - y[c]).powi(2)).sum::<f64>().sqrt());
+            let ratio = distances.fold(0.0, f64::max) / (tolerance * allowed);
+            eprintln!(
+                "{} after frame {}: tolerance {tolerance}, {} steps, {ratio:.2} of the error allowed",
+                self.settings.scene.name,
+                self.play.clock().frame(),
+                steps.taken
+            );
+            ratio
+        };
+        tolerances.iter().map(ratio).collect()
+    }
+}
+
+#[test]
+fn frames_err_by_no_more_than_three_times_their_tolerance() {
+    for (scene, frames) in [(&DINOSAUR, 62), (&HORSE, 10)] {
+        let ratios = State::after(scene, frames).ratios(&[0.3, 0.1]);
+        assert!(ratios.iter().all(|&ratio| ratio <= 3.0), "{} after frame {frames}: {ratios:?}", scene.name);
+    }
+}
+
+/// `cargo test --release -p piola-scenes --test tolerance -- --ignored --nocapture`
+#[test]
+#[ignore = "takes minutes"]
+fn frames_all_along_err_by_no_more_than_three_times_their_tolerance() {
+    for (scene, states) in [(&DINOSAUR, [30, 60, 62, 66, 75, 90]), (&HORSE, [4, 6, 8, 10, 12, 15])] {
+        for frames in states {
+            let ratios = State::after(scene, frames).ratios(&[0.3, 0.1, 0.03]);
+            assert!(
+                ratios.iter().all(|&ratio| ratio <= 3.0),
+                "{} after frame {frames}: {ratios:?}",
+                scene.name
+            );
+        }
+    }
+}
