@@ -3,8 +3,9 @@
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
 //! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts beside the
-//! material. `conservation` makes the steps that keep energy and momenta, which are no minima. `equilibrium`
-//! classifies a body that has come to rest. Reports are values; nothing prints.
+//! material. `staged` hands the stages of steps to minimisers of a caller's own. `conservation` makes the
+//! steps that keep energy and momenta, which are no minima. `equilibrium` classifies a body that has come to
+//! rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!
@@ -27,12 +28,13 @@ mod objective;
 mod simulation;
 mod solver;
 mod spring;
+mod staged;
 mod term;
 
 pub use damping::Damping;
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
-pub use integrator::Integrator;
+pub use integrator::{Integrator, Stage};
 pub use line_search::{Line, LineSearch, LineSearchSettings};
 pub use newton::{Convergence, InitialGuess, NewtonError, NewtonReport, NewtonSettings};
 pub use simulation::{
@@ -40,4 +42,5 @@ pub use simulation::{
 };
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
+pub use staged::StagedSteps;
 pub use term::{EnergyChange, NodeBlocks, Term};

@@ -31,6 +31,7 @@ pub use csr::{CsrError, CsrPlaces};
 pub use element::Tetrahedron;
 pub use linear::{Cholesky, LinearError};
 pub use lower_triangle::LowerTriangle;
+pub use nodal_stiffness::NodalStiffness;
 pub use operator::StiffnessOperator;
 pub use pattern::Pattern;
 pub use pins::{PinError, Pins};

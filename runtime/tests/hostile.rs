@@ -16,11 +16,11 @@ use piola::point::measures::Measure;
 use piola::random::Random;
 use piola::step::{
     Damping, Equilibrium, Filtering, InitialGuess, Integrator, LineSearchSettings, LinearSolver,
-    NewtonSettings, NodeBlocks, Simulation, SimulationSettings, SparseSolver, Spring, Term,
+    NewtonSettings, NodeBlocks, Simulation, SimulationSettings, SparseSolver, Spring, StagedSteps, Term,
 };
 use piola::system::{
-    BlockMatrix, Body, Cholesky, CsrPlaces, ElasticResponse, LinearError, LowerTriangle, Part, Pattern, Pins,
-    StiffnessOperator,
+    BlockMatrix, Body, Cholesky, CsrPlaces, ElasticResponse, LinearError, LowerTriangle, NodalStiffness,
+    Part, Pattern, Pins, StiffnessOperator,
 };
 use piola::{Inversion, StatusCell, material};
 
@@ -433,6 +433,16 @@ fn bodies() {
         let _ = response.gradient(&body, &positions, &mut product);
         if let Ok(mut matrix) = BlockMatrix::of_body(&body, &hostile.pins(body.rest().len())) {
             let _ = response.stiffness(&body, &positions, Filter::Clamp, &mut product, &mut matrix);
+        }
+        let _ = response.gradient_here(&body, &mut product);
+        if let Ok(mut matrix) = NodalStiffness::of_body(&body) {
+            let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
+        }
+        let _ = response.difference_noise(&body);
+        let integrator = Integrator::GeneralizedAlpha { spectral_radius: hostile.number() };
+        if let Ok(mut steps) = StagedSteps::new(integrator, body.rest()) {
+            let _ = steps.set_state(&positions, &product);
+            let _ = steps.set_accelerations(&positions);
         }
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });

@@ -295,8 +295,14 @@ fn at_start(
     let pins = pins(settings, mesh)?;
     let body = Body::from_parts(mesh, vec![Part { group: None, material, density: settings.density }])?;
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
-    simulation.set_positions(&start::positions(settings.start, geometry, &pins))?;
+    simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)
+}
+
+/// Positions of the nodes before the first step, m, of which pinned ones are at rest.
+#[must_use]
+pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
+    start::positions(settings.start, geometry, pins)
 }
 
 /// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
@@ -305,7 +311,9 @@ fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
     young * mesh.bounds().size()[1]
 }
 
-fn step_settings(settings: &Settings) -> step::SimulationSettings {
+/// Settings of the steps of a scene.
+#[must_use]
+pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
     let newton = match settings.newton {
         Newton::Single => NewtonSettings::single(),
         // Steps of higher order would else be solved to more digits than implicit Euler's, stage by stage.
@@ -323,7 +331,10 @@ fn step_settings(settings: &Settings) -> step::SimulationSettings {
 }
 
 /// The nodes that the settings pin, or else those that the scene pins.
-fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
+///
+/// # Errors
+/// [`Error::Pin`], [`Error::UnknownPin`].
+pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
@@ -345,21 +356,24 @@ fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     })
 }
 
-/// The springs by which a scene pulls at nodes of a body.
-#[derive(Debug)]
-struct DragSprings {
-    pull: Pull,
+/// Springs by which a scene pulls at nodes of a body.
+#[derive(Clone, Debug)]
+pub struct DragSprings {
+    /// The pull of the scene.
+    pub pull: Pull,
     /// The nodes with their places at rest, m.
-    nodes: Vec<(usize, [f64; 3])>,
+    pub nodes: Vec<(usize, [f64; 3])>,
     /// Bounding box of the body, m.
-    bounds: Bounds,
+    pub bounds: Bounds,
     /// Stiffness of the spring at each node, N/m.
-    stiffness: f64,
+    pub stiffness: f64,
 }
 
 impl DragSprings {
-    /// `young`, Pa, is the small-strain Young's modulus of the body.
-    fn new(pull: Pull, mesh: &TetMesh, young: f64) -> Self {
+    /// The springs of all nodes in the region of a pull; `young`, Pa, is the small-strain Young's modulus of
+    /// the body.
+    #[must_use]
+    pub fn new(pull: Pull, mesh: &TetMesh, young: f64) -> Self {
         let bounds = mesh.bounds();
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
@@ -369,7 +383,7 @@ impl DragSprings {
     }
 
     /// The springs at the end of a stretch of time, s.
-    fn during(&self, start: f64, end: f64) -> impl Iterator<Item = step::Spring> {
+    pub fn during(&self, start: f64, end: f64) -> impl Iterator<Item = step::Spring> {
         let share = self.pull.share_during(start, end);
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {

@@ -308,9 +308,9 @@ impl State {
     }
 }
 
-/// How a stage gets velocities and accelerations from positions.
+/// How a stage of a step gets velocities v = (x − s)/τ and accelerations a = (v − w)/σ from positions x.
 #[derive(Clone, Debug)]
-pub(crate) struct Stage {
+pub struct Stage {
     /// s, m.
     pub(crate) start: Vec<[f64; 3]>,
     /// w, m/s.
@@ -337,8 +337,12 @@ impl Stage {
         }
     }
 
-    /// Velocity and acceleration of a node that is at `x`.
-    pub(super) fn motion(&self, node: usize, x: [f64; 3]) -> [[f64; 3]; 2] {
+    /// Velocity, m/s, and acceleration, m/s², of a node that is at `x`, m.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    #[must_use]
+    pub fn motion(&self, node: usize, x: [f64; 3]) -> [[f64; 3]; 2] {
         let [tau, sigma] = self.lengths;
         let v: [f64; 3] = std::array::from_fn(|c| (x[c] - self.start[node][c]) / tau);
         [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / sigma)]

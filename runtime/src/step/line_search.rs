@@ -77,6 +77,16 @@ where
     }
 }
 
+/// Piola's own: backtracking, for Newton's methods outside of a [`Simulation`](super::Simulation).
+impl LineSearch for LineSearchSettings {
+    fn step(&self, line: &mut dyn Line, longest: f64, slope: f64) -> Option<f64> {
+        match backtrack(line, longest, slope, self) {
+            Outcome::Accepted { step, .. } => Some(step),
+            Outcome::Failed { .. } => None,
+        }
+    }
+}
+
 /// The line search of a simulation: a caller's own, or else that of the settings.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
@@ -160,7 +170,12 @@ pub(super) enum Outcome {
 
 /// Tries the step `first`, then that times shrink, shrink², … until one is acceptable; `slope` < 0 is the
 /// derivative at the start.
-fn backtrack(line: &mut impl Line, first: f64, slope: f64, settings: &LineSearchSettings) -> Outcome {
+fn backtrack(
+    line: &mut (impl Line + ?Sized),
+    first: f64,
+    slope: f64,
+    settings: &LineSearchSettings,
+) -> Outcome {
     let delta = settings.sufficient_decrease;
     let (mut step, mut refused) = (first, 0);
     if first <= 0.0 {
@@ -283,6 +298,16 @@ mod tests {
         assert_eq!(search(&none).0, Outcome::Failed { step: 0.5, refused: 0 });
         let outside = |_: &mut dyn Line, longest: f64, _: f64| Some(longest);
         assert_eq!(search(&outside).0, Outcome::Failed { step: 1.0, refused: 1 });
+    }
+
+    #[test]
+    fn settings_are_a_line_search() {
+        let at_half = |expected: Option<f64>, value: fn(f64) -> Option<f64>| {
+            let mut line = Function { value, derivative: |_| -1.0, at: 0.0, noise: 0.0 };
+            assert_eq!(LineSearch::step(&LineSearchSettings::default(), &mut line, 1.0, -1.0), expected);
+        };
+        at_half(Some(0.5), |s| (s < 0.9).then_some(-s));
+        at_half(None, |_| None);
     }
 
     #[test]

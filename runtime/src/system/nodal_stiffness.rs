@@ -8,6 +8,7 @@
 //!
 //! Pinned nodes have rows too, so that what moves them enters the right side; this module knows no pins.
 
+use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -25,9 +26,14 @@ use crate::point::Filter;
 /// Tiles of a wave: 2.9 MB of stiffnesses.
 const WAVE: usize = 64;
 
-/// The stiffness of a body, N/m: zero at first.
+/// Stiffness of a body as one 3×3 block for each node and each two nodes that share an element, N/m; pinned
+/// nodes have rows too. Zero at first, and filled by
+/// [`ElasticResponse::stiffness_here`](super::ElasticResponse::stiffness_here).
+///
+/// For solvers with matrices of their own. Takes some 250 bytes for each element, where
+/// [`BlockMatrix`](super::BlockMatrix) needs a buffer of 720 beside its entries.
 #[derive(Clone)]
-pub(crate) struct NodalStiffness {
+pub struct NodalStiffness {
     shape: Arc<Shape>,
     matrix: SymmetricBlocks<f64, 3>,
     wave: Vec<[Stiffness; TILE]>,
@@ -58,7 +64,46 @@ struct Contribution {
     transposed: bool,
 }
 
+impl fmt::Debug for NodalStiffness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pattern = self.matrix.pattern();
+        write!(f, "NodalStiffness {{ nodes: {}, blocks: {} }}", pattern.rows(), pattern.len())
+    }
+}
+
 impl NodalStiffness {
+    /// A matrix of zeros for the elements of a body.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn of_body(body: &Body) -> Result<Self, LinearError> {
+        Self::new(body, &[])
+    }
+
+    /// Number of blocks that [`NodalStiffness::blocks`] goes through.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.matrix.pattern().len()
+    }
+
+    /// Whether there is no block, as for a body without elements.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The nodes of each block, row and column, and its entries ∂²E/∂x_row∂x_column, always in the same
+    /// order.
+    ///
+    /// Of two different nodes there is one block; that of `column` and `row` is its transpose.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, &[[f64; 3]; 3])> {
+        let pattern = self.matrix.pattern();
+        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
+        (0..pattern.rows())
+            .flat_map(row)
+            .map(|(row, column, block)| (row, column, &self.matrix.blocks()[block]))
+    }
+
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
     /// that is needed.
     ///

@@ -6,6 +6,7 @@ use super::assemble::Elastic;
 use super::block_matrix::BlockMatrix;
 use super::body::Body;
 use super::element::Evaluated;
+use super::nodal_stiffness::NodalStiffness;
 use super::stiffnesses::ElementStiffnesses;
 use crate::batch::LengthError;
 use crate::point::Filter;
@@ -127,10 +128,70 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
+    /// Replaces `gradient` by that of the energy, N, at the positions where it was evaluated last: cheaper
+    /// than [`ElasticResponse::gradient`], for a line search that has been there.
+    ///
+    /// # Errors
+    /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
+    pub fn gradient_here(&mut self, body: &Body, gradient: &mut [[f64; 3]]) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        self.check_body(body)?;
+        let energies = self.elastic.survey();
+        self.elastic.evaluate_gradients(body);
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m,
+    /// with the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
+    /// made for.
+    pub fn stiffness_here(
+        &mut self,
+        body: &Body,
+        filter: Filter,
+        gradient: &mut [[f64; 3]],
+        matrix: &mut NodalStiffness,
+    ) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        self.check_body(body)?;
+        same("matrix", 3 * matrix.matrix().pattern().rows(), self.nodes, 3)?;
+        let energies = self.elastic.survey();
+        matrix.linearise(body, &mut self.elastic, filter, |_, _| {});
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Makes the energies evaluated last those that [`ElasticResponse::difference`] is taken from.
+    pub fn set_base(&mut self) {
+        self.elastic.set_base();
+    }
+
+    /// Energy evaluated last minus that of the base, J: a sum of differences of elements, which keeps digits
+    /// that a difference of sums has lost.
+    #[must_use]
+    pub fn difference(&self) -> f64 {
+        self.elastic.difference()
+    }
+
+    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body that this memory was
+    /// made for.
+    ///
+    /// # Errors
+    /// [`LengthError`] for another body.
+    pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
+        self.check_body(body)?;
+        Ok(self.elastic.difference_noise(body))
+    }
+
+    fn check_body(&self, body: &Body) -> Result<(), LengthError> {
+        same("elements", body.elements().len(), self.elements, 1)?;
+        same("nodes", body.rest().len(), self.nodes, 1)
+    }
+
     fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<Evaluated, LengthError> {
         self.check("positions", positions.len())?;
-        same("elements", body.elements().len(), self.elements, 1)?;
-        same("nodes", body.rest().len(), self.nodes, 1)?;
+        self.check_body(body)?;
         Ok(self.elastic.evaluate(body, positions))
     }
 
@@ -198,6 +259,49 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Blocks of nodes and differences of elements, at the positions evaluated last, are those of the plain
+    /// methods.
+    #[test]
+    fn what_is_taken_here_is_what_positions_give() {
+        let mesh = beam(3);
+        let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
+        let mut random = Random::new(5);
+        let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
+        let mut response = ElasticResponse::new(&body);
+        let mut matrix = BlockMatrix::of_body(&body, &Pins::none()).expect("small");
+        let mut nodal = NodalStiffness::of_body(&body).expect("small");
+        let (mut expected, mut found) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
+        let (at_start, _) = response.energy(&body, &before).expect("lengths");
+        response.set_base();
+        response.stiffness(&body, &x, Filter::Clamp, &mut expected, &mut matrix).expect("lengths");
+        let (at_end, _) = response.energy(&body, &x).expect("lengths");
+        let noise = response.difference_noise(&body).expect("the same body");
+        assert!((response.difference() - (at_end - at_start)).abs() <= noise && noise < 1e-9 * at_end);
+
+        assert!(response.gradient_here(&body, &mut found).expect("lengths").is_clean());
+        assert_eq!(found, expected);
+        found.fill([f64::NAN; 3]);
+        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut nodal);
+        assert!(survey.expect("lengths").is_clean());
+        let mut blocks = 0;
+        for (row, column, entries) in nodal.blocks() {
+            let expected = matrix.block(row, column).expect("nodes that share an element");
+            for r in 0..3 {
+                for c in 0..3 {
+                    // Sums of some twenty elements in different orders.
+                    let error = (entries[r][c] - expected[r][c]).abs();
+                    assert!(error <= 1e-12 * expected[r][r].abs().max(1e4), "{error} in {row}, {column}");
+                }
+            }
+            blocks += 1;
+        }
+        assert_eq!(blocks, nodal.len());
+        let other = NodalStiffness::of_body(&Body::new(&beam(1), NEO_HOOKEAN, 1.0).expect("a body"));
+        assert!(
+            response.stiffness_here(&body, Filter::None, &mut found, &mut other.expect("small")).is_err()
+        );
     }
 
     #[test]

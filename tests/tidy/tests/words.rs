@@ -79,10 +79,11 @@ fn nothing_is_left_undone() {
     forbid("marks of what is left undone", &found);
 }
 
-/// All Rust files of the workspace, each once, and those of the fuzz targets.
+/// All Rust files of the workspace, each once, and those of the crates outside of it.
 fn sources() -> Vec<(PathBuf, String)> {
     let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
     found.extend(files(Path::new("fuzz/fuzz_targets")));
+    found.extend(files(Path::new("distributed")));
     found.sort();
     found.dedup();
     // What the macro makes of a declaration is formatted by another program.

@@ -1,0 +1,99 @@
+//! Bindings to the functions of PETSc that `src/petsc.rs` calls, made from its headers: the widths of its
+//! integers and the numbers of its enumerations are those of the PETSc that is linked.
+
+#![expect(clippy::print_stderr, reason = "so a build script talks to people")]
+
+use std::env;
+use std::path::PathBuf;
+use std::process::exit;
+
+const ADVICE: &str = "on Debian: apt-get install -y --no-install-recommends gcc libc6-dev pkg-config libclang-dev \
+                      petsc-dev libopenmpi-dev openmpi-bin";
+
+/// Functions and constants that are bound.
+const NAMES: &[&str] = &[
+    "ISDestroy",
+    "ISGetIndices",
+    "ISGetLocalSize",
+    "ISRestoreIndices",
+    "KSPCreate",
+    "KSPDestroy",
+    "KSPGetConvergedReason",
+    "KSPGetIterationNumber",
+    "KSPGetPC",
+    "KSPSetFromOptions",
+    "KSPSetNormType",
+    "KSPSetOperators",
+    "KSPSetOptionsPrefix",
+    "KSPSetReusePreconditioner",
+    "KSPSetTolerances",
+    "KSPSetType",
+    "KSPSolve",
+    "MatCreate",
+    "MatDestroy",
+    "MatNullSpaceCreateRigidBody",
+    "MatNullSpaceDestroy",
+    "MatPartitioningApply",
+    "MatPartitioningCreate",
+    "MatPartitioningDestroy",
+    "MatPartitioningSetAdjacency",
+    "MatPartitioningSetFromOptions",
+    "MatSetBlockSize",
+    "MatSetNearNullSpace",
+    "MatSetOption",
+    "MatSetPreallocationCOO",
+    "MatSetSizes",
+    "MatSetType",
+    "MatSetValuesCOO",
+    "PCSetType",
+    "PetscErrorMessage",
+    "PetscFinalize",
+    "PetscInitializeNoArguments",
+    "PetscOptionsHasName",
+    "PetscOptionsLeftGet",
+    "PetscOptionsLeftRestore",
+    "PetscOptionsSetValue",
+    "PetscPushErrorHandler",
+    "VecCreateGhostBlock",
+    "VecCreateMPI",
+    "VecDestroy",
+    "VecGetArray",
+    "VecGhostGetLocalForm",
+    "VecGhostRestoreLocalForm",
+    "VecGhostUpdateBegin",
+    "VecGhostUpdateEnd",
+    "VecRestoreArray",
+    "VecSetBlockSize",
+];
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    let library = pkg_config::Config::new().atleast_version("3.18").probe("PETSc").unwrap_or_else(|error| {
+        eprintln!("PETSc 3.18 or later is not there, or pkg-config does not find it: {ADVICE}\n\n{error}");
+        exit(1);
+    });
+    let mpi = pkg_config::Config::new()
+        .cargo_metadata(false)
+        .probe("mpi-c")
+        .or_else(|_| pkg_config::Config::new().cargo_metadata(false).probe("mpi"));
+    let folders = library.include_paths.iter().chain(mpi.iter().flat_map(|mpi| &mpi.include_paths));
+    let bindings = NAMES
+        .iter()
+        .fold(bindgen::Builder::default(), |builder, name| builder.allowlist_function(name))
+        .header_contents("petsc_functions.h", "#include <petscksp.h>\n")
+        .clang_args(folders.map(|folder| format!("-I{}", folder.display())))
+        .blocklist_type("MPI_Comm|ompi_communicator_t")
+        .raw_line("use mpi::ffi::MPI_Comm;")
+        .layout_tests(false)
+        .generate_comments(false)
+        .generate();
+    let bindings = bindings.unwrap_or_else(|error| {
+        eprintln!("the headers of PETSc and MPI cannot be read: {ADVICE}\n\n{error}");
+        exit(1);
+    });
+    let folder = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    if let Err(error) = bindings.write_to_file(folder.join("petsc_functions.rs")) {
+        eprintln!("{}: {error}", folder.display());
+        exit(1);
+    }
+}

@@ -1,0 +1,216 @@
+//! Checkpoints: the state of all nodes in one file, from which a run on any number of ranks goes on.
+//!
+//! A line of JSON, filled up with spaces to [`HEADER`] bytes, is followed by the positions, velocities and
+//! accelerations of all nodes in the order of the mesh, little-endian. Every rank writes the nodes that are
+//! at home on it, beside the last checkpoint, which is replaced once all of it is on the disk. The ranks must
+//! see the same folder.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::portion::Homes;
+use crate::simulation::Simulation;
+use crate::team::Team;
+
+/// Length of the header, bytes.
+pub const HEADER: usize = 65536;
+
+/// First words of a checkpoint.
+const FORMAT: &str = "piola-mpi checkpoint 1";
+
+/// Bytes of a node in each of the three lists.
+const NODE: u64 = 24;
+
+/// What a checkpoint says of itself.
+#[derive(Debug, Serialize, Deserialize)]
+struct Header<T> {
+    format: String,
+    nodes: u64,
+    /// CRC-32 of all that follows the header.
+    checksum: u32,
+    about: T,
+}
+
+/// The lists of a state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Position of each node, m.
+    pub positions: Vec<[f64; 3]>,
+    /// Velocity of each node, m/s.
+    pub velocities: Vec<[f64; 3]>,
+    /// Acceleration of each node, m/s².
+    pub accelerations: Vec<[f64; 3]>,
+}
+
+/// Writes a checkpoint, and what it is `about`, in place of an earlier one.
+///
+/// # Errors
+/// [`Error::OnRank`] with the reason of the first rank that cannot write; the earlier one is then as it was.
+pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Serialize) -> Result<(), Error> {
+    let (share, state) = (simulation.share(), simulation.state());
+    let homes = Homes::new(share.totals[0] as u64, team.size());
+    let rows = (0..share.owned).map(|node| {
+        let mut row = [share.ids[node]; 10];
+        let vectors = [state.positions()[node], state.velocities()[node], state.accelerations()[node]];
+        for (entry, x) in row[1..].iter_mut().zip(vectors.as_flattened()) {
+            *entry = x.to_bits();
+        }
+        row
+    });
+    let mut rows = team.exchange_rows(&homes.sort(team, rows)).concat();
+    rows.sort_unstable_by_key(|row| row[0]);
+    let list = |at: usize| -> Vec<u8> {
+        rows.iter().flat_map(|row| &row[3 * at + 1..3 * at + 4]).flat_map(|bits| bits.to_le_bytes()).collect()
+    };
+    let lists = [list(0), list(1), list(2)];
+    let header =
+        Header { format: FORMAT.to_owned(), nodes: homes.total(), checksum: checksum(team, &lists), about };
+
+    let aside = path.with_extension("part");
+    let failed = |source| Error::Write { path: path.into(), source };
+    let begin = || -> io::Result<()> {
+        let mut text = serde_json::to_vec(&header)?;
+        if text.len() >= HEADER {
+            return Err(io::Error::other("its header is too long"));
+        }
+        text.resize(HEADER - 1, b' ');
+        text.push(b'\n');
+        File::create(&aside)?.write_all(&text)
+    };
+    let put = || -> io::Result<()> {
+        let file = File::options().write(true).open(&aside)?;
+        for (number, list) in lists.iter().enumerate() {
+            file.write_all_at(list, place(&homes, team.rank(), number))?;
+        }
+        file.sync_all()
+    };
+    let finish = || -> io::Result<()> {
+        fs::rename(&aside, path)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        // Some systems make names durable in their own time.
+        let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
+        Ok(())
+    };
+    let is_first = team.rank() == 0;
+    let written = team
+        .agree(if is_first { begin() } else { Ok(()) }.map_err(failed))
+        .and_then(|()| team.agree(put().map_err(failed)))
+        .and_then(|()| team.agree(if is_first { finish() } else { Ok(()) }.map_err(failed)));
+    if written.is_err() && is_first {
+        // What is left of it helps nobody.
+        let _ = fs::remove_file(&aside);
+    }
+    written
+}
+
+/// Reads a checkpoint into a simulation of the same mesh; returns what it is about.
+///
+/// # Errors
+/// [`Error::OnRank`] if it cannot be read, is damaged or of another mesh, or `check` finds a reason against
+/// it.
+pub fn read<T: DeserializeOwned>(
+    team: &Team,
+    path: &Path,
+    simulation: &mut Simulation,
+    check: impl FnOnce(&T) -> Result<(), String>,
+) -> Result<T, Error> {
+    let share = simulation.share();
+    let nodes = share.totals[0] as u64;
+    let homes = Homes::new(nodes, team.size());
+    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let loaded = read_header::<T>(path).and_then(|(file, header)| {
+        if header.nodes != nodes {
+            return Err(format!("it is of {} nodes, and the mesh has {nodes}", header.nodes));
+        }
+        check(&header.about)?;
+        let range = homes.range(team.rank());
+        let list = |number: usize| {
+            let mut bytes = vec![0; ((range.end - range.start) * NODE) as usize];
+            file.read_exact_at(&mut bytes, place(&homes, team.rank(), number)).map(|()| bytes)
+        };
+        let lists = (0..3).map(list).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+        Ok((header, lists))
+    });
+    let (header, lists) = team.agree(loaded.map_err(failed))?;
+    let is_whole = checksum(team, &lists) == header.checksum;
+    let whole = is_whole.then_some(()).ok_or_else(|| failed("it is damaged".to_owned()));
+    team.agree(whole)?;
+
+    let mut order: Vec<usize> = (0..share.ids.len()).collect();
+    order.sort_unstable_by_key(|&node| share.ids[node]);
+    let asked: Vec<u64> = order.iter().map(|&node| share.ids[node]).collect();
+    let word = |list: usize, node: usize, c: usize| {
+        let at = 24 * node + 8 * c;
+        u64::from_le_bytes(lists[list][at..at + 8].try_into().unwrap_or_default())
+    };
+    let answers = homes.ask(team, &asked, |node| -> [u64; 9] {
+        std::array::from_fn(|entry| word(entry / 3, node, entry % 3))
+    });
+    let zero = vec![[0.0; 3]; order.len()];
+    let mut state = State { positions: zero.clone(), velocities: zero.clone(), accelerations: zero };
+    for (&node, row) in order.iter().zip(&answers) {
+        let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(row[3 * at + c]));
+        state.positions[node] = vector(0);
+        state.velocities[node] = vector(1);
+        state.accelerations[node] = vector(2);
+    }
+    simulation.set_state(&state.positions, &state.velocities, Some(&state.accelerations))?;
+    Ok(header.about)
+}
+
+/// Reads a whole checkpoint without a team: what it is about, and the state of all nodes.
+///
+/// # Errors
+/// [`Error::Checkpoint`].
+pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error> {
+    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let (mut file, header) = read_header::<T>(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
+    if crc32fast::hash(&bytes) != header.checksum || bytes.len() as u64 != 3 * NODE * header.nodes {
+        return Err(failed("it is damaged".to_owned()));
+    }
+    let numbers: Vec<f64> =
+        bytes.as_chunks::<8>().0.iter().map(|&number| f64::from_le_bytes(number)).collect();
+    let mut lists = numbers.as_chunks::<3>().0.chunks(header.nodes as usize).map(<[_]>::to_vec);
+    let mut next = || lists.next().unwrap_or_default();
+    Ok((header.about, State { positions: next(), velocities: next(), accelerations: next() }))
+}
+
+/// Opens a checkpoint behind its header.
+fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), String> {
+    let mut text = vec![0; HEADER];
+    let mut file = File::open(path).map_err(|error| error.to_string())?;
+    file.read_exact(&mut text).map_err(|_| "it is no checkpoint".to_owned())?;
+    let header: Header<T> = serde_json::from_slice(&text).map_err(|_| "it is no checkpoint".to_owned())?;
+    if header.format == FORMAT { Ok((file, header)) } else { Err(format!("it is no {FORMAT}")) }
+}
+
+/// Where the nodes at home on a rank begin in a list.
+fn place(homes: &Homes, rank: usize, list: usize) -> u64 {
+    HEADER as u64 + NODE * (list as u64 * homes.total() + homes.range(rank).start)
+}
+
+/// Checksum of three lists, of which each rank has a part, one behind the other.
+fn checksum(team: &Team, lists: &[Vec<u8>]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    for list in lists {
+        let (sums, lengths) = (team.all(crc32fast::hash(list) as usize), team.all(list.len()));
+        for (part, length) in sums.into_iter().zip(lengths) {
+            sum.combine(&crc32fast::Hasher::new_with_initial_len(part as u32, length as u64));
+        }
+    }
+    sum.finalize()
+}
+
+/// The file of checkpoints in the folder of a run.
+#[must_use]
+pub fn file_in(folder: &Path) -> PathBuf {
+    folder.join("checkpoint.piola")
+}

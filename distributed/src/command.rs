@@ -1,0 +1,507 @@
+//! The command line: options of piola-mpi, and those of PETSc among them.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+use piola::Inversion;
+use piola::point::Filter;
+use piola::step::{Filtering, Integrator, LineSearchSettings};
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::output::Newton;
+use piola_scenes::scene::{Amplitude, Body, Scene, Start};
+use piola_scenes::settings::{Files, Settings};
+
+use crate::elastic::MaterialPart;
+use crate::error::Error;
+use crate::newton::NewtonSettings;
+use crate::setting::Move;
+
+/// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
+///
+/// Run it as `mpirun -n N piola-mpi …`. Options of PETSc may stand anywhere, with one dash: -ksp_type cg
+/// -pc_type gamg.
+#[derive(Debug, Parser)]
+#[command(version, name = "piola-mpi")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Let a cube of 1 m, held at one face, sag under its own weight, generated in parallel; prints its
+    /// iterations and times.
+    Box(BoxOptions),
+    /// Take a body to equilibrium under gravity.
+    Statics(Box<StaticsOptions>),
+    /// Run a scene, or a mesh, in steps of time.
+    Run(Box<RunOptions>),
+}
+
+/// Options of a box.
+#[derive(Debug, Parser)]
+pub struct BoxOptions {
+    /// Number of tetrahedra, at least; the cube has six in each of N³ cells.
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    pub elements: u64,
+
+    /// Folder for a checkpoint of the result [default: none is written].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "clap would print it")]
+    pub solver: SolverOptions,
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub struct StaticsOptions {
+    #[command(flatten)]
+    choice: Choice,
+
+    /// Folder for the result [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Replace results in the folder.
+    #[arg(long)]
+    pub force: bool,
+
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "clap would print it")]
+    pub solver: SolverOptions,
+}
+
+/// All quantities are in SI units; y points upwards.
+#[derive(Debug, Parser)]
+pub struct RunOptions {
+    #[command(flatten)]
+    choice: Choice,
+
+    /// Time step in s [default: the scene's, 1/30].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    dt: Option<f64>,
+
+    /// Number of time steps [default: the scene's].
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+
+    /// Folder for summary.json and checkpoint.piola [default: out/SCENE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Replace results in the folder.
+    #[arg(long)]
+    pub force: bool,
+
+    /// Go on from the checkpoint in the folder, on any number of ranks; needs the options that it was begun
+    /// with, but for --frames and those of the solver.
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+
+    /// Write the tetrahedra of each frame, frame_NNNN.pvtu with a piece of each rank and frames.pvd with
+    /// times, for ParaView.
+    #[arg(long)]
+    pub vtu: bool,
+
+    /// Steps from one checkpoint to the next; 0 for one at the end alone.
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub checkpoint_every: usize,
+
+    /// Method by which steps advance in time: implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint,
+    /// newmark, or generalized-alpha=R for a spectral radius R.
+    #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
+    integrator: Integrator,
+
+    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
+    #[arg(long, value_enum, default_value_t = Newton::Single)]
+    newton: Newton,
+
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "clap would print it")]
+    pub solver: SolverOptions,
+}
+
+/// How steps are solved.
+#[derive(Clone, Debug, Parser)]
+pub struct SolverOptions {
+    /// Share of the first residual to which Newton's method goes.
+    #[arg(long, value_name = "T", default_value_t = 1e-6)]
+    newton_tolerance: f64,
+
+    /// Newton iterations after which a step ends.
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    newton_iterations: usize,
+
+    /// Share of the residual to which linear systems are solved at first; near the end they are solved as far
+    /// as Newton's tolerance needs [default: 0.01, or 1e-8 with --newton single].
+    #[arg(long, value_name = "T")]
+    linear_tolerance: Option<f64>,
+
+    /// Projection of the tangents: on-demand where the matrix is not positive definite without, clamp or
+    /// absolute always, or none [default: on-demand, or clamp with --newton single].
+    #[arg(long, value_name = "WHEN", value_parser = filtering)]
+    filter: Option<Filtering>,
+
+    /// Threads of each rank for the elements; PETSc itself has one.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub threads: usize,
+}
+
+/// A scene and overrides of its defaults.
+#[derive(Debug, Parser)]
+struct Choice {
+    /// The scene.
+    #[arg(default_value = "horse")]
+    scene: String,
+
+    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the
+    /// scene's.
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+
+    /// Value of a parameter of the material; lists as NAME=V,V,V.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    parameters: Vec<(String, Vec<f64>)>,
+
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. Without
+    /// parameters, as stiff as the scene's; may be repeated.
+    #[arg(long = "part", value_name = "GROUP=NAME;…")]
+    parts: Vec<String>,
+
+    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
+    /// energy is extended by polynomials [default: 0.1 where it can be].
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
+    inversion: Option<Inversion>,
+
+    /// Density in kg/m³ [default: the scene's, 1000].
+    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
+    density: Option<f64>,
+
+    /// Gravity in m/s², downwards [default: 0].
+    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    gravity: Option<f64>,
+
+    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
+    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
+    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
+    pins: Vec<String>,
+
+    /// Nodes that are moved: BOX|GROUP=X,Y,Z@T, steadily by X, Y, Z in m until the time T in s, and held
+    /// there; in statics at once. May be repeated.
+    #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
+    moves: Vec<Move>,
+
+    /// Another body that comes with piola: horse, dinosaur or bar [default: the scene's].
+    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
+    body: Option<String>,
+
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
+    /// become shares of its bounding box.
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+
+    /// Seed of the random displacements of a scene that scrambles.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// How far such a scene displaces each node along each axis, in mean edge lengths, or `box`.
+    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
+    amplitude: Option<Amplitude>,
+}
+
+/// What a run is to do.
+#[derive(Debug)]
+pub struct Task {
+    /// The scene with its overrides.
+    pub settings: Settings,
+    /// Groups with materials of their own.
+    pub groups: Vec<String>,
+    /// The materials of these groups.
+    pub materials: Vec<MaterialPart>,
+    /// Motions of nodes.
+    pub moves: Vec<Move>,
+}
+
+impl StaticsOptions {
+    /// What is to be done.
+    ///
+    /// # Errors
+    /// [`Error::Scene`], [`Error::Options`].
+    pub fn task(&self) -> Result<Task, Error> {
+        self.choice.task()
+    }
+}
+
+impl RunOptions {
+    /// What is to be done.
+    ///
+    /// # Errors
+    /// [`Error::Scene`], [`Error::Options`].
+    pub fn task(&self) -> Result<Task, Error> {
+        let mut task = self.choice.task()?;
+        let settings = &mut task.settings;
+        settings.dt = self.dt.unwrap_or(settings.dt);
+        settings.frames = self.frames.unwrap_or(settings.frames);
+        settings.integrator = self.integrator;
+        settings.newton = self.newton;
+        settings.check()?;
+        Ok(task)
+    }
+
+    /// How steps are solved.
+    ///
+    /// # Errors
+    /// [`Error::Options`].
+    pub fn newton(&self) -> Result<NewtonSettings, Error> {
+        self.solver.settings(self.newton == Newton::Single)
+    }
+}
+
+impl SolverOptions {
+    /// How steps are solved, in one iteration or in full.
+    ///
+    /// # Errors
+    /// [`Error::Options`] for a number that is out of range.
+    pub fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
+        let linear = self.linear_tolerance.unwrap_or(if is_single { 1e-8 } else { 1e-2 });
+        for (option, value) in [("--newton-tolerance", self.newton_tolerance), ("--linear-tolerance", linear)]
+        {
+            if !(0.0..1.0).contains(&value) {
+                return Err(Error::Options(format!("{option} {value}: it must be at least 0 and below 1")));
+            }
+        }
+        if self.newton_iterations == 0 || !(1..=1024).contains(&self.threads) {
+            let reason = "--newton-iterations must be at least 1, and --threads from 1 to 1024";
+            return Err(Error::Options(reason.to_owned()));
+        }
+        let usual = if is_single { Filtering::Always(Filter::Clamp) } else { Filtering::OnDemand };
+        Ok(NewtonSettings {
+            filtering: self.filter.unwrap_or(usual),
+            max_iterations: if is_single { 1 } else { self.newton_iterations },
+            tolerance: self.newton_tolerance,
+            linear_tolerance: linear,
+            max_linear_iterations: 20_000,
+            line_search: LineSearchSettings::default(),
+        })
+    }
+}
+
+impl Choice {
+    fn task(&self) -> Result<Task, Error> {
+        let scene = Scene::find(&self.scene)?;
+        let mut settings = Settings::new(scene);
+        if let Some(name) = self.material.as_ref().filter(|name| !settings.material.is(name)) {
+            settings.material = MaterialSpec::matching(name, settings.material.build()?.moduli);
+        }
+        for (name, values) in &self.parameters {
+            settings.material = settings.material.with_parameter(name, values.clone());
+        }
+        if let Some(inversion) = self.inversion {
+            settings.material = settings.material.with_inversion(inversion);
+        }
+        if let Some(name) = &self.body {
+            settings.body = Body::find(name)?;
+        }
+        if let Start::Scrambled { seed, amplitude } = scene.start {
+            settings.start = Start::Scrambled {
+                seed: self.seed.unwrap_or(seed),
+                amplitude: self.amplitude.unwrap_or(amplitude),
+            };
+        } else if self.seed.is_some() || self.amplitude.is_some() {
+            let name = scene.name;
+            return Err(Error::Options(format!(
+                "--seed and --amplitude: the scene {name} displaces nothing at random"
+            )));
+        }
+        settings.density = self.density.unwrap_or(settings.density);
+        settings.gravity = self.gravity.unwrap_or(settings.gravity);
+        settings.pins = self.pins.clone();
+        settings.files = self.mesh.clone().map(|mesh| Files { mesh, surface: None });
+        settings.check()?;
+        let mut task =
+            Task { settings, groups: Vec::new(), materials: Vec::new(), moves: self.moves.clone() };
+        for text in &self.parts {
+            let (group, material) = part(text, &task.settings)?;
+            task.groups.push(group);
+            task.materials.push(material);
+        }
+        Ok(task)
+    }
+}
+
+/// Reads `GROUP=NAME;PARAM=V;…;density=RHO`.
+fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error> {
+    let wrong = |reason: &str| Error::Options(format!("--part {text}: {reason}"));
+    let mut words = text.split(';');
+    let (group, name) = words
+        .next()
+        .and_then(|first| first.split_once('='))
+        .ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
+    let mut density = settings.density;
+    let mut parameters = Vec::new();
+    for word in words {
+        match parameter(word).map_err(|reason| wrong(&reason))? {
+            (name, values) if name == "density" => {
+                density = *values.first().ok_or_else(|| wrong("density=RHO needs a number"))?;
+            }
+            other => parameters.push(other),
+        }
+    }
+    let mut material = if parameters.is_empty() {
+        MaterialSpec::matching(name, settings.material.build()?.moduli)
+    } else {
+        MaterialSpec::new(name)
+    };
+    for (name, values) in parameters {
+        material = material.with_parameter(&name, values);
+    }
+    material.build()?;
+    Ok((group.to_owned(), MaterialPart { material, density }))
+}
+
+/// Reads `NAME=V,V,V`.
+fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
+    let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
+    Ok((name.trim().into(), numbers(values)?))
+}
+
+fn numbers(text: &str) -> Result<Vec<f64>, String> {
+    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
+    text.split(',').map(number).collect()
+}
+
+/// Reads `refuse` or the stretch where an extension begins.
+fn inversion(text: &str) -> Result<Inversion, String> {
+    if text == "refuse" {
+        return Ok(Inversion::Refuse);
+    }
+    let epsilon = text.parse().map_err(|_| "write `refuse`, or a stretch between 0 and 1")?;
+    Ok(Inversion::Extend { epsilon })
+}
+
+/// Reads `BOX|GROUP=X,Y,Z@T`.
+fn motion(text: &str) -> Result<Move, String> {
+    let how = "write BOX=X,Y,Z@T, or GROUP=X,Y,Z@T, with T > 0";
+    let (nodes, rest) = text.rsplit_once('=').ok_or(how)?;
+    let (displacement, reached) = rest.split_once('@').ok_or(how)?;
+    let displacement: [f64; 3] = numbers(displacement)?.try_into().map_err(|_| how)?;
+    let reached: f64 = reached.parse().map_err(|_| how)?;
+    if reached > 0.0 && displacement.iter().all(|x| x.is_finite()) {
+        Ok(Move { nodes: nodes.to_owned(), displacement, reached })
+    } else {
+        Err(how.to_owned())
+    }
+}
+
+/// Reads the name of a filter.
+fn filtering(text: &str) -> Result<Filtering, String> {
+    match text {
+        "on-demand" => Ok(Filtering::OnDemand),
+        "clamp" => Ok(Filtering::Always(Filter::Clamp)),
+        "absolute" => Ok(Filtering::Always(Filter::Absolute)),
+        "none" => Ok(Filtering::Always(Filter::None)),
+        _ => Err("write on-demand, clamp, absolute or none".to_owned()),
+    }
+}
+
+/// Reads the name of an integrator.
+fn integrator(text: &str) -> Result<Integrator, String> {
+    match text {
+        "implicit-euler" => Ok(Integrator::ImplicitEuler),
+        "bdf2" => Ok(Integrator::Bdf2),
+        "sdirk2" => Ok(Integrator::Sdirk2),
+        "sdirk3" => Ok(Integrator::Sdirk3),
+        "implicit-midpoint" => Ok(Integrator::ImplicitMidpoint),
+        "newmark" => Ok(Integrator::Newmark),
+        _ => {
+            let radius = text.strip_prefix("generalized-alpha=").and_then(|radius| radius.parse().ok());
+            let radius = radius.filter(|radius| (0.0..=1.0).contains(radius)).ok_or(
+                "write implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint, newmark, or generalized-alpha=R with R from 0 \
+                 to 1",
+            )?;
+            Ok(Integrator::GeneralizedAlpha { spectral_radius: radius })
+        }
+    }
+}
+
+/// Options of PETSc: names without their dash, with their values.
+pub type PetscOptions = Vec<(String, Option<String>)>;
+
+/// Takes the options of PETSc out of a command line: one dash and a word, and the value behind it unless that
+/// is an option too.
+pub fn split(arguments: impl IntoIterator<Item = String>) -> (Vec<String>, PetscOptions) {
+    let is_petsc = |text: &str| {
+        let mut letters = text.chars();
+        let is_dashed =
+            letters.next() == Some('-') && letters.next().is_some_and(|c| c.is_ascii_alphabetic());
+        is_dashed && !matches!(text, "-h" | "-V")
+    };
+    let (mut own, mut petsc): (Vec<String>, PetscOptions) = (Vec::new(), Vec::new());
+    let mut awaits_value = false;
+    for argument in arguments {
+        if is_petsc(&argument) {
+            petsc.push((argument[1..].to_owned(), None));
+            awaits_value = true;
+        } else if awaits_value && !argument.starts_with("--") {
+            if let Some((_, value)) = petsc.last_mut() {
+                *value = Some(argument);
+            }
+            awaits_value = false;
+        } else {
+            own.push(argument);
+            awaits_value = false;
+        }
+    }
+    (own, petsc)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn options_of_petsc_are_told_from_ours() {
+        let words = [
+            "piola-mpi",
+            "run",
+            "-ksp_type",
+            "cg",
+            "horse",
+            "-ksp_view",
+            "--gravity",
+            "-9.81",
+            "-x",
+            "-1",
+            "-h",
+        ];
+        let (own, petsc) = split(words.map(str::to_owned));
+        assert_eq!(own, ["piola-mpi", "run", "horse", "--gravity", "-9.81", "-h"]);
+        let expected = [("ksp_type", Some("cg")), ("ksp_view", None), ("x", Some("-1"))];
+        assert_eq!(petsc, expected.map(|(name, value)| (name.to_owned(), value.map(str::to_owned))));
+    }
+
+    #[test]
+    fn motions_and_materials_of_groups_are_read() -> Result<(), Box<dyn std::error::Error>> {
+        let expected = Move { nodes: ":,0.9:,:".to_owned(), displacement: [0.0, -0.1, 0.0], reached: 2.0 };
+        assert_eq!(motion(":,0.9:,:=0,-0.1,0@2"), Ok(expected));
+        for wrong in ["top=1,2@3", "top=1,2,3@0", "1,2,3@1", "top=1,2,3"] {
+            assert!(motion(wrong).is_err(), "{wrong}");
+        }
+        let settings = Settings::new(Scene::find("horse")?);
+        let (group, material) = part("legs=neo-Hookean;mu=1e5;lambda=1e6;density=2000", &settings)?;
+        assert_eq!((group.as_str(), material.density), ("legs", 2000.0));
+        assert!(part("legs=nothing", &settings).is_err() && part("legs", &settings).is_err());
+        Ok(())
+    }
+}

@@ -1,0 +1,130 @@
+//! Why a run cannot begin or go on.
+
+use std::io;
+use std::path::PathBuf;
+
+use piola::step::SetupError;
+use piola::system::{BodyError, LinearError};
+
+use crate::petsc::PetscError;
+
+/// Why a run cannot begin or go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A rank has failed, and all others have learnt of it.
+    #[error("{message}")]
+    OnRank {
+        /// The first rank that has failed, from 0.
+        rank: usize,
+        /// What failed there.
+        message: String,
+    },
+    /// PETSc has failed, perhaps on this rank alone.
+    #[error(transparent)]
+    Petsc(#[from] PetscError),
+    /// Options that no part of PETSc has asked for.
+    #[error(
+        "PETSc has no use for {}: the name is misspelt, or belongs to a solver that is not in use",
+        names.iter().map(|name| format!("-{name}")).collect::<Vec<_>>().join(", ")
+    )]
+    UnusedOptions {
+        /// Names without their dash.
+        names: Vec<String>,
+    },
+    /// There is less than an element for each rank.
+    #[error(
+        "{ranks} ranks cannot share {elements} elements: take as many ranks at most as there are elements"
+    )]
+    TooManyRanks {
+        /// Number of ranks.
+        ranks: usize,
+        /// Number of elements.
+        elements: usize,
+    },
+    /// The scene, its body or its material cannot be simulated.
+    #[error(transparent)]
+    Scene(#[from] piola_scenes::error::Error),
+    /// The part of the mesh on a rank is no body.
+    #[error(transparent)]
+    Body(#[from] BodyError),
+    /// A setting is out of range.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The matrix of a part does not fit into memory.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+    /// A combination of options that makes no sense.
+    #[error("{0}")]
+    Options(String),
+    /// An element cannot be deformed as the step begins.
+    #[error(
+        "element {element} is outside the domain of its material before the step, or its energy is not finite \
+         (`--inversion` continues energies beyond J > 0)"
+    )]
+    Inadmissible {
+        /// Tag of the element.
+        element: u64,
+    },
+    /// The motion of the pins alone takes an element out of the domain of its material.
+    #[error(
+        "the motion of the pins takes element {element} out of the domain of its material; take shorter time steps"
+    )]
+    PinsMoveTooFar {
+        /// Tag of the element.
+        element: u64,
+    },
+    /// The state beyond the last stage of a step is outside of the domain of a material.
+    #[error(
+        "the step ends with element {element} outside the domain of its material; take a shorter one, or an integrator that \
+         ends with its last stage, such as sdirk2"
+    )]
+    EndsBeyondDomain {
+        /// Tag of the element.
+        element: u64,
+    },
+    /// A force, a direction or a slope is infinite or NaN.
+    #[error("a force or the Newton direction is not finite; the motion exceeds the range of f64")]
+    NotFinite,
+    /// The matrix is not positive definite with any multiple of inertia added.
+    #[error("the matrix is not positive definite, even with {shift:e} times the inertia added")]
+    NotPositive {
+        /// The largest multiple of inertia that was tried.
+        shift: f64,
+    },
+    /// No step along a direction of descent decreases the objective.
+    #[error(
+        "no step of the Newton direction decreases the energy (residual {residual:e} N, {refused} trials outside the domain of \
+         a material)"
+    )]
+    LineSearch {
+        /// Norm of the gradient, N.
+        residual: f64,
+        /// Number of trials that left the domain of a material.
+        refused: usize,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A checkpoint cannot be gone on from.
+    #[error("cannot go on from {}: {reason}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// Whether all ranks have it, so that each can end in its turn.
+    #[must_use]
+    pub fn is_common(&self) -> bool {
+        !matches!(self, Self::Petsc(_))
+    }
+}

@@ -1,0 +1,114 @@
+//! The program `piola-mpi`.
+
+use std::env;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Parser;
+use piola_distributed::command::{Cli, Command, split};
+use piola_distributed::error::Error;
+use piola_distributed::petsc::Library;
+use piola_distributed::run::{TITLES, run, sag, statics};
+use piola_distributed::team::Team;
+use piola_scenes::output::Ended;
+
+/// How long a rank that cannot tell others of its error waits for rank 0, which may have the same one.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+#[expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+fn main() -> ExitCode {
+    let (own, petsc) = split(env::args());
+    // Before MPI runs: help and wrong options of ours need no ranks.
+    let parsed = Cli::try_parse_from(own);
+    let help = parsed.as_ref().err().filter(|error| !error.use_stderr());
+    let library = match Library::start(&petsc) {
+        Ok(library) => library,
+        Err(error) => {
+            eprintln!("piola-mpi: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let team = Team::new(&library);
+    let is_first = team.rank() == 0;
+    if let Some(help) = help {
+        if is_first {
+            print!("{help}");
+        }
+        return ExitCode::SUCCESS;
+    }
+    let cli = match parsed {
+        Ok(cli) => cli,
+        Err(error) => {
+            if is_first {
+                eprint!("{error}");
+            }
+            return ExitCode::from(2);
+        }
+    };
+    // A rank that panics cannot tell the others.
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        report(panic);
+        std::process::abort();
+    }));
+    match play(&team, &cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is_common() => {
+            if is_first {
+                eprintln!("piola-mpi: {error}");
+            }
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            if !is_first {
+                std::thread::sleep(PATIENCE);
+            }
+            eprintln!("piola-mpi: {error}");
+            team.abort()
+        }
+    }
+}
+
+#[expect(clippy::print_stdout, reason = "a command line tool")]
+fn play(team: &Team, command: &Command) -> Result<(), Error> {
+    let threads = match command {
+        Command::Box(options) => options.solver.threads,
+        Command::Statics(options) => options.solver.threads,
+        Command::Run(options) => options.solver.threads,
+    };
+    // This thread is one of them, so that nothing waits for another where there is one.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build_global();
+    team.agree(pool.map_err(|error| Error::Options(format!("--threads {threads}: {error}"))))?;
+    let summary = match command {
+        Command::Box(options) => {
+            let line = sag(team, options)?;
+            if team.rank() == 0 {
+                println!("{TITLES}\n{line}");
+            }
+            return Ok(());
+        }
+        Command::Statics(options) => statics(team, options)?,
+        Command::Run(options) => run(team, options)?,
+    };
+    if team.rank() == 0 {
+        println!(
+            "{}: {} tetrahedra, {} nodes on {} ranks; {} of {} steps, {:.2} Newton iterations a step, {:.1} of the linear solver \
+             each; residual {:.1e}, smallest det F {:.3}, elastic energy {:.6e} J",
+            summary.scene,
+            summary.tets,
+            summary.nodes,
+            summary.ranks,
+            summary.frames,
+            summary.frames_wanted,
+            summary.newton_iterations_mean,
+            summary.linear_iterations_mean,
+            summary.relative_residual,
+            summary.min_det_f,
+            summary.energy
+        );
+    }
+    match (summary.ended, summary.failures.first()) {
+        (Ended::Finished, None) => Ok(()),
+        (_, failure) => Err(Error::OnRank { rank: 0, message: failure.cloned().unwrap_or_default() }),
+    }
+}

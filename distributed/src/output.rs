@@ -1,0 +1,188 @@
+//! Files of a run: frames for ParaView, of which each rank writes its own part, and a summary.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use piola::step::Integrator;
+use piola_scenes::output::{Ended, Field, write_pvd, write_vtu, write_whole};
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::simulation::Simulation;
+use crate::team::Team;
+
+/// Name of the summary.
+pub const SUMMARY: &str = "summary.json";
+
+/// Name of the list of frames.
+pub const FRAMES: &str = "frames.pvd";
+
+/// Results of a run. In JSON the keys are the names of the fields, those of `piola run` where they mean the
+/// same.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name of the scene; that of the problem where there is none.
+    pub scene: String,
+    /// Name of the material.
+    pub material: String,
+    /// Parameters of the material by name, in SI units.
+    pub parameters: BTreeMap<&'static str, Vec<f64>>,
+    /// Number of tetrahedra.
+    pub tets: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of ranks.
+    pub ranks: usize,
+    /// Most nodes of other ranks that a rank has copies of.
+    pub copies_max: usize,
+    /// Most bytes that a rank sends in a Newton iteration beside its linear system: a direction and a
+    /// gradient.
+    pub bytes_per_iteration: usize,
+    /// Number of time steps that have been made.
+    pub frames: usize,
+    /// Number of time steps that were to be made.
+    pub frames_wanted: usize,
+    /// End of the run.
+    pub ended: Ended,
+    /// Reasons why it ended before its last step.
+    pub failures: Vec<String>,
+    /// Properties of the mesh that may not be meant.
+    pub warnings: Vec<String>,
+    /// Time step, s; `None` in statics.
+    pub dt: Option<f64>,
+    /// Method by which steps advanced in time; `None` in statics.
+    pub integrator: Option<Integrator>,
+    /// Newton iterations per step, on average.
+    pub newton_iterations_mean: f64,
+    /// Iterations of the linear solver in each system, on average.
+    pub linear_iterations_mean: f64,
+    /// Norm of the gradient over that before the first iteration, in the last step.
+    pub relative_residual: f64,
+    /// The smallest determinant of a deformation gradient in any frame.
+    pub min_det_f: f64,
+    /// The largest distance of a node from its rest position in the final frame, in body heights; `None` for
+    /// bodies that may move as a whole.
+    pub max_distance_from_rest: Option<f64>,
+    /// Elastic energy of the final frame, J.
+    pub energy: f64,
+    /// Median time of a step, ms; `None` without a step.
+    pub ms_per_step_median: Option<f64>,
+    /// Steps per second; `None` without a step.
+    pub steps_per_second: Option<f64>,
+}
+
+/// Makes the folder of a run, and refuses one with results of another unless they may be replaced.
+///
+/// # Errors
+/// [`Error::OnRank`].
+pub fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Error> {
+    let made = if team.rank() == 0 { make(folder, may_replace) } else { Ok(()) };
+    team.agree(made)
+}
+
+fn make(folder: &Path, may_replace: bool) -> Result<(), Error> {
+    let failed = |source| Error::Write { path: folder.into(), source };
+    fs::create_dir_all(folder).map_err(failed)?;
+    let checkpoint = crate::checkpoint::file_in(folder);
+    let results = [folder.join(SUMMARY), folder.join(FRAMES), checkpoint];
+    match results.iter().find(|path| path.exists()) {
+        Some(path) if !may_replace => Err(Error::Options(format!(
+            "{} holds results already, {}: give another folder, or --force to replace them",
+            folder.display(),
+            path.file_name().unwrap_or_default().display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Writes the summary.
+///
+/// # Errors
+/// [`Error::OnRank`].
+pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<(), Error> {
+    let path = folder.join(SUMMARY);
+    let write = || {
+        let mut text = serde_json::to_vec_pretty(summary)
+            .map_err(|error| Error::Write { path: path.clone(), source: error.into() })?;
+        text.push(b'\n');
+        Ok(write_whole(&path, &text)?)
+    };
+    team.agree(if team.rank() == 0 { write() } else { Ok(()) })
+}
+
+/// Writes the tetrahedra of a frame: a piece of each rank, and a file that names the pieces.
+///
+/// # Errors
+/// [`Error::OnRank`].
+pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simulation) -> Result<(), Error> {
+    let (share, state) = (simulation.share(), simulation.state());
+    let piece = |rank: usize| format!("frame_{frame:04}_{rank}.vtu");
+    let write_piece = || -> Result<(), Error> {
+        let (x, v) = (state.positions(), state.velocities());
+        let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
+        let displacement: Vec<f64> = (0..x.len())
+            .flat_map(|node| (0..3).map(move |c| x[node][c] - share.places[node].rest[c]))
+            .collect();
+        let rank = vec![team.rank() as f64; tets.len()];
+        let nodal = [
+            Field { name: "displacement", components: 3, values: &displacement },
+            Field { name: "velocity", components: 3, values: v.as_flattened() },
+        ];
+        let elemental = [Field { name: "rank", components: 1, values: &rank }];
+        let (path, mut bytes) = (folder.join(piece(team.rank())), Vec::new());
+        let written = write_vtu(&mut bytes, x, &tets, &nodal, &elemental);
+        written.map_err(|source| Error::Write { path: path.clone(), source })?;
+        Ok(write_whole(&path, &bytes)?)
+    };
+    team.agree(write_piece())?;
+    let write_list = || -> Result<(), Error> {
+        let (path, mut bytes) = (folder.join(frame_file(frame)), Vec::new());
+        let written = write_pvtu(&mut bytes, (0..team.size()).map(piece));
+        written.map_err(|source| Error::Write { path: path.clone(), source })?;
+        Ok(write_whole(&path, &bytes)?)
+    };
+    team.agree(if team.rank() == 0 { write_list() } else { Ok(()) })
+}
+
+fn write_pvtu(target: &mut impl Write, pieces: impl Iterator<Item = String>) -> io::Result<()> {
+    let array = |name: &str, components: usize| {
+        format!("<PDataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\"/>")
+    };
+    writeln!(
+        target,
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         <PUnstructuredGrid GhostLevel=\"0\">\n\
+         <PPoints>{}</PPoints>\n<PPointData>{}{}</PPointData>\n<PCellData>{}</PCellData>",
+        array("points", 3),
+        array("displacement", 3),
+        array("velocity", 3),
+        array("rank", 1)
+    )?;
+    for piece in pieces {
+        writeln!(target, "<Piece Source=\"{piece}\"/>")?;
+    }
+    writeln!(target, "</PUnstructuredGrid>\n</VTKFile>")
+}
+
+/// Name of the file that names the pieces of a frame.
+fn frame_file(frame: usize) -> String {
+    format!("frame_{frame:04}.pvtu")
+}
+
+/// Writes the list of all frames up to the last one, which are `dt` apart, s.
+///
+/// # Errors
+/// [`Error::OnRank`].
+pub fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
+    let write = || -> Result<(), Error> {
+        let (path, mut bytes) = (folder.join(FRAMES), Vec::new());
+        let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
+        let written = write_pvd(&mut bytes, frames);
+        written.map_err(|source| Error::Write { path: path.clone(), source })?;
+        Ok(write_whole(&path, &bytes)?)
+    };
+    team.agree(if team.rank() == 0 { write() } else { Ok(()) })
+}

@@ -1,0 +1,196 @@
+//! What a rank holds of a mesh before it is divided: some of the elements, and the nodes of its home range.
+//!
+//! This module knows no parts and no solver.
+
+use std::ops::Range;
+
+use crate::team::Team;
+
+/// Where the node of each number is at home: rank after rank, equally many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Homes {
+    total: u64,
+    each: u64,
+}
+
+impl Homes {
+    /// Homes of so many nodes among all ranks.
+    #[must_use]
+    pub fn new(total: u64, ranks: usize) -> Self {
+        Self { total, each: total.div_ceil(ranks as u64).max(1) }
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn total(&self) -> u64 {
+        self.total
+    }
+
+    /// The rank where a node is at home.
+    #[must_use]
+    pub fn of(&self, node: u64) -> usize {
+        (node / self.each) as usize
+    }
+
+    /// The nodes that are at home on a rank.
+    #[must_use]
+    pub fn range(&self, rank: usize) -> Range<u64> {
+        let at = |rank: usize| (rank as u64 * self.each).min(self.total);
+        at(rank)..at(rank + 1)
+    }
+
+    /// Lists of these rows by the home of the node that each begins with.
+    #[must_use]
+    pub fn sort<const N: usize>(
+        &self,
+        team: &Team,
+        rows: impl IntoIterator<Item = [u64; N]>,
+    ) -> Vec<Vec<[u64; N]>> {
+        let mut lists = vec![Vec::new(); team.size()];
+        rows.into_iter().for_each(|row| lists[self.of(row[0])].push(row));
+        lists
+    }
+
+    /// Asks the homes of these nodes, ascending, for what they know.
+    #[must_use]
+    pub fn ask<const N: usize>(
+        &self,
+        team: &Team,
+        nodes: &[u64],
+        answer: impl Fn(usize) -> [u64; N],
+    ) -> Vec<[u64; N]> {
+        let asked = team.exchange_rows(&self.sort(team, nodes.iter().map(|&node| [node])));
+        let first = self.range(team.rank()).start;
+        let answers =
+            |nodes: &Vec<[u64; 1]>| nodes.iter().map(|[node]| answer((node - first) as usize)).collect();
+        // Homes ascend with the nodes.
+        team.exchange_rows(&asked.iter().map(answers).collect::<Vec<_>>()).concat()
+    }
+}
+
+/// A node before the mesh is divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Position at rest, m.
+    pub rest: [f64; 3],
+    /// Position before the first step, m.
+    pub start: [f64; 3],
+    /// What is done to it: bit 0 for a pin, others as the caller says.
+    pub marks: u64,
+}
+
+impl Place {
+    /// A node that is at rest, or pinned there.
+    #[must_use]
+    pub fn at_rest(rest: [f64; 3], is_pinned: bool) -> Self {
+        Self { rest, start: rest, marks: u64::from(is_pinned) }
+    }
+
+    /// The words of it.
+    #[must_use]
+    pub fn to_words(self) -> [u64; 7] {
+        let [r, s] = [self.rest, self.start].map(|x| x.map(f64::to_bits));
+        [r[0], r[1], r[2], s[0], s[1], s[2], self.marks]
+    }
+
+    /// A place of these words.
+    #[must_use]
+    pub fn from_words(words: &[u64]) -> Self {
+        let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(words[at + c]));
+        Self { rest: vector(0), start: vector(3), marks: words[6] }
+    }
+}
+
+/// A tetrahedron before the mesh is divided: its four nodes, its tag and the number of its material.
+pub type Element = [u64; 6];
+
+/// Part of a mesh before it is divided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Portion {
+    /// Homes of all nodes.
+    pub homes: Homes,
+    /// The nodes that are at home on this rank.
+    pub places: Vec<Place>,
+    /// Any elements; each is on one rank.
+    pub elements: Vec<Element>,
+}
+
+impl Portion {
+    /// Spreads a mesh that rank 0 holds; the lists of others are empty.
+    #[must_use]
+    pub fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
+        let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
+        let homes = Homes::new(nodes, team.size());
+        let rows = places.into_iter().enumerate().map(|(node, place)| {
+            let words = place.to_words();
+            let mut row = [0; 8];
+            row[0] = node as u64;
+            row[1..].copy_from_slice(&words);
+            row
+        });
+        let places = team.exchange_rows(&homes.sort(team, rows)).concat();
+        let of_elements = Homes::new(count, team.size());
+        let mut lists = vec![Vec::new(); team.size()];
+        for (number, element) in elements.into_iter().enumerate() {
+            lists[of_elements.of(number as u64)].push(element);
+        }
+        Self {
+            homes,
+            places: places.iter().map(|row| Place::from_words(&row[1..])).collect(),
+            elements: team.exchange_rows(&lists).concat(),
+        }
+    }
+
+    /// The part on this rank of a cube of six tetrahedra in each of `cells`³ cells, as
+    /// [`piola::mesh::tetrahedral_box`] has it, made without the rest. Nodes with x = 0 are pinned.
+    #[must_use]
+    pub fn of_cube(team: &Team, cells: u64, length: f64) -> Self {
+        let side = cells + 1;
+        let homes = Homes::new(side * side * side, team.size());
+        let coordinate = |at: u64| length * (at as f64 / cells as f64);
+        let place = |node: u64| {
+            let at = [node / (side * side), node / side % side, node % side];
+            Place::at_rest(at.map(coordinate), at[0] == 0)
+        };
+        let of_cells = Homes::new(cells * cells * cells, team.size());
+        // From a corner of the cell along the three axes to the opposite one; odd orders are mirrored.
+        const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+        let strides = [side * side, side, 1];
+        let tetrahedra = of_cells.range(team.rank()).flat_map(|cell| {
+            let at = [cell / (cells * cells), cell / cells % cells, cell % cells];
+            let lowest: u64 = (0..3).map(|axis| at[axis] * strides[axis]).sum();
+            (0..6).map(move |path| {
+                let mut element = [lowest, lowest, lowest, lowest, 6 * cell + path as u64 + 1, 0];
+                for (step, &axis) in PATHS[path].iter().enumerate() {
+                    element[step + 1] = element[step] + strides[axis];
+                }
+                if path > 2 {
+                    element.swap(1, 2);
+                }
+                element
+            })
+        });
+        Self { homes, places: homes.range(team.rank()).map(place).collect(), elements: tetrahedra.collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_node_has_one_home() {
+        for (total, ranks) in [(0, 1), (1, 3), (7, 3), (12, 4), (3, 5)] {
+            let homes = Homes::new(total, ranks);
+            let all: Vec<u64> = (0..ranks).flat_map(|rank| homes.range(rank)).collect();
+            assert_eq!(all, (0..total).collect::<Vec<_>>(), "{total} nodes, {ranks} ranks");
+            assert!((0..ranks).all(|rank| homes.range(rank).all(|node| homes.of(node) == rank)));
+        }
+    }
+
+    #[test]
+    fn places_keep_their_bits() {
+        let place = Place { rest: [0.1, -0.0, 3.0], start: [f64::MAX, 1e-300, 7.0], marks: 1 << 40 | 1 };
+        assert_eq!(Place::from_words(&place.to_words()), place);
+    }
+}

@@ -1,0 +1,378 @@
+//! What the subcommands do.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use piola::material::Moduli;
+use piola::step::Convergence;
+use piola_scenes::clock::Clock;
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::measure;
+use piola_scenes::output::{Ended, Newton};
+use piola_scenes::settings::Settings;
+use serde::{Deserialize, Serialize};
+
+use crate::checkpoint;
+use crate::command::{BoxOptions, RunOptions, StaticsOptions, Task};
+use crate::elastic::MaterialPart;
+use crate::error::Error;
+use crate::newton::NewtonReport;
+use crate::output::{self, Summary};
+use crate::portion::Portion;
+use crate::setting::{Setting, parts};
+use crate::share::Share;
+use crate::simulation::{Simulation, SimulationSettings};
+use crate::team::Team;
+
+/// What a checkpoint of a run is about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct About {
+    /// Settings that the motion depends on.
+    pub settings: String,
+    /// Checksum of the mesh.
+    pub body: u32,
+    /// Number of steps done.
+    pub frame: usize,
+    /// The clock then; `None` in statics.
+    pub clock: Option<Clock>,
+    progress: Progress,
+}
+
+/// What a run has measured so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Progress {
+    newton_iterations: usize,
+    systems: usize,
+    linear_iterations: usize,
+    relative_residual: f64,
+    min_det_f: f64,
+}
+
+impl Progress {
+    fn new() -> Self {
+        Self {
+            newton_iterations: 0,
+            systems: 0,
+            linear_iterations: 0,
+            relative_residual: 0.0,
+            min_det_f: 1.0,
+        }
+    }
+
+    fn note(&mut self, reports: &[NewtonReport]) {
+        for report in reports {
+            self.newton_iterations += report.iterations;
+            self.systems += report.linear_iterations.len();
+            self.linear_iterations += report.linear_iterations.iter().sum::<usize>();
+            self.relative_residual = relative_residual(report);
+        }
+    }
+
+    fn note_state(&mut self, team: &Team, simulation: &Simulation) {
+        let share = simulation.share();
+        let rest: Vec<[f64; 3]> = share.places.iter().map(|place| place.rest).collect();
+        let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
+        let det = measure::min_det_f(&rest, simulation.state().positions(), &tets);
+        self.min_det_f = self.min_det_f.min(team.min(det));
+    }
+}
+
+fn relative_residual(report: &NewtonReport) -> f64 {
+    if report.residual == 0.0 { 0.0 } else { report.residual / report.first_residual }
+}
+
+/// Lets a cube sag under its own weight; returns a line of results.
+///
+/// # Errors
+/// An [`Error`] of the options, the solver or a file.
+pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
+    let newton = options.solver.settings(false)?;
+    let cells = ((options.elements.max(1) as f64 / 6.0).cbrt() - 1e-9).ceil().max(1.0) as u64;
+    let moduli = Moduli::from_young_poisson(1e6, 0.45).map_err(|error| Error::Options(error.to_string()))?;
+    let material = MaterialSpec::new("stable neo-Hookean")
+        .with_parameter("mu", [moduli.mu])
+        .with_parameter("lambda", [moduli.lambda]);
+    let parts = [MaterialPart { material, density: 1000.0 }];
+    let clock = Instant::now();
+    let share = Share::of(team, Portion::of_cube(team, cells, 1.0))?;
+    let settings = SimulationSettings {
+        gravity: [0.0, -9.81, 0.0],
+        damping: 0.0,
+        integrator: Default::default(),
+        newton,
+    };
+    let mut simulation = Simulation::new(team, share, &parts, settings)?;
+    team.wait();
+    let (set_up, clock) = (clock.elapsed(), Instant::now());
+    let report = simulation.equilibrate()?;
+    team.wait();
+    let solved = clock.elapsed();
+    if let Some(folder) = &options.out {
+        output::prepare(team, folder, true)?;
+        let about =
+            About { settings: String::new(), body: 0, frame: 0, clock: None, progress: Progress::new() };
+        checkpoint::write(team, &checkpoint::file_in(folder), &simulation, &about)?;
+    }
+    if report.convergence == Convergence::Limit {
+        let residual = relative_residual(&report);
+        return Err(Error::Options(format!(
+            "the body is not in equilibrium: the residual has fallen to {residual:.1e}"
+        )));
+    }
+    let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
+    let share = simulation.share();
+    let copies = team.max((share.ids.len() - share.owned) as f64);
+    let iterations = &report.linear_iterations;
+    let total: usize = iterations.iter().sum();
+    let mean = total as f64 / iterations.len().max(1) as f64;
+    Ok(format!(
+        "| {} | {} | {} | {} | {total} | {mean:.1} | {} | {:.1e} | {:.2} | {:.2} | {memory:.0} | {copies:.0} |",
+        share.totals[1],
+        share.totals[0],
+        team.size(),
+        report.iterations,
+        iterations.iter().max().unwrap_or(&0),
+        relative_residual(&report),
+        set_up.as_secs_f64(),
+        solved.as_secs_f64(),
+    ))
+}
+
+/// Titles of the columns of [`sag`].
+pub const TITLES: &str = "\
+| elements | nodes | ranks | Newton | conjugate gradients | mean | most | residual | set-up s | solve s | MiB | copies |
+|---|---|---|---|---|---|---|---|---|---|---|---|";
+
+/// Most memory that this process has had, bytes; 0 where the system does not say.
+fn peak_memory() -> f64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse().ok());
+    1024.0 * kibibytes.unwrap_or(0.0)
+}
+
+/// Takes a body to equilibrium; returns its summary.
+///
+/// # Errors
+/// An [`Error`] of the options, the body, the solver or a file.
+pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> {
+    let task = team.agree(options.task())?;
+    let newton = options.solver.settings(false)?;
+    let folder = folder(&options.out, &task);
+    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    output::prepare(team, &folder, options.force)?;
+    let mut simulation = simulation(team, &task, &setting, newton)?;
+    // Motions are complete where there is no time.
+    let share = setting.share.clone();
+    simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY));
+    let clock = Instant::now();
+    let report = simulation.equilibrate()?;
+    let mut progress = Progress::new();
+    progress.note(std::slice::from_ref(&report));
+    progress.note_state(team, &simulation);
+    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 1 };
+    let about = course.about(None)?;
+    output::write_frame(team, &folder, 1, &course.simulation)?;
+    checkpoint::write(team, &checkpoint::file_in(&folder), &course.simulation, &about)?;
+    let mut summary = course.summary(&[clock.elapsed()]);
+    (summary.frames_wanted, summary.dt, summary.integrator) = (1, None, None);
+    if report.convergence == Convergence::Limit {
+        summary.ended = Ended::Failed;
+        summary.failures.push("the body is not in equilibrium; take more --newton-iterations".to_owned());
+    }
+    output::write_summary(team, &folder, &summary)?;
+    Ok(summary)
+}
+
+/// Runs a scene; returns its summary.
+///
+/// # Errors
+/// An [`Error`] of the options, the body, the first step or a file. A later step that fails ends the run with
+/// a summary that says so.
+pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
+    let task = team.agree(options.task())?;
+    let newton = options.newton()?;
+    let folder = folder(&options.out, &task);
+    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    if !options.resume {
+        output::prepare(team, &folder, options.force)?;
+    }
+    let simulation = simulation(team, &task, &setting, newton)?;
+    let progress = Progress::new();
+    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 0 };
+    let mut clock = Clock::new(task.settings.dt);
+    let file = checkpoint::file_in(&folder);
+    if options.resume {
+        clock = course.resume(&file)?;
+    } else {
+        course.progress.note_state(team, &course.simulation);
+        if options.vtu {
+            output::write_frame(team, &folder, 0, &course.simulation)?;
+        }
+    }
+    let springs = setting.springs(clock.time());
+    course.simulation.set_springs(springs);
+    let wanted = task.settings.frames;
+    let (mut times, mut failures) = (Vec::new(), Vec::new());
+    while course.frame < wanted {
+        let begun = Instant::now();
+        clock = clock.next();
+        if let Err(error) = course.step(clock) {
+            // The first step says that the run cannot be; of PETSc's errors other ranks may not know.
+            if course.frame == 0 || !error.is_common() {
+                return Err(error);
+            }
+            failures.push(error.to_string());
+            break;
+        }
+        times.push(begun.elapsed());
+        if options.vtu {
+            output::write_frame(team, &folder, course.frame, &course.simulation)?;
+        }
+        let is_due = options.checkpoint_every > 0 && course.frame.is_multiple_of(options.checkpoint_every);
+        if is_due || course.frame == wanted {
+            let about = course.about(Some(clock))?;
+            checkpoint::write(team, &file, &course.simulation, &about)?;
+        }
+    }
+    if options.vtu {
+        output::write_frames(team, &folder, course.frame, task.settings.dt)?;
+    }
+    let mut summary = course.summary(&times);
+    if !failures.is_empty() {
+        (summary.ended, summary.failures) = (Ended::Failed, failures);
+    }
+    output::write_summary(team, &folder, &summary)?;
+    Ok(summary)
+}
+
+fn folder(out: &Option<PathBuf>, task: &Task) -> PathBuf {
+    out.clone().unwrap_or_else(|| Path::new("out").join(task.settings.scene.name))
+}
+
+fn simulation(
+    team: &Team,
+    task: &Task,
+    setting: &Setting,
+    newton: crate::newton::NewtonSettings,
+) -> Result<Simulation, Error> {
+    let settings = piola_scenes::play::step_settings(&task.settings);
+    let damping = match settings.damping {
+        piola::step::Damping::None => 0.0,
+        piola::step::Damping::Mass { rate } => rate,
+        _ => {
+            return Err(Error::Options(
+                "only damping proportional to mass is divided among ranks".to_owned(),
+            ));
+        }
+    };
+    let (gravity, integrator) = (settings.gravity, settings.integrator);
+    let settings = SimulationSettings { gravity, damping, integrator, newton };
+    Simulation::new(team, setting.share.clone(), &parts(&task.settings, &task.materials), settings)
+}
+
+/// A run between its first step and its last.
+struct Course<'a> {
+    team: &'a Team,
+    task: &'a Task,
+    setting: &'a Setting,
+    simulation: Simulation,
+    progress: Progress,
+    frame: usize,
+}
+
+impl Course<'_> {
+    fn step(&mut self, clock: Clock) -> Result<(), Error> {
+        let time = clock.time();
+        self.simulation.set_springs(self.setting.springs(time));
+        let share = &self.setting.share;
+        self.simulation.prescribe(|node| self.setting.place(share, node, time));
+        let reports = self.simulation.step(clock.dt())?;
+        self.progress.note(&reports);
+        self.progress.note_state(self.team, &self.simulation);
+        self.frame += 1;
+        Ok(())
+    }
+
+    /// What the motion depends on.
+    fn settings(&self) -> Result<String, Error> {
+        let Task { settings, groups, materials, moves } = self.task;
+        let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
+        let materials: Vec<_> =
+            groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
+        serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))
+    }
+
+    fn about(&self, clock: Option<Clock>) -> Result<About, Error> {
+        Ok(About {
+            settings: self.settings()?,
+            body: self.setting.body.checksum,
+            frame: self.frame,
+            clock,
+            progress: self.progress.clone(),
+        })
+    }
+
+    fn resume(&mut self, file: &Path) -> Result<Clock, Error> {
+        let (settings, body) = (self.settings()?, self.setting.body.checksum);
+        let check = |about: &About| {
+            if about.body != body {
+                return Err("it is of another mesh".to_owned());
+            }
+            if about.settings != settings || about.clock.is_none() {
+                return Err(format!("it was begun with other options: {}", about.settings));
+            }
+            Ok(())
+        };
+        let about: About = checkpoint::read(self.team, file, &mut self.simulation, check)?;
+        (self.frame, self.progress) = (about.frame, about.progress);
+        Ok(about.clock.unwrap_or_else(|| Clock::new(self.task.settings.dt)))
+    }
+
+    fn summary(&mut self, times: &[Duration]) -> Summary {
+        let team = self.team;
+        let energy = self.simulation.energies().elastic;
+        let (share, state) = (self.simulation.share(), self.simulation.state());
+        let distance = |node: usize| {
+            let (x, rest) = (state.positions()[node], share.places[node].rest);
+            (0..3).map(|c| (x[c] - rest[c]).powi(2)).sum::<f64>().sqrt()
+        };
+        let farthest = team.max((0..share.owned).map(distance).fold(0.0, f64::max)) / self.setting.height();
+        let pins = team.count(share.owned - share.free);
+        let copies = team.max((share.ids.len() - share.owned) as f64) as usize;
+        let settings = &self.task.settings;
+        let info = settings.material.build().ok();
+        let mut sorted: Vec<f64> = times.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let total: f64 = sorted.iter().sum();
+        let Progress { newton_iterations, systems, linear_iterations, relative_residual, min_det_f } =
+            self.progress;
+        Summary {
+            scene: settings.scene.name.to_owned(),
+            material: info.as_ref().map_or_else(String::new, |info| info.name.to_owned()),
+            parameters: info.map(|info| info.parameters).unwrap_or_default(),
+            tets: share.totals[1],
+            nodes: share.totals[0],
+            ranks: team.size(),
+            copies_max: copies,
+            // A vector of three numbers each way.
+            bytes_per_iteration: 2 * 24 * copies,
+            frames: self.frame,
+            frames_wanted: settings.frames,
+            ended: Ended::Finished,
+            failures: Vec::new(),
+            warnings: self.setting.body.warnings.clone(),
+            dt: Some(settings.dt),
+            integrator: Some(settings.integrator),
+            newton_iterations_mean: newton_iterations as f64 / self.frame.max(1) as f64,
+            linear_iterations_mean: linear_iterations as f64 / systems.max(1) as f64,
+            relative_residual,
+            min_det_f,
+            max_distance_from_rest: (pins >= 3).then_some(farthest),
+            energy,
+            ms_per_step_median: sorted.get(sorted.len() / 2).copied(),
+            steps_per_second: (total > 0.0).then(|| 1e3 * sorted.len() as f64 / total),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! The setting of a run: a scene's body, read once and divided, and what acts on it.
+
+use piola::mesh::Bounds;
+use piola::step::Spring;
+use piola::system::Pins;
+use piola_scenes::geometry::Geometry;
+use piola_scenes::play::{self, DragSprings};
+use piola_scenes::region;
+use piola_scenes::settings::Settings;
+use serde::{Deserialize, Serialize};
+
+use crate::elastic::MaterialPart;
+use crate::error::Error;
+use crate::portion::{Element, Place, Portion};
+use crate::share::Share;
+use crate::team::Team;
+
+/// A motion of some nodes, which are pinned for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Move {
+    /// A box, or the name of a group.
+    pub nodes: String,
+    /// Displacement at its end, m.
+    pub displacement: [f64; 3],
+    /// The motion is steady until this time, s, and the nodes then stay.
+    pub reached: f64,
+}
+
+/// The setting of a run on one rank.
+#[derive(Debug)]
+pub struct Setting {
+    /// The nodes and elements of this rank.
+    pub share: Share,
+    /// What all ranks know of the body.
+    pub body: BodyFacts,
+    /// The springs of each pull at the owned nodes of this rank.
+    pulls: Vec<DragSprings>,
+    moves: Vec<Move>,
+}
+
+/// What all ranks know of the body.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct BodyFacts {
+    /// Bounding box at rest, m.
+    pub bounds: Bounds,
+    /// Checksum of the mesh.
+    pub checksum: u32,
+    /// Properties of the mesh that may not be meant.
+    pub warnings: Vec<String>,
+    /// Stiffness of each spring of each pull, N/m.
+    stiffnesses: Vec<f64>,
+}
+
+/// Marks of pulls begin behind that of a pin; those of moves begin here.
+const MOVES: usize = 32;
+const MOST: usize = 24;
+
+impl Setting {
+    /// Reads the body on rank 0, and divides it; `parts` are the materials of named groups, behind that of
+    /// all others.
+    ///
+    /// # Errors
+    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::TooManyRanks`], [`Error::Petsc`].
+    pub fn new(team: &Team, settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Self, Error> {
+        let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
+        let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
+        let facts = team.from_first(facts);
+        let body: BodyFacts = serde_json::from_slice(&facts)
+            .map_err(|error| Error::Options(format!("ranks run different programs: {error}")))?;
+        let share = Share::of(team, Portion::spread(team, places, elements))?;
+        let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
+            pull,
+            nodes: (0..share.owned)
+                .filter(|&node| share.places[node].marks >> (number + 1) & 1 == 1)
+                .map(|node| (node, share.places[node].rest))
+                .collect(),
+            bounds: body.bounds,
+            stiffness: body.stiffnesses[number],
+        });
+        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
+    }
+
+    /// The springs at owned nodes at a time, s.
+    #[must_use]
+    pub fn springs(&self, time: f64) -> Vec<Spring> {
+        self.pulls.iter().flat_map(|pull| pull.during(time, time)).collect()
+    }
+
+    /// Where a pinned node is at a time, s, if something moves it.
+    #[must_use]
+    pub fn place(&self, share: &Share, node: usize, time: f64) -> Option<[f64; 3]> {
+        let Place { rest, marks, .. } = share.places[node];
+        let mut moved = None;
+        for (number, motion) in self.moves.iter().enumerate() {
+            if marks >> (MOVES + number) & 1 == 1 {
+                let done = (time / motion.reached).clamp(0.0, 1.0);
+                let at = moved.get_or_insert(rest);
+                (0..3).for_each(|c| at[c] += done * motion.displacement[c]);
+            }
+        }
+        moved
+    }
+
+    /// Height of the body, m.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.body.bounds.size()[1]
+    }
+}
+
+/// Places, elements and facts of the whole body.
+type Whole = (Vec<Place>, Vec<Element>, Vec<u8>);
+
+fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole, Error> {
+    let geometry = Geometry::load(settings)?;
+    let mesh = &geometry.mesh;
+    let young = settings.material.build()?.moduli.young();
+    let mut pins = play::pins(settings, mesh)?;
+    if moves.len() > MOST || settings.scene.pulls.len() > MOST {
+        return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
+    }
+    let mut marks = vec![0_u64; mesh.positions.len()];
+    for (number, motion) in moves.iter().enumerate() {
+        let moved = match (mesh.group(&motion.nodes), region::parse(&motion.nodes)) {
+            (None, Ok(region)) => Pins::in_box(mesh, region),
+            _ => Pins::of_group(mesh, &motion.nodes),
+        };
+        let moved = moved.map_err(|error| Error::Options(format!("--move {}: {error}", motion.nodes)))?;
+        moved.nodes().iter().for_each(|&node| marks[node] |= 1 << (MOVES + number));
+        pins = pins.and(&moved);
+    }
+    pins.nodes().iter().for_each(|&node| marks[node] |= 1);
+    let mut stiffnesses = Vec::new();
+    for (number, &pull) in settings.scene.pulls.iter().enumerate() {
+        let springs = DragSprings::new(pull, mesh, young);
+        springs.nodes.iter().for_each(|&(node, _)| marks[node] |= 2 << number);
+        stiffnesses.push(springs.stiffness);
+    }
+    let start = play::start_positions(settings, &geometry, &pins);
+    let places = (0..mesh.positions.len())
+        .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
+        .collect();
+    let mut part = vec![0; mesh.tets.len()];
+    for (number, name) in groups.iter().enumerate() {
+        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
+        let group =
+            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+        for &tet in &group.tets {
+            if std::mem::replace(&mut part[tet], number as u64 + 1) != 0 {
+                return Err(Error::Options(format!("element {} has two materials", mesh.tag(tet))));
+            }
+        }
+    }
+    let elements = mesh.tets.iter().enumerate().map(|(tet, &[a, b, c, d])| {
+        [a as u64, b as u64, c as u64, d as u64, mesh.tag(tet) as u64, part[tet]]
+    });
+    let facts = BodyFacts {
+        bounds: mesh.bounds(),
+        checksum: geometry.checksum(),
+        warnings: geometry.warnings().iter().map(ToString::to_string).collect(),
+        stiffnesses,
+    };
+    let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
+    Ok((places, elements.collect(), facts))
+}
+
+/// The materials of a run: that of the settings, and those of groups with their density.
+#[must_use]
+pub fn parts(settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
+    let first = MaterialPart { material: settings.material.clone(), density: settings.density };
+    std::iter::once(first).chain(groups.iter().cloned()).collect()
+}

@@ -1,0 +1,188 @@
+//! The share of a rank: the nodes that it owns, copies of those that its elements touch besides, and its
+//! elements.
+//!
+//! A partitioner divides the graph of the nodes. An element goes to the rank that owns most of its nodes, so
+//! that every element is evaluated once, and what it adds to nodes of other ranks is sent there. This module
+//! knows no materials and no time.
+
+use std::collections::HashMap;
+
+use crate::error::Error;
+use crate::petsc::Matrix;
+use crate::portion::{Element, Homes, Place, Portion};
+use crate::team::Team;
+
+/// What a rank holds of a divided mesh. Owned nodes come before copies, and free ones before pinned ones
+/// among the owned.
+#[derive(Clone, Debug)]
+pub struct Share {
+    /// Number of each node in the whole mesh.
+    pub ids: Vec<u64>,
+    /// Number of owned nodes, with which the others begin.
+    pub owned: usize,
+    /// Number of owned nodes that are free, with which these begin.
+    pub free: usize,
+    /// Where the nodes are, and what is done to them.
+    pub places: Vec<Place>,
+    /// Number of each copy among all nodes, counted rank after rank.
+    pub copies: Vec<usize>,
+    /// Number of each node among all free nodes, counted rank after rank.
+    pub free_numbers: Vec<Option<usize>>,
+    /// The elements, by nodes of this share, with tag and material.
+    pub elements: Vec<([usize; 4], u64, u64)>,
+    /// Number of nodes and elements of all ranks.
+    pub totals: [usize; 2],
+}
+
+/// Number of a node that is pinned among the free ones.
+const PINNED: u64 = u64::MAX;
+
+impl Share {
+    /// Divides a mesh.
+    ///
+    /// # Errors
+    /// [`Error::TooManyRanks`], [`Error::Petsc`].
+    pub fn of(team: &Team, portion: Portion) -> Result<Self, Error> {
+        let Portion { homes, places, elements } = portion;
+        let total = team.count(elements.len());
+        if total < team.size() {
+            return Err(Error::TooManyRanks { ranks: team.size(), elements: total });
+        }
+        let owner_here = owners(team, &homes, &elements)?;
+
+        // Elements to their ranks.
+        let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
+        touched.sort_unstable();
+        touched.dedup();
+        let answers = homes.ask(team, &touched, |node| [owner_here[node]]);
+        let owner: HashMap<u64, u64> =
+            touched.iter().zip(&answers).map(|(&node, &[owner])| (node, owner)).collect();
+        let mut lists = vec![Vec::new(); team.size()];
+        for element in elements {
+            let owners: [u64; 4] = std::array::from_fn(|corner| owner[&element[corner]]);
+            lists[rank_of(owners, element[4])].push(element);
+        }
+        let mut elements = team.exchange_rows(&lists).concat();
+        elements.sort_unstable_by_key(|element| element[4]);
+
+        // Nodes to their owners.
+        let first = homes.range(team.rank()).start;
+        let mut lists = vec![Vec::new(); team.size()];
+        for (node, place) in places.iter().enumerate() {
+            let mut row = [0; 8];
+            row[0] = first + node as u64;
+            row[1..].copy_from_slice(&place.to_words());
+            lists[owner_here[node] as usize].push(row);
+        }
+        let mut owned = team.exchange_rows(&lists).concat();
+        owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
+        let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
+
+        // Numbers of owned nodes, which their homes learn for those that have copies.
+        let before = |number: usize| team.all(number)[..team.rank()].iter().sum::<usize>();
+        let (first_owned, first_free) = (before(owned.len()), before(free));
+        let free_number = |node: usize| if node < free { (first_free + node) as u64 } else { PINNED };
+        let rows = owned
+            .iter()
+            .enumerate()
+            .map(|(node, row)| [row[0], (first_owned + node) as u64, free_number(node)]);
+        let mut known = vec![[0; 2]; places.len()];
+        for [node, number, free] in team.exchange_rows(&homes.sort(team, rows)).concat() {
+            known[(node - first) as usize] = [number, free];
+        }
+
+        // Copies.
+        let mut index: HashMap<u64, usize> =
+            owned.iter().enumerate().map(|(node, row)| (row[0], node)).collect();
+        let mut copied: Vec<u64> = elements
+            .iter()
+            .flat_map(|element| &element[..4])
+            .copied()
+            .filter(|node| !index.contains_key(node))
+            .collect();
+        copied.sort_unstable();
+        copied.dedup();
+        let answers = homes.ask(team, &copied, |node| {
+            let mut row = [0; 9];
+            row[..2].copy_from_slice(&known[node]);
+            row[2..].copy_from_slice(&places[node].to_words());
+            row
+        });
+        index.extend(copied.iter().enumerate().map(|(copy, &node)| (node, owned.len() + copy)));
+
+        let numbers = (0..owned.len()).map(free_number).chain(answers.iter().map(|row| row[1]));
+        let local = |element: &Element| {
+            let nodes = std::array::from_fn(|corner| index[&element[corner]]);
+            (nodes, element[4], element[5])
+        };
+        Ok(Self {
+            ids: owned.iter().map(|row| row[0]).chain(copied.iter().copied()).collect(),
+            owned: owned.len(),
+            free,
+            places: owned
+                .iter()
+                .map(|row| Place::from_words(&row[1..]))
+                .chain(answers.iter().map(|row| Place::from_words(&row[2..])))
+                .collect(),
+            copies: answers.iter().map(|row| row[0] as usize).collect(),
+            free_numbers: numbers.map(|number| (number != PINNED).then_some(number as usize)).collect(),
+            elements: elements.iter().map(local).collect(),
+            totals: [homes.total() as usize, total],
+        })
+    }
+
+    /// The pinned nodes among those of this rank and the copies, ascending.
+    #[must_use]
+    pub fn pinned(&self) -> Vec<usize> {
+        (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
+    }
+}
+
+/// The rank of an element with these owners of its nodes, in whatever order: the one that comes most often,
+/// by the tag among equals.
+fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
+    owners.sort_unstable();
+    let times = |owner: u64| owners.iter().filter(|&&other| other == owner).count();
+    let most = owners.iter().map(|&owner| times(owner)).max().unwrap_or(0);
+    let first = (tag % 4) as usize;
+    let in_turn = (0..4).map(|corner| owners[(first + corner) % 4]);
+    in_turn.into_iter().find(|&owner| times(owner) == most).unwrap_or(0) as usize
+}
+
+/// The rank that is to own each node that is at home here.
+fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, Error> {
+    let range = homes.range(team.rank());
+    let here = (range.end - range.start) as usize;
+    if team.size() == 1 {
+        return Ok(vec![0; here]);
+    }
+    let mut pairs = Vec::with_capacity(12 * elements.len());
+    for element in elements {
+        for i in 0..4 {
+            for j in (0..4).filter(|&j| j != i) {
+                pairs.push([element[i], element[j]]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let places = pairs.iter().map(|pair| pair.map(|node| Some(node as usize)));
+    let mut graph = Matrix::new(team.library(), here, 1, places)?;
+    graph.set_values(&vec![1.0; pairs.len()])?;
+    Ok(graph.partition()?.into_iter().map(|rank| rank as u64).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_element_goes_to_the_owner_of_most_of_its_nodes() {
+        assert_eq!(rank_of([2, 1, 2, 2], 0), 2);
+        assert_eq!(rank_of([0, 3, 1, 3], 7), 3);
+        // Equals take turns, in whatever order the nodes are.
+        let of_tags = |owners| (0..4).map(|tag| rank_of(owners, tag)).collect::<Vec<_>>();
+        assert_eq!(of_tags([5, 6, 5, 6]), of_tags([6, 5, 6, 5]));
+        assert_eq!(of_tags([5, 6, 5, 6]), [5, 5, 6, 6]);
+    }
+}

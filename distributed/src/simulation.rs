@@ -1,0 +1,266 @@
+//! A body that is divided among ranks, stepped in time.
+
+use piola::step::{Integrator, SetupError, Spring, Stage, StagedSteps, Term};
+
+use crate::elastic::{Elastic, MaterialPart};
+use crate::error::Error;
+use crate::newton::{NewtonReport, NewtonSettings, Objective, minimize};
+use crate::petsc::{GhostedVector, PetscError};
+use crate::share::Share;
+use crate::system::LinearSystem;
+use crate::team::Team;
+
+/// Number of units of regularisation, in statics, for a body that may move as a whole.
+const DRIFT: f64 = 1e-4;
+
+/// Settings of a [`Simulation`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulationSettings {
+    /// Gravity, m/s².
+    pub gravity: [f64; 3],
+    /// α of damping proportional to mass, 1/s.
+    pub damping: f64,
+    /// Method by which steps advance in time.
+    pub integrator: Integrator,
+    /// Settings of Newton's method.
+    pub newton: NewtonSettings,
+}
+
+/// Energies of the body, J, as [`piola::step::Energies`] has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Energy of deformation.
+    pub elastic: f64,
+    /// Energy of motion.
+    pub kinetic: f64,
+    /// Energy in the field of gravity, 0 in the rest shape.
+    pub gravity: f64,
+    /// Energy of the springs.
+    pub springs: f64,
+}
+
+/// A divided body with its state, as one rank sees it. All functions are called by all ranks.
+pub struct Simulation {
+    team: Team,
+    share: Share,
+    settings: SimulationSettings,
+    elastic: Elastic,
+    exchange: GhostedVector,
+    system: LinearSystem,
+    /// Of owned nodes, kg.
+    masses: Vec<f64>,
+    steps: StagedSteps,
+    /// The pinned nodes of this rank and its copies.
+    pinned: Vec<usize>,
+    /// Where pinned nodes are after the next step, m.
+    targets: Vec<[f64; 3]>,
+    springs: Vec<Spring>,
+    targets_before: Vec<[f64; 3]>,
+    static_regularisation: f64,
+    pins: usize,
+}
+
+impl Simulation {
+    /// A simulation that starts at rest where the share has its nodes.
+    ///
+    /// # Errors
+    /// An [`Error`] of an element, a material, a setting or of PETSc.
+    pub fn new(
+        team: &Team,
+        share: Share,
+        parts: &[MaterialPart],
+        settings: SimulationSettings,
+    ) -> Result<Self, Error> {
+        let elastic = team.agree(Elastic::new(&share, parts))?;
+        let mut exchange = GhostedVector::new(team.library(), share.owned, &share.copies)?;
+        let mut of_all = vec![0.0; share.ids.len()];
+        elastic.add_masses(&mut of_all);
+        exchange.begin_sum(&of_all.iter().map(|&mass| [mass, 0.0, 0.0]).collect::<Vec<_>>())?;
+        let mut sums = vec![[0.0; 3]; share.owned];
+        exchange.end_sum(&mut sums)?;
+        let masses: Vec<f64> = sums.iter().map(|sum| sum[0]).collect();
+        let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
+
+        let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
+        let steps = StagedSteps::new(settings.integrator, &start)?;
+        let pinned = share.pinned();
+        Ok(Self {
+            pins: team.count(share.owned - share.free),
+            system: LinearSystem::new(team, &share, &elastic)?,
+            team: team.clone(),
+            settings,
+            elastic,
+            exchange,
+            masses,
+            steps,
+            pinned,
+            targets: start,
+            springs: Vec::new(),
+            targets_before: Vec::new(),
+            static_regularisation: 1e-4 * stiffness / mass,
+            share,
+        })
+    }
+
+    /// The nodes and elements of this rank.
+    #[must_use]
+    pub fn share(&self) -> &Share {
+        &self.share
+    }
+
+    /// Positions, m, velocities, m/s, and accelerations, m/s², of the nodes of this rank and of its copies.
+    #[must_use]
+    pub fn state(&self) -> &StagedSteps {
+        &self.steps
+    }
+
+    /// Replaces the state of the nodes of this rank and of its copies. Accelerations are those from which
+    /// Newmark's method and generalised α go on.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`].
+    pub fn set_state(
+        &mut self,
+        positions: &[[f64; 3]],
+        velocities: &[[f64; 3]],
+        accelerations: Option<&[[f64; 3]]>,
+    ) -> Result<(), SetupError> {
+        self.steps.set_state(positions, velocities)?;
+        accelerations.map_or(Ok(()), |accelerations| self.steps.set_accelerations(accelerations))?;
+        self.targets.copy_from_slice(positions);
+        Ok(())
+    }
+
+    /// Prescribes where pinned nodes of this rank and its copies, are after the next step, m; others are left
+    /// as they are.
+    pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) {
+        for &node in &self.pinned {
+            self.targets[node] = place(node).unwrap_or(self.targets[node]);
+        }
+    }
+
+    /// Replaces the springs at owned nodes. Each that is at the index and anchor of one before moves evenly
+    /// to its new target.
+    pub fn set_springs(&mut self, springs: Vec<Spring>) {
+        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
+            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
+            _ => spring.target,
+        };
+        self.targets_before = springs.iter().enumerate().map(before).collect();
+        self.springs = springs;
+    }
+
+    /// Advances the state by `dt`, s; returns the reports of the stages.
+    ///
+    /// # Errors
+    /// An [`Error`] of Newton's method or of PETSc.
+    pub fn step(&mut self, dt: f64) -> Result<Vec<NewtonReport>, Error> {
+        if self.steps.needs_accelerations() {
+            self.accelerate()?;
+        }
+        let mut reports = Vec::new();
+        for stage in 0..self.steps.begin(dt) {
+            let moves = self.steps.begin_stage(stage, &self.pinned, &self.targets);
+            let moves = self.team.count(usize::from(moves)) > 0;
+            let share = self.steps.share(stage);
+            let pairs = self.springs.iter().zip(&self.targets_before);
+            let springs = pairs.map(|(&spring, &before)| Stage::pulled(spring, before, share)).collect();
+            let mut x = self.steps.start().to_vec();
+            let is_static = dt == f64::INFINITY;
+            let [tau, sigma] = self.steps.stage().lengths();
+            let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
+            let may_drift = is_static && self.pins < 3;
+            let objective = Objective {
+                team: &self.team,
+                share: &self.share,
+                elastic: &mut self.elastic,
+                exchange: &mut self.exchange,
+                masses: &self.masses,
+                stage: self.steps.stage(),
+                damping: self.settings.damping,
+                gravity: self.settings.gravity,
+                springs: &springs,
+                regularisation,
+                guard: if may_drift { DRIFT * regularisation } else { 0.0 },
+            };
+            let pins_move = moves.then_some(self.steps.pins_move());
+            reports.push(minimize(objective, &mut self.system, &self.settings.newton, &mut x, pins_move)?);
+            self.steps.end_stage(stage, &x);
+        }
+        let ends_with_last_stage = self.steps.ends_with_last_stage();
+        self.steps.finish(&self.pinned, &self.targets);
+        if !ends_with_last_stage {
+            self.evaluate().map_err(|element| Error::EndsBeyondDomain { element })?;
+        }
+        for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
+            *before = spring.target;
+        }
+        Ok(reports)
+    }
+
+    /// Moves the body to a minimum of its energy with gravity and springs, without inertia, where it is at
+    /// rest.
+    ///
+    /// # Errors
+    /// An [`Error`] of Newton's method or of PETSc.
+    pub fn equilibrate(&mut self) -> Result<NewtonReport, Error> {
+        let mut reports = self.step(f64::INFINITY)?;
+        // Statics are one stage.
+        Ok(reports.remove(0))
+    }
+
+    /// Evaluates the energies of all elements at the current state; the tag of one without.
+    fn evaluate(&mut self) -> Result<(), u64> {
+        let x = self.steps.positions();
+        self.elastic.evaluate_inner(x);
+        self.elastic.evaluate_border(x);
+        let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
+        if tag.is_finite() { Err(tag as u64) } else { Ok(()) }
+    }
+
+    /// Sets the accelerations that the forces at the current state give, zero at pinned nodes.
+    fn accelerate(&mut self) -> Result<(), Error> {
+        self.evaluate().map_err(|element| Error::Inadmissible { element })?;
+        let mut total = vec![[0.0; 3]; self.share.owned];
+        self.elastic.gradient(&mut self.exchange, &mut total)?;
+        self.springs.add_gradient(self.steps.positions(), &mut total);
+        let v = self.steps.velocities();
+        let SimulationSettings { damping, gravity, .. } = self.settings;
+        for (node, total) in total.iter_mut().enumerate() {
+            let is_free = node < self.share.free;
+            for c in 0..3 {
+                let a = gravity[c] - damping * v[node][c] - total[c] / self.masses[node];
+                total[c] = if is_free { a } else { 0.0 };
+            }
+        }
+        let all = self.with_copies(total)?;
+        Ok(self.steps.set_accelerations(&all)?)
+    }
+
+    /// Vectors of the owned nodes, followed by those of the copies.
+    fn with_copies(&mut self, mut owned: Vec<[f64; 3]>) -> Result<Vec<[f64; 3]>, PetscError> {
+        self.exchange.begin_copies(&owned)?;
+        let count = owned.len();
+        owned.resize(self.share.ids.len(), [0.0; 3]);
+        self.exchange.end_copies(&mut owned[count..])?;
+        Ok(owned)
+    }
+
+    /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
+    #[must_use]
+    pub fn energies(&mut self) -> Energies {
+        let is_admissible = self.evaluate().is_ok();
+        let (x, v) = (self.steps.positions(), self.steps.velocities());
+        let [mut kinetic, mut gravity] = [0.0; 2];
+        for (node, mass) in self.masses.iter().enumerate() {
+            for c in 0..3 {
+                kinetic += 0.5 * mass * v[node][c].powi(2);
+                gravity -= mass * self.settings.gravity[c] * (x[node][c] - self.share.places[node].rest[c]);
+            }
+        }
+        let springs = self.springs.iter().map(|spring| spring.energy(x)).sum();
+        let [elastic, kinetic, gravity, springs] =
+            self.team.sum([self.elastic.energy(), kinetic, gravity, springs]);
+        Energies { elastic: if is_admissible { elastic } else { f64::NAN }, kinetic, gravity, springs }
+    }
+}

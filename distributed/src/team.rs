@@ -1,0 +1,185 @@
+//! The ranks of a run as a team: sums, exchanges, and errors that all of them learn of.
+//!
+//! This module knows no bodies. Every function is called by all ranks, in one order.
+
+use mpi::collective::SystemOperation;
+use mpi::datatype::{Partition, PartitionMut};
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Root};
+use mpi::{Count, Rank};
+
+use crate::error::Error;
+use crate::petsc::Library;
+
+/// All ranks of a run, as one of them sees them.
+#[derive(Clone)]
+pub struct Team {
+    library: Library,
+    rank: usize,
+    size: usize,
+}
+
+impl Team {
+    /// The team of all ranks that run the library.
+    #[must_use]
+    pub fn new(library: &Library) -> Self {
+        let world = library.world();
+        let (rank, size) = (world.rank() as usize, world.size() as usize);
+        Self { library: library.clone(), rank, size }
+    }
+
+    /// The library that runs on all ranks.
+    #[must_use]
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// Number of this rank, from 0.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Number of ranks.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    fn world(&self) -> &SimpleCommunicator {
+        self.library.world()
+    }
+
+    /// Sum over the ranks of each entry.
+    #[must_use]
+    pub fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
+        let mut total = [0.0; N];
+        self.world().all_reduce_into(&entries[..], &mut total[..], SystemOperation::sum());
+        total
+    }
+
+    /// Sum over the ranks.
+    #[must_use]
+    pub fn count(&self, number: usize) -> usize {
+        let mut total = 0_u64;
+        self.world().all_reduce_into(&(number as u64), &mut total, SystemOperation::sum());
+        total as usize
+    }
+
+    /// Largest value of any rank; NaN where one is NaN.
+    #[must_use]
+    pub fn max(&self, number: f64) -> f64 {
+        // MPI does not say what becomes of NaN.
+        let mut total = [0.0; 2];
+        let own =
+            [if number.is_nan() { f64::NEG_INFINITY } else { number }, f64::from(u8::from(number.is_nan()))];
+        self.world().all_reduce_into(&own[..], &mut total[..], SystemOperation::max());
+        if total[1] > 0.0 { f64::NAN } else { total[0] }
+    }
+
+    /// Smallest value of any rank; NaN where one is NaN.
+    #[must_use]
+    pub fn min(&self, number: f64) -> f64 {
+        -self.max(-number)
+    }
+
+    /// Value of each rank.
+    #[must_use]
+    pub fn all(&self, number: usize) -> Vec<usize> {
+        let mut numbers = vec![0_u64; self.size];
+        self.world().all_gather_into(&(number as u64), &mut numbers[..]);
+        numbers.into_iter().map(|number| number as usize).collect()
+    }
+
+    /// Waits until all ranks are here.
+    pub fn wait(&self) {
+        self.world().barrier();
+    }
+
+    /// Sends to each rank its list, and returns the list from each.
+    #[must_use]
+    pub fn exchange<T: Equivalence + Copy + Default>(&self, outgoing: &[Vec<T>]) -> Vec<Vec<T>> {
+        let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
+        let mut incoming = vec![0 as Count; self.size];
+        self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
+        let (sent, mut received) = (outgoing.concat(), vec![T::default(); total(&incoming)]);
+        {
+            let from = Partition::new(&sent[..], lengths.clone(), starts(&lengths));
+            let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
+            self.world().all_to_all_varcount_into(&from, &mut to);
+        }
+        let mut rest = received.as_slice();
+        let mut lists = Vec::with_capacity(self.size);
+        for &length in &incoming {
+            let (list, after) = rest.split_at(length as usize);
+            lists.push(list.to_vec());
+            rest = after;
+        }
+        lists
+    }
+
+    /// Sends to each rank its rows of numbers, and returns the rows from each.
+    #[must_use]
+    pub fn exchange_rows<const N: usize>(&self, outgoing: &[Vec<[u64; N]>]) -> Vec<Vec<[u64; N]>> {
+        let flat: Vec<Vec<u64>> = outgoing.iter().map(|rows| rows.as_flattened().to_vec()).collect();
+        self.exchange(&flat).iter().map(|numbers| numbers.as_chunks().0.to_vec()).collect()
+    }
+
+    /// The bytes of rank 0, on all ranks.
+    #[must_use]
+    pub fn from_first(&self, bytes: Vec<u8>) -> Vec<u8> {
+        let root = self.world().process_at_rank(0);
+        let mut length = bytes.len() as u64;
+        root.broadcast_into(&mut length);
+        let mut bytes = bytes;
+        bytes.resize(length as usize, 0);
+        root.broadcast_into(&mut bytes[..]);
+        bytes
+    }
+
+    /// The result of this rank where all have one; else the error of the first rank that has failed, on all
+    /// ranks.
+    ///
+    /// # Errors
+    /// [`Error::OnRank`].
+    pub fn agree<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
+        let own = if result.is_err() { self.rank as u64 } else { u64::MAX };
+        let mut first = 0_u64;
+        self.world().all_reduce_into(&own, &mut first, SystemOperation::min());
+        if first == u64::MAX {
+            return result;
+        }
+        let mut message = match &result {
+            Err(Error::OnRank { message, .. }) => message.clone().into_bytes(),
+            Err(error) => error.to_string().into_bytes(),
+            Ok(_) => Vec::new(),
+        };
+        let root = self.world().process_at_rank(first as Rank);
+        let mut length = message.len() as u64;
+        root.broadcast_into(&mut length);
+        message.resize(length as usize, 0);
+        root.broadcast_into(&mut message[..]);
+        Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
+    }
+
+    /// Ends all ranks at once, because this one cannot tell the others what has failed.
+    pub fn abort(&self) -> ! {
+        self.world().abort(1)
+    }
+}
+
+fn total(lengths: &[Count]) -> usize {
+    lengths.iter().map(|&length| length as usize).sum()
+}
+
+fn starts(lengths: &[Count]) -> Vec<Count> {
+    let mut start = 0;
+    lengths
+        .iter()
+        .map(|length| {
+            let here = start;
+            start += length;
+            here
+        })
+        .collect()
+}

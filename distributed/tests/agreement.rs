@@ -1,0 +1,298 @@
+//! Runs on several ranks end where the simulation on one machine does.
+//!
+//! Each is started as a user would, by `mpirun`; its checkpoint is compared with the positions of piola's own
+//! simulation.
+
+mod common;
+
+use std::path::Path;
+
+use common::{TestResult, checkpoint_in, state_after};
+use piola::material::Moduli;
+use piola::mesh::{Bounds, TetMesh, tetrahedral_box};
+use piola::point::Filter;
+use piola::step::{
+    Convergence, Damping, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
+};
+use piola::system::{Body, Part, Pins};
+use piola_scenes::geometry::Geometry;
+use piola_scenes::material::MaterialSpec;
+use piola_scenes::play::{Play, step_settings};
+use piola_scenes::scene::{DINOSAUR, HORSE, Scene, TWIST};
+use piola_scenes::settings::Settings;
+
+/// Ranks of the tests that are run always; three besides with PIOLA_RANKS=1,2,3,4.
+fn ranks() -> Vec<usize> {
+    let given = std::env::var("PIOLA_RANKS").unwrap_or_else(|_| "1,2,4".to_owned());
+    given.split(',').map(|count| count.parse().expect("numbers with commas between")).collect()
+}
+
+fn newton() -> NewtonSettings {
+    NewtonSettings::default()
+        .with_filtering(Filtering::Always(Filter::Clamp))
+        .with_linear(LinearSolver::Cholesky)
+        .with_max_iterations(200)
+        .with_tolerance(1e-12)
+}
+
+/// Options that solve as far as [`newton`] does.
+const SOLVED: &str = "--newton full --newton-tolerance 1e-12 --newton-iterations 200 --filter clamp";
+
+/// Largest distance between nodes, m.
+fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max)
+}
+
+fn matching(scene: &Scene, name: &str) -> Result<MaterialSpec, Box<dyn std::error::Error>> {
+    let own = (scene.material)();
+    Ok(if own.is(name) { own } else { MaterialSpec::matching(name, own.build()?.moduli) })
+}
+
+/// Goes `frames` steps, each solved to its end, from where a cheap run has taken the body in `before`: on one
+/// machine, and on several numbers of ranks.
+#[track_caller]
+#[expect(clippy::print_stdout, reason = "figures for whoever asks for them by --nocapture")]
+fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usize) -> TestResult {
+    let settings = Settings::new(scene).with_material(matching(scene, material)?);
+    let geometry = Geometry::load(&settings)?;
+    let height = geometry.mesh.bounds().size()[1];
+    let scratch = tempfile::tempdir()?;
+    let begin = |folder: &Path| {
+        vec!["run", scene.name, "--material", material, "--out", folder.to_str().expect("UTF-8")]
+            .into_iter()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let run = |options: String| {
+            let words = options.split_whitespace().map(str::to_owned);
+            state_after(count, begin(&folder).into_iter().chain(words), &folder)
+        };
+        run(format!("--frames {before} --newton single"))?;
+        let (about, state) = checkpoint_in(&folder)?;
+        let mut play = Play::new(&settings, &geometry)?;
+        play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+        play.resume(about.clock.expect("of a run"), &state.positions, &state.velocities)?;
+        for _ in 0..frames {
+            let report = play.step()?.newton;
+            // Where 10⁻¹² is below the rounding of the forces, they end there.
+            let is_solved =
+                report.convergence != Convergence::Limit && report.residual <= 1e-10 * report.first_residual;
+            assert!(is_solved, "{report:?}");
+        }
+        let found = run(format!("--resume --frames {} {SOLVED}", before + frames))?;
+        let error = distance(&found.positions, play.simulation().positions()) / height;
+        println!("{}, {material}, on {count} ranks: {error:.1e} body heights", scene.name);
+        // 10⁻⁹ body heights for each step.
+        assert!(error <= 1e-9 * frames as f64, "{error:e} body heights on {count} ranks");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_dinosaur_of_three_energies_goes_the_same_way() -> TestResult {
+    check_scene(&DINOSAUR, "Ogden", 20, 4)?;
+    check_scene(&DINOSAUR, "stable neo-Hookean", 50, 4)?;
+    check_scene(&DINOSAUR, "rotated linear", 50, 4)
+}
+
+/// From where its steps can be solved to their end: while it is flat, the stress of rotated linear elasticity
+/// jumps.
+#[test]
+fn a_horse_of_three_energies_goes_the_same_way() -> TestResult {
+    check_scene(&HORSE, "rotated linear", 30, 4)?;
+    check_scene(&HORSE, "neo-Hookean", 30, 4)?;
+    check_scene(&HORSE, "Ogden", 30, 4)
+}
+
+/// Every method that takes a step as minimisations, in the pull of the dinosaur.
+#[test]
+fn integrators_go_the_same_way() -> TestResult {
+    let generalized = Integrator::GeneralizedAlpha { spectral_radius: 0.5 };
+    for (name, integrator) in [
+        ("bdf2", Integrator::Bdf2),
+        ("sdirk2", Integrator::Sdirk2),
+        ("sdirk3", Integrator::Sdirk3),
+        ("implicit-midpoint", Integrator::ImplicitMidpoint),
+        ("newmark", Integrator::Newmark),
+        ("generalized-alpha=0.5", generalized),
+    ] {
+        let frames = 5;
+        let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
+        let geometry = Geometry::load(&settings)?;
+        let mut play = Play::new(&settings, &geometry)?;
+        play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+        for _ in 0..frames {
+            play.step()?;
+        }
+        let scratch = tempfile::tempdir()?;
+        let folder = scratch.path().join("run");
+        let options = format!(
+            "run dinosaur --gravity 9.81 --integrator {name} --frames {frames} {SOLVED} --out {}",
+            folder.display()
+        );
+        let found = state_after(2, options.split_whitespace().map(str::to_owned), &folder)?;
+        let error = distance(&found.positions, play.simulation().positions());
+        let height = geometry.mesh.bounds().size()[1];
+        println!("{name}: {:.1e} body heights", error / height);
+        assert!(error <= 1e-9 * frames as f64 * height, "{name}: {error:e} m");
+    }
+    Ok(())
+}
+
+/// The cube of `piola-mpi box`, as the bench `statics` has it.
+#[test]
+fn a_box_sags_as_on_one_machine() -> TestResult {
+    let cells = 8;
+    let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
+    let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
+    let material = MaterialSpec::new("stable neo-Hookean")
+        .with_parameter("mu", [moduli.mu])
+        .with_parameter("lambda", [moduli.lambda])
+        .build()?;
+    let part = Part { group: None, material: material.elements, density: 1000.0 };
+    let body = Body::from_parts(&mesh, vec![part])?;
+    let pins = Pins::in_box(&mesh, Bounds { min: [-1.0; 3], max: [1e-9, 2.0, 2.0] })?;
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
+    let mut simulation = Simulation::new(body, &pins, settings)?;
+    simulation.equilibrate()?;
+
+    let scratch = tempfile::tempdir()?;
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let options = format!(
+            "box --elements {} --newton-tolerance 1e-12 --out {}",
+            6 * cells * cells * cells,
+            folder.display()
+        );
+        let found = state_after(count, options.split_whitespace().map(str::to_owned), &folder)?;
+        let error = distance(&found.positions, simulation.positions());
+        println!("box on {count} ranks: {error:.1e} m");
+        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
+    }
+    Ok(())
+}
+
+/// A bar that stands under its own weight and is bent at its top.
+#[test]
+fn statics_end_as_on_one_machine() -> TestResult {
+    let mesh = Geometry::of(piola_scenes::scene::Body::BAR)?.mesh;
+    let material = (TWIST.material)().build()?.elements;
+    let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: TWIST.density }])?;
+    let at = |height: f64| Bounds { min: [-1.0, height, -1.0], max: [1.0, height, 1.0] };
+    let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
+    let mut simulation = Simulation::new(body, &foot.and(&top), settings)?;
+    for &node in top.nodes() {
+        let [x, y, z] = mesh.positions[node];
+        simulation.prescribe(node, [x + 0.1, y, z])?;
+    }
+    simulation.equilibrate()?;
+    let scratch = tempfile::tempdir()?;
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let options = format!(
+            "statics twist --gravity 9.81 --move :,1:1,:=0.1,0,0@1 --newton-tolerance 1e-12 --newton-iterations 200 \
+             --filter clamp --out {}",
+            folder.display()
+        );
+        let found = state_after(count, options.split_whitespace().map(str::to_owned), &folder)?;
+        let error = distance(&found.positions, simulation.positions());
+        println!("statics on {count} ranks: {error:.1e} m");
+        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
+    }
+    Ok(())
+}
+
+/// A bar of two materials and densities, whose top is moved while its foot is held, on damped gravity.
+#[test]
+fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
+    let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("bar.msh");
+    let upper: Vec<usize> = (0..mesh.tets.len()).filter(|&tet| tet >= mesh.tets.len() / 2).collect();
+    std::fs::write(&file, msh(&mesh, &upper))?;
+    mesh.groups.push(piola::mesh::Group {
+        name: "upper".to_owned(),
+        dimension: 3,
+        nodes: Vec::new(),
+        tets: upper,
+    });
+
+    let soft = (HORSE.material)().build()?.moduli;
+    let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
+        let material = MaterialSpec::matching(name, soft).build()?.elements;
+        Ok(Part { group: group.map(str::to_owned), material, density })
+    };
+    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("upper"), "stable neo-Hookean", 3000.0)?];
+    let body = Body::from_parts(&mesh, parts)?;
+    let at = |height: f64| Bounds { min: [-1.0, height - 1e-9, -1.0], max: [1.0, height + 1e-9, 1.0] };
+    let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
+    // The scene's damping.
+    let settings = SimulationSettings::default()
+        .with_gravity([0.0, -9.81, 0.0])
+        .with_damping(Damping::Mass { rate: 2.0 })
+        .with_newton(newton());
+    let (dt, frames) = (1.0 / 30.0, 6);
+    let mut simulation = Simulation::new(body, &foot.and(&top), settings)?;
+    for frame in 1..=frames {
+        let share = (f64::from(frame) * dt / 0.15).min(1.0);
+        for &node in top.nodes() {
+            let [x, y, z] = mesh.positions[node];
+            simulation.prescribe(node, [x + 0.1 * share, y + 0.2 * share, z])?;
+        }
+        simulation.step(dt)?;
+    }
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let words = [
+            "run",
+            "scramble",
+            "--amplitude",
+            "0",
+            "--mesh",
+            file.to_str().expect("UTF-8"),
+            "--material",
+            "neo-Hookean",
+            "--part",
+            "upper=stable neo-Hookean;density=3000",
+            "--gravity",
+            "9.81",
+            "--pin",
+            ":,:0.000001,:",
+            "--move",
+            ":,0.999999:,:=0.1,0.2,0@0.15",
+            "--frames",
+            "6",
+            "--out",
+            folder.to_str().expect("UTF-8"),
+        ];
+        let solved = SOLVED.split_whitespace();
+        let found = state_after(count, words.into_iter().chain(solved).map(str::to_owned), &folder)?;
+        let error = distance(&found.positions, simulation.positions());
+        println!("bar on {count} ranks: {error:.1e} m");
+        assert!(error <= 1e-9 * f64::from(frames), "{error:e} m on {count} ranks");
+    }
+    Ok(())
+}
+
+/// A mesh with one group of tetrahedra, in Gmsh's format 2.2.
+fn msh(mesh: &TetMesh, upper: &[usize]) -> String {
+    let mut text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 2 \"upper\"\n$EndPhysicalNames\n"
+            .to_owned();
+    text += &format!("$Nodes\n{}\n", mesh.positions.len());
+    for (node, [x, y, z]) in mesh.positions.iter().enumerate() {
+        text += &format!("{} {x:?} {y:?} {z:?}\n", node + 1);
+    }
+    text += &format!("$EndNodes\n$Elements\n{}\n", mesh.tets.len());
+    for (tet, nodes) in mesh.tets.iter().enumerate() {
+        let group = if upper.contains(&tet) { 2 } else { 1 };
+        let [a, b, c, d] = nodes.map(|node| node + 1);
+        text += &format!("{} 4 2 {group} {group} {a} {b} {c} {d}\n", tet + 1);
+    }
+    text + "$EndElements\n"
+}

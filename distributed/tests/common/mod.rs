@@ -1,0 +1,61 @@
+//! The program as tests start it.
+
+#![allow(dead_code, reason = "each test file uses a part of it")]
+
+use std::error::Error;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use piola_distributed::checkpoint::{self, State};
+use piola_distributed::run::About;
+
+pub(crate) type TestResult = Result<(), Box<dyn Error>>;
+
+/// Longer than any run of a test takes: whatever goes on after it hangs.
+const LIMIT: Duration = Duration::from_secs(240);
+
+/// The command that starts the program on so many ranks, however many cores there are and whoever runs it.
+pub(crate) fn command(ranks: usize, words: impl IntoIterator<Item = String>) -> Command {
+    let mut command = Command::new("mpirun");
+    command
+        .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
+        .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+        .args(["--oversubscribe", "-n", &ranks.to_string(), env!("CARGO_BIN_EXE_piola-mpi")])
+        .args(words)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+/// Waits for a run to end.
+pub(crate) fn finish(mut command: Command) -> Result<Output, Box<dyn Error>> {
+    let mut child = command.spawn()?;
+    let begun = Instant::now();
+    while child.try_wait()?.is_none() {
+        if begun.elapsed() > LIMIT {
+            child.kill()?;
+            return Err(format!("{command:?} hangs").into());
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Ok(child.wait_with_output()?)
+}
+
+/// Runs the program, and reads the state that it leaves in a folder.
+pub(crate) fn state_after(
+    ranks: usize,
+    words: impl IntoIterator<Item = String>,
+    folder: &Path,
+) -> Result<State, Box<dyn Error>> {
+    let output = finish(command(ranks, words))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into());
+    }
+    Ok(checkpoint_in(folder)?.1)
+}
+
+/// The checkpoint in the folder of a run.
+pub(crate) fn checkpoint_in(folder: &Path) -> Result<(About, State), Box<dyn Error>> {
+    Ok(checkpoint::read_alone(&checkpoint::file_in(folder))?)
+}
