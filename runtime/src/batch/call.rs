@@ -48,7 +48,8 @@ impl<E: Stages> Call<'_, E> {
         if !self.properties.has_invariants {
             return 0;
         }
-        E::invariants(self.backend, Invariants { F, count, invariants })
+        let has_second_invariant = self.properties.has_second_invariant;
+        E::invariants(self.backend, Invariants { F, count, has_second_invariant, invariants })
     }
 
     /// Derivatives by the invariants, where they give the tangents of a tile. Returns these points.
@@ -139,6 +140,7 @@ impl<E: Stages> Call<'_, E> {
                 invariants,
                 derivatives,
                 has_second_invariant: self.properties.has_second_invariant,
+                curvature: self.properties.curvature,
                 rest: Source::NONE,
                 count,
                 line,
@@ -184,6 +186,7 @@ impl<E: Stages> Call<'_, E> {
                 invariants,
                 derivatives,
                 has_second_invariant: self.properties.has_second_invariant,
+                curvature: self.properties.curvature,
                 rest,
                 count,
                 line,

@@ -20,7 +20,8 @@ use super::svd_tile::SvdTile;
 use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
-use crate::point::invariants::tangent::Terms;
+use crate::material::Curvature;
+use crate::point::invariants::tangent::{Terms, has_all};
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
@@ -86,6 +87,7 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
 pub(super) struct Invariants<'a, E> {
     pub(super) F: Source<'a, E, 9>,
     pub(super) count: usize,
+    pub(super) has_second_invariant: bool,
     pub(super) invariants: &'a mut Rows<E, 3>,
 }
 
@@ -95,13 +97,21 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self { F, count, invariants: to } = self;
+        let Self { F, count, has_second_invariant, invariants: to } = self;
         let mut in_range = 0;
-        for_each_group!(R, count, |at| {
-            let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)));
-            to.set_all(at, numbers);
-            in_range |= R::bits(is_in_range) << at;
-        });
+        if has_second_invariant {
+            for_each_group!(R, count, |at| {
+                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), true);
+                to.set_all(at, numbers);
+                in_range |= R::bits(is_in_range) << at;
+            });
+        } else {
+            for_each_group!(R, count, |at| {
+                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), false);
+                to.set_all(at, numbers);
+                in_range |= R::bits(is_in_range) << at;
+            });
+        }
         in_range & first_bits(count)
     }
 }
@@ -325,6 +335,7 @@ pub(super) struct RespondByInvariants<'a, E, const REST: usize> {
     pub(super) invariants: &'a Rows<E, 3>,
     pub(super) derivatives: &'a Rows<E, 9>,
     pub(super) has_second_invariant: bool,
+    pub(super) curvature: Curvature,
     pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
@@ -334,13 +345,18 @@ pub(super) struct RespondByInvariants<'a, E, const REST: usize> {
 }
 
 /// [`RespondByInvariants`] with an output of a form.
-struct ShapedByInvariants<'a, E, Form, const HAS_SECOND: bool, const REST: usize, const N: usize>(
-    RespondByInvariants<'a, E, REST>,
+struct ShapedByInvariants<
+    'a,
+    E,
     Form,
-);
+    const HAS_SECOND: bool,
+    const HAS_ALL: bool,
+    const REST: usize,
+    const N: usize,
+>(RespondByInvariants<'a, E, REST>, Form);
 
-impl<E, Form, const HAS_SECOND: bool, const REST: usize, const N: usize> Kernel<E>
-    for ShapedByInvariants<'_, E, Form, HAS_SECOND, REST, N>
+impl<E, Form, const HAS_SECOND: bool, const HAS_ALL: bool, const REST: usize, const N: usize> Kernel<E>
+    for ShapedByInvariants<'_, E, Form, HAS_SECOND, HAS_ALL, REST, N>
 where
     E: Scalar,
     Form: FormByInvariants<REST, N>,
@@ -356,13 +372,13 @@ where
         let mut served = 0;
         for_each_group!(R, count, |at| {
             let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
-            let terms = Terms::<R, HAS_SECOND>::new(&F, invariants, &derivatives.get_all(at));
+            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives.get_all(at));
             let rest = rest.get_all(at);
             // The larger output first: what P needs of the registers stays in few.
-            Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
+            let largest = Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             second.finish::<R, N>(line, at, count);
             let stress = terms.stress();
-            let keeps_digits = terms.keeps_digits() & Form::stays_finite(terms.bound(), &rest);
+            let keeps_digits = terms.keeps_digits(largest) & Form::stays_finite(terms.bound(), &rest);
             let stays_finite = put_stress(&stress, &rest, &mut first, line, at, count);
             served |= R::bits(keeps_digits & stays_finite) << at;
         });
@@ -380,10 +396,12 @@ where
     E: Scalar,
     F: FormByInvariants<REST, N>,
 {
-    if kernel.has_second_invariant {
-        backend.run(ShapedByInvariants::<_, _, true, REST, N>(kernel, form))
-    } else {
-        backend.run(ShapedByInvariants::<_, _, false, REST, N>(kernel, form))
+    let has_second = kernel.has_second_invariant;
+    match (has_second, has_all(has_second, kernel.curvature)) {
+        (true, true) => backend.run(ShapedByInvariants::<_, _, true, true, REST, N>(kernel, form)),
+        (true, false) => backend.run(ShapedByInvariants::<_, _, true, false, REST, N>(kernel, form)),
+        (false, true) => backend.run(ShapedByInvariants::<_, _, false, true, REST, N>(kernel, form)),
+        (false, false) => backend.run(ShapedByInvariants::<_, _, false, false, REST, N>(kernel, form)),
     }
 }
 

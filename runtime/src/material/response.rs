@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Blocks, Inversion, Material, Moduli};
+use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::Real;
 
 /// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
@@ -53,6 +53,8 @@ macro_rules! declare_response {
             fn has_invariants(&self) -> bool;
             /// [`Material::HAS_SECOND_INVARIANT`].
             fn has_second_invariant(&self) -> bool;
+            /// [`Material::CURVATURE_BY_INVARIANTS`].
+            fn curvature_by_invariants(&self) -> Curvature;
             /// [`Material::HAS_ENERGY_BY_INVARIANTS`].
             fn has_energy_by_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
@@ -83,6 +85,10 @@ macro_rules! declare_response {
                 M::HAS_SECOND_INVARIANT
             }
             #[inline]
+            fn curvature_by_invariants(&self) -> Curvature {
+                M::CURVATURE_BY_INVARIANTS
+            }
+            #[inline]
             fn has_energy_by_invariants(&self) -> bool {
                 M::HAS_ENERGY_BY_INVARIANTS
             }
@@ -104,6 +110,7 @@ macro_rules! forward_to_pointee {
         $($head)* {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
             const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]

@@ -65,10 +65,17 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
+    let [w11, w22, _, w12, w1j, w2j] = invariants.hessian.map(|derivative| !model.graph.is_zero(derivative));
+    let curvature = match (w11, w22 || w12 || w1j || w2j) {
+        (false, false) => quote!(Volume),
+        (true, false) => quote!(Separate),
+        (_, true) => quote!(All),
+    };
 
     quote! {
         const HAS_INVARIANTS: bool = true;
         const HAS_SECOND_INVARIANT: bool = #has_second;
+        const CURVATURE_BY_INVARIANTS: __p::Curvature = __p::Curvature::#curvature;
         #has_no_energy
 
         #energy

@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 31] = [
+const MEMBERS: [&str; 32] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -27,6 +27,7 @@ const MEMBERS: [&str; 31] = [
     "admits",
     "HAS_INVARIANTS",
     "HAS_SECOND_INVARIANT",
+    "CURVATURE_BY_INVARIANTS",
     "HAS_ENERGY_BY_INVARIANTS",
     "energy_by_invariants",
     "gradient_by_invariants",
