@@ -122,7 +122,7 @@ impl<E: Stages> Call<'_, E> {
         tangents: &mut [E],
         mut energies: Option<&mut [E]>,
     ) -> Status<u64> {
-        let Rooms { points, invariants, derivatives, energies: values, blocks, line } = rooms;
+        let Rooms { points, invariants, derivatives, energies: values, blocks, line, short_line } = rooms;
         let fence = NonTemporal::new();
         let has_energy = energies.is_none() || self.properties.has_energy_by_invariants;
         let is_by_invariants = has_energy && form != TangentForm::Factored;
@@ -144,6 +144,7 @@ impl<E: Stages> Call<'_, E> {
                 rest: Source::NONE,
                 count,
                 line,
+                short_line,
                 first: self.sink(P, 0),
                 second: self.large_sink(tangents, &fence, 0),
             };
@@ -177,7 +178,7 @@ impl<E: Stages> Call<'_, E> {
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Status<u64> {
-        let Rooms { points, invariants, derivatives, blocks, line, .. } = rooms;
+        let Rooms { points, invariants, derivatives, blocks, line, short_line, .. } = rooms;
         let fence = NonTemporal::new();
         let mut served = self.derivatives_by_invariants(F, start, count, invariants, derivatives);
         if served != 0 {
@@ -190,6 +191,7 @@ impl<E: Stages> Call<'_, E> {
                 rest,
                 count,
                 line,
+                short_line,
                 first: self.sink(gradients, 0),
                 second: self.large_sink(stiffnesses, &fence, 0),
             };

@@ -156,7 +156,7 @@ impl ElementTile {
         stiffnesses: &mut [f64],
     ) -> bool {
         let Properties { has_invariants, has_second_invariant, curvature, .. } = material.properties();
-        f64::with_workspace(|Workspace { invariants, derivatives, line, .. }| {
+        f64::with_workspace(|Workspace { invariants, derivatives, line, short_line, .. }| {
             let is_served = has_invariants
                 && self.serves(material, invariants, |at| {
                     material.tile_derivatives_by_invariants(at, derivatives)
@@ -170,6 +170,7 @@ impl ElementTile {
                 rest: self.rest.source(),
                 count: self.count,
                 line,
+                short_line,
                 first: by_elements(gradients),
                 second: by_elements(stiffnesses),
             };

@@ -141,7 +141,8 @@ impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressO
         for_each_group!(R, count, |at| {
             let F = to_matrix(F.get_all::<R>(at));
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradients.get_all(at));
-            let stays_finite = put_stress(&stress, &rest.get_all(at), &mut to, line, at, count);
+            let stays_finite = put_stress(&stress, &rest.get_all(at), &mut to, line, at);
+            finish_stress::<R, REST>(&mut to, line, at, count);
             finite |= R::bits(entries_are_finite(&stress) & stays_finite) << at;
         });
         finite & first_bits(count)
@@ -157,7 +158,8 @@ fn stress_of<E: Scalar, const REST: usize>(backend: Backend, kernel: StressByInv
     }
 }
 
-/// Puts P, or the gradient if there is a shape at rest. Returns where the latter cannot overflow.
+/// Puts P, or the gradient if there is a shape at rest, into its place; [`finish_stress`] must follow.
+/// Returns where the latter cannot overflow.
 #[inline(always)]
 fn put_stress<R: Lanes, const REST: usize>(
     stress: &Matrix3<R>,
@@ -165,18 +167,30 @@ fn put_stress<R: Lanes, const REST: usize>(
     to: &mut Sink<'_, R::Scalar>,
     line: &mut Line<R::Scalar>,
     at: usize,
-    count: usize,
 ) -> R::Mask {
     if REST == 0 {
         put_all(to_row_major(*stress), to.place::<R, 9>(line, at));
-        to.finish::<R, 9>(line, at, count);
         return R::Mask::splat(true);
     }
     let mut shape = [R::splat(0.0); 10];
     shape[..REST].copy_from_slice(rest);
     put_gradient(stress, &shape, to.place::<R, 12>(line, at));
-    to.finish::<R, 12>(line, at, count);
     gradient_is_finite(stress, &shape)
+}
+
+/// Brings what [`put_stress`] has put to the slice.
+#[inline(always)]
+fn finish_stress<R: Lanes, const REST: usize>(
+    to: &mut Sink<'_, R::Scalar>,
+    line: &Line<R::Scalar>,
+    at: usize,
+    count: usize,
+) {
+    if REST == 0 {
+        to.finish::<R, 9>(line, at, count);
+    } else {
+        to.finish::<R, 12>(line, at, count);
+    }
 }
 
 /// Kernel from the edges of a tile's tetrahedra to their deformation gradients, in place: F = Ds Dm⁻¹.
@@ -339,6 +353,7 @@ pub(super) struct RespondByInvariants<'a, E, const REST: usize> {
     pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
+    pub(super) short_line: &'a mut Line<E>,
     /// P, or the gradient if there is a shape at rest.
     pub(super) first: Sink<'a, E>,
     pub(super) second: Sink<'a, E>,
@@ -367,7 +382,16 @@ where
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         let RespondByInvariants {
-            F, invariants, derivatives, rest, count, line, mut first, mut second, ..
+            F,
+            invariants,
+            derivatives,
+            rest,
+            count,
+            line,
+            short_line,
+            mut first,
+            mut second,
+            ..
         } = self.0;
         let mut served = 0;
         for_each_group!(R, count, |at| {
@@ -376,11 +400,13 @@ where
             let rest = rest.get_all(at);
             // The larger output first: what P needs of the registers stays in few.
             let largest = Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
-            second.finish::<R, N>(line, at, count);
             let stress = terms.stress();
             let keeps_digits = terms.keeps_digits(largest) & Form::stays_finite(terms.bound(), &rest);
-            let stays_finite = put_stress(&stress, &rest, &mut first, line, at, count);
+            let stays_finite = put_stress(&stress, &rest, &mut first, short_line, at);
             served |= R::bits(keeps_digits & stays_finite) << at;
+            // Where no register holds anything any more: the transposes need them all.
+            second.finish::<R, N>(line, at, count);
+            finish_stress::<R, REST>(&mut first, short_line, at, count);
         });
         served & first_bits(count)
     }
