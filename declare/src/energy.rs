@@ -7,10 +7,13 @@ use piola::Inversion;
 use piola::interpreter::{ByInvariants, Calls, Interpreted, Programs, Value, Variant, Volume};
 #[cfg(doc)]
 use piola::material::Fittable;
-use piola::material::{Constraint, Description, Form, MaterialError, Parameter, Text, Typical, Unit};
+use piola::material::{
+    Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
+};
 use piola::{Spline, Univariate};
 use piola_codegen::algebra::calls::calls;
 use piola_codegen::algebra::expr::Id;
+use piola_codegen::algebra::invariants;
 use piola_codegen::emit::documentation::documentation;
 use piola_codegen::emit::{Texts, condition_text};
 use piola_codegen::model::{self, Model};
@@ -206,6 +209,11 @@ fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
             bounds: program(model, &by.bounds)?,
             calls: calls_of(declaration, model, by.energy)?,
             has_second_invariant: !model.graph.is_zero(by.gradient[1]),
+            curvature: match by.curvature(&model.graph) {
+                invariants::Curvature::Volume => Curvature::Volume,
+                invariants::Curvature::Separate => Curvature::Separate,
+                invariants::Curvature::All => Curvature::All,
+            },
         }),
     };
     Some(Programs {

@@ -4,8 +4,8 @@ pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;
 pub use crate::material::{
-    Blocks, Constraint, Declared, Description, Fittable, Form, Graded, Inversion, Limit, MaterialError,
-    Mixed, Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
+    Blocks, Constraint, Curvature, Declared, Description, Fittable, Form, Graded, Inversion, Limit,
+    MaterialError, Mixed, Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
 };
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]

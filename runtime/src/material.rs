@@ -110,9 +110,13 @@ pub trait Material: Send + Sync {
     /// root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
-    /// Whether ψ by invariants depends on I2. Where it does not, W2, W22, W12 and W2J are taken for zero, and
-    /// dP/dF takes half as many operations.
+    /// Whether ψ by invariants depends on I2. Where it does not, W2, W22, W12 and W2J are taken for zero,
+    /// what stands for I2 in the arguments means nothing, and dP/dF takes half as many operations.
     const HAS_SECOND_INVARIANT: bool = true;
+
+    /// Second derivatives of ψ by invariants that do not vanish everywhere. The others are taken for zero,
+    /// and dP/dF takes fewer operations.
+    const CURVATURE_BY_INVARIANTS: Curvature = Curvature::All;
 
     /// Whether ψ itself is taken from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
     const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
@@ -129,6 +133,12 @@ pub trait Material: Send + Sync {
     #[inline]
     fn has_second_invariant(&self) -> bool {
         Self::HAS_SECOND_INVARIANT
+    }
+
+    /// [`CURVATURE_BY_INVARIANTS`](Self::CURVATURE_BY_INVARIANTS) of this very material.
+    #[inline]
+    fn curvature_by_invariants(&self) -> Curvature {
+        Self::CURVATURE_BY_INVARIANTS
     }
 
     /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS) of this very material.
@@ -207,6 +217,30 @@ pub trait Material: Send + Sync {
     {
         let _ = (material, response, tile);
         0
+    }
+}
+
+/// Second derivatives of an energy by I1, I2 and J that do not vanish everywhere:
+/// [`Material::CURVATURE_BY_INVARIANTS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curvature {
+    /// WJJ: c I1 + d I2 + g(J).
+    Volume,
+    /// W11 and WJJ: f(I1) + d I2 + g(J).
+    Separate,
+    /// Any of them.
+    All,
+}
+
+impl Curvature {
+    /// Second derivatives of a sum of energies.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::All, _) | (_, Self::All) => Self::All,
+            (Self::Separate, _) | (_, Self::Separate) => Self::Separate,
+            (Self::Volume, Self::Volume) => Self::Volume,
+        }
     }
 }
 

@@ -90,7 +90,7 @@ pub fn evaluate_energy<R: Real>(
 ) -> (R, Status<R::Mask>) {
     let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
     if material.has_energy_by_invariants() {
-        let (invariants, is_in_range) = invariants(F);
+        let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
         by_invariants = material.energy_by_invariants(invariants);
         served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
         if !(!served).any() {
@@ -114,7 +114,7 @@ pub fn evaluate_stress<R: Real>(
 ) -> (Matrix3<R>, Status<R::Mask>) {
     let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
     if material.has_invariants() {
-        let (invariants, is_in_range) = invariants(F);
+        let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
         let gradient = material.gradient_by_invariants(invariants);
         by_invariants = stress_by_invariants::<R, true>(F, gradient);
         served = is_in_range & material.admits_invariants(invariants) & entries_are_finite(&by_invariants);

@@ -48,7 +48,8 @@ impl<E: Stages> Call<'_, E> {
         if !self.properties.has_invariants {
             return 0;
         }
-        E::invariants(self.backend, Invariants { F, count, invariants })
+        let has_second_invariant = self.properties.has_second_invariant;
+        E::invariants(self.backend, Invariants { F, count, has_second_invariant, invariants })
     }
 
     /// Derivatives by the invariants, where they give the tangents of a tile. Returns these points.
@@ -121,7 +122,7 @@ impl<E: Stages> Call<'_, E> {
         tangents: &mut [E],
         mut energies: Option<&mut [E]>,
     ) -> Status<u64> {
-        let Rooms { points, invariants, derivatives, energies: values, blocks, line } = rooms;
+        let Rooms { points, invariants, derivatives, energies: values, blocks, line, short_line } = rooms;
         let fence = NonTemporal::new();
         let has_energy = energies.is_none() || self.properties.has_energy_by_invariants;
         let is_by_invariants = has_energy && form != TangentForm::Factored;
@@ -139,9 +140,11 @@ impl<E: Stages> Call<'_, E> {
                 invariants,
                 derivatives,
                 has_second_invariant: self.properties.has_second_invariant,
+                curvature: self.properties.curvature,
                 rest: Source::NONE,
                 count,
                 line,
+                short_line,
                 first: self.sink(P, 0),
                 second: self.large_sink(tangents, &fence, 0),
             };
@@ -175,7 +178,7 @@ impl<E: Stages> Call<'_, E> {
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Status<u64> {
-        let Rooms { points, invariants, derivatives, blocks, line, .. } = rooms;
+        let Rooms { points, invariants, derivatives, blocks, line, short_line, .. } = rooms;
         let fence = NonTemporal::new();
         let mut served = self.derivatives_by_invariants(F, start, count, invariants, derivatives);
         if served != 0 {
@@ -184,9 +187,11 @@ impl<E: Stages> Call<'_, E> {
                 invariants,
                 derivatives,
                 has_second_invariant: self.properties.has_second_invariant,
+                curvature: self.properties.curvature,
                 rest,
                 count,
                 line,
+                short_line,
                 first: self.sink(gradients, 0),
                 second: self.large_sink(stiffnesses, &fence, 0),
             };

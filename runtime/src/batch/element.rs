@@ -72,7 +72,8 @@ impl ElementTile {
         f64::deform(backend, Deform { edges, rest: rest.source(), count });
         f64::with_workspace(|Workspace { invariants, energies: densities, .. }| {
             let is_served = material.properties().has_energy_by_invariants
-                && self.serves(invariants, |at| material.tile_energies_by_invariants(at, densities));
+                && self
+                    .serves(material, invariants, |at| material.tile_energies_by_invariants(at, densities));
             let status = if is_served {
                 self.points = None;
                 Status::default()
@@ -95,7 +96,8 @@ impl ElementTile {
     ) -> Status<u64> {
         f64::with_workspace(|Workspace { invariants, gradients: principal, line, .. }| {
             if self.points.is_none()
-                && self.serves(invariants, |at| material.tile_gradients_by_invariants(at, principal))
+                && self
+                    .serves(material, invariants, |at| material.tile_gradients_by_invariants(at, principal))
             {
                 let kernel = StressByInvariants {
                     F: self.F.source(),
@@ -153,18 +155,22 @@ impl ElementTile {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> bool {
-        let Properties { has_invariants, has_second_invariant, .. } = material.properties();
-        f64::with_workspace(|Workspace { invariants, derivatives, line, .. }| {
+        let Properties { has_invariants, has_second_invariant, curvature, .. } = material.properties();
+        f64::with_workspace(|Workspace { invariants, derivatives, line, short_line, .. }| {
             let is_served = has_invariants
-                && self.serves(invariants, |at| material.tile_derivatives_by_invariants(at, derivatives));
+                && self.serves(material, invariants, |at| {
+                    material.tile_derivatives_by_invariants(at, derivatives)
+                });
             let kernel = RespondByInvariants {
                 F: self.F.source(),
                 invariants,
                 derivatives,
                 has_second_invariant,
+                curvature,
                 rest: self.rest.source(),
                 count: self.count,
                 line,
+                short_line,
                 first: by_elements(gradients),
                 second: by_elements(stiffnesses),
             };
@@ -201,11 +207,14 @@ impl ElementTile {
     /// all elements.
     fn serves(
         &self,
+        material: &dyn TileMaterial<f64>,
         invariants: &mut Rows<f64, 3>,
         respond: impl FnOnce(Arguments<'_, f64>) -> Status<u64>,
     ) -> bool {
         let Self { backend, start, count, ref F, .. } = *self;
-        let in_range = f64::invariants(backend, Invariants { F: F.source(), count, invariants });
+        let has_second_invariant = material.properties().has_second_invariant;
+        let kernel = Invariants { F: F.source(), count, has_second_invariant, invariants };
+        let in_range = f64::invariants(backend, kernel);
         if in_range != first_bits(count) {
             return false;
         }

@@ -24,12 +24,12 @@ pub(super) trait Form<const REST: usize, const N: usize> {
 
 /// Form that is made without a decomposition as well.
 pub(super) trait FormByInvariants<const REST: usize, const N: usize>: Form<REST, N> {
-    /// Puts number k at k LINE.
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
-        terms: &Terms<R, HAS_SECOND>,
+    /// Puts number k at k LINE. Returns the largest entry on the diagonal of the tangent.
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         rest: &[R; REST],
         to: &mut [R::Scalar],
-    );
+    ) -> R;
 
     /// Whether no number can overflow on the way from the tangent, given a bound of its entries, to the form.
     #[inline(always)]
@@ -81,12 +81,12 @@ impl Form<0, 81> for FullTangent {
 
 impl FormByInvariants<0, 81> for FullTangent {
     #[inline(always)]
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
-        terms: &Terms<R, HAS_SECOND>,
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         _: &[R; 0],
         to: &mut [R::Scalar],
-    ) {
-        terms.assemble(&Entries, &mut Blocks3(Self, to));
+    ) -> R {
+        terms.assemble(&Entries, &mut Blocks3(Self, to))
     }
 }
 
@@ -116,12 +116,12 @@ impl Form<0, 45> for PackedTangent {
 
 impl FormByInvariants<0, 45> for PackedTangent {
     #[inline(always)]
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
-        terms: &Terms<R, HAS_SECOND>,
+    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         _: &[R; 0],
         to: &mut [R::Scalar],
-    ) {
-        terms.assemble(&Entries, &mut Blocks3(Self, to));
+    ) -> R {
+        terms.assemble(&Entries, &mut Blocks3(Self, to))
     }
 }
 
@@ -367,13 +367,13 @@ macro_rules! stiffness_form {
 
         impl FormByInvariants<10, $numbers> for $Form {
             #[inline(always)]
-            fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool>(
-                terms: &Terms<R, HAS_SECOND>,
+            fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+                terms: &Terms<R, HAS_SECOND, HAS_ALL>,
                 rest: &[R; 10],
                 to: &mut [R::Scalar],
-            ) {
+            ) -> R {
                 let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
-                terms.assemble(&coordinates, &mut Stiffness(Self, to));
+                terms.assemble(&coordinates, &mut Stiffness(Self, to))
             }
 
             #[inline(always)]

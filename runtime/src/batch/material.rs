@@ -2,8 +2,9 @@
 
 use super::tile::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
-use crate::material::{Blocks, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
+use crate::material::{Blocks, Curvature, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
+use crate::point::invariants::tangent::has_all;
 use crate::status::Status;
 
 /// The material of a batch's points: the same for all, or one for each.
@@ -91,7 +92,7 @@ macro_rules! tile_responses {
     ($(
         $(#[$doc:meta])*
         $tile:ident: $response:ident ($Kind:ident) within $domain:ident,
-        $rows:literal rows by $to_rows:expr,
+        $rows:literal rows by $to_rows:expr $(, without row $k:ident if $vanishes:expr)?;
         finite where |$at:pat_param, $result:pat_param| $finite:expr;
     )*) => {
         /// A material over tiles of points: implemented for every [`Material`], for [`PerPoint`] and
@@ -131,7 +132,15 @@ macro_rules! tile_responses {
                                 let result = $to_rows(material.$response(at));
                                 let ($at, $result) = (at, result);
                                 finite |= R::bits($finite) << group;
-                                to.set_all(group, result);
+                                                                for row in 0..$rows {
+                                    $(
+                                        let $k = row;
+                                        if $vanishes {
+                                            continue;
+                                        }
+                                    )?
+                                    to.set(row, group, result[row]);
+                                }
                                 admitted |= R::bits(material.$domain(at)) << group;
                             });
                             domain_and_range(count, admitted, finite)
@@ -161,6 +170,7 @@ macro_rules! tile_responses {
                 Properties {
                     has_invariants: materials.iter().all(Material::has_invariants),
                     has_second_invariant: materials.iter().any(Material::has_second_invariant),
+                    curvature: materials.iter().map(Material::curvature_by_invariants).fold(Curvature::Volume, Curvature::and),
                     has_energy_by_invariants: materials.iter().all(Material::has_energy_by_invariants),
                     has_pole: materials.iter().any(Material::has_pole),
                     ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
@@ -174,27 +184,42 @@ macro_rules! tile_responses {
 tile_responses! {
     /// ψ, Pa, from signed principal stretches.
     tile_energies: energy (Energy) within admits,
-    1 rows by |energy| [energy], finite where |stretches, [energy]| energy_is_finite(stretches, energy);
+    1 rows by |energy| [energy]; finite where |stretches, [energy]| energy_is_finite(stretches, energy);
 
     /// ψ1, ψ2, ψ3, Pa.
     tile_gradients: gradient (Gradient) within admits,
-    3 rows by |gradient| gradient, finite where |at, _| anywhere(at);
+    3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
     /// The fifteen components of [`Blocks`], Pa, in the order of its fields.
     tile_blocks: blocks (Blocks) within admits,
-    15 rows by |blocks| to_rows(&blocks), finite where |at, _| anywhere(at);
+    15 rows by |blocks| to_rows(&blocks); finite where |at, _| anywhere(at);
 
     /// ψ, Pa, from I1, I2, J.
     tile_energies_by_invariants: energy_by_invariants (EnergyByInvariants) within admits_invariants,
-    1 rows by |energy| [energy], finite where |_, [energy]| energy.is_finite();
+    1 rows by |energy| [energy]; finite where |_, [energy]| energy.is_finite();
 
     /// W1, W2, WJ, Pa, from I1, I2, J.
     tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
-    3 rows by |gradient| gradient, finite where |at, _| anywhere(at);
+    3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
-    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J.
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what [`vanishes`].
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
-    9 rows by |derivatives| derivatives, finite where |at, _| anywhere(at);
+    9 rows by |derivatives| derivatives, without row k if vanishes::<P::Material>(k);
+    finite where |at, _| anywhere(at);
+}
+
+/// Whether nothing reads derivative k by invariants, since the constants of the material say that it is zero.
+#[inline(always)]
+fn vanishes<M: Material>(k: usize) -> bool {
+    let has_second = M::HAS_SECOND_INVARIANT;
+    let has_all = has_all(has_second, M::CURVATURE_BY_INVARIANTS);
+    match k {
+        1 => !has_second,
+        3 => !has_second && !has_all,
+        7 => !has_all,
+        4 | 6 | 8 => !has_second || !has_all,
+        _ => false,
+    }
 }
 
 /// Properties of a batch's materials that no deformation decides.
@@ -204,6 +229,8 @@ pub struct Properties {
     pub(crate) has_invariants: bool,
     /// Whether ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
     pub(crate) has_second_invariant: bool,
+    /// Second derivatives of ψ by invariants that do not vanish: [`Material::CURVATURE_BY_INVARIANTS`].
+    pub(crate) curvature: Curvature,
     /// Whether ψ is taken from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
     pub(crate) has_energy_by_invariants: bool,
     /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].

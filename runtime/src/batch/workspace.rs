@@ -19,6 +19,8 @@ pub struct Workspace<E> {
     pub(super) rest: Lines<E, 10>,
     pub(super) factors: Lines<E, 30>,
     pub(super) line: Line<E>,
+    /// Room for P or gradients beside what is in [`line`](Self::line).
+    pub(super) short_line: Line<E>,
 }
 
 /// Memory between the stages of a tile for stresses and tangents.
@@ -29,13 +31,14 @@ pub(super) struct Rooms<'w, E> {
     pub(super) energies: &'w mut Rows<E, 1>,
     pub(super) blocks: &'w mut Rows<E, 15>,
     pub(super) line: &'w mut Line<E>,
+    pub(super) short_line: &'w mut Line<E>,
 }
 
 impl<E: Scalar> Workspace<E> {
     /// Room for deformation gradients and for shapes at rest, and what lies between the stages.
     pub(super) fn for_elements(&mut self) -> (&mut Lines<E, 9>, &mut Lines<E, 10>, Rooms<'_, E>) {
-        let Self { F, rest, points, invariants, derivatives, energies, blocks, line, .. } = self;
-        (F, rest, Rooms { points, invariants, derivatives, energies, blocks, line })
+        let Self { F, rest, points, invariants, derivatives, energies, blocks, line, short_line, .. } = self;
+        (F, rest, Rooms { points, invariants, derivatives, energies, blocks, line, short_line })
     }
 
     pub(super) fn new() -> Box<Self> {
@@ -51,6 +54,7 @@ impl<E: Scalar> Workspace<E> {
             rest: Lines::zero(),
             factors: Lines::zero(),
             line: Line::zero(),
+            short_line: Line::zero(),
         })
     }
 }

@@ -5,7 +5,7 @@ use super::subject::Subject;
 use super::{
     Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
 };
-use crate::material::{Blocks, PAIRS};
+use crate::material::{Blocks, Curvature, PAIRS};
 
 /// Change of the second derivatives by a relative change of the stretches, per change, Pa.
 fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>) -> f64 {
@@ -51,6 +51,18 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
             judge.compare(|| "energy by invariants".into(), stretches, found, expected, tolerance)?;
         }
 
+        let [w1, w2, wj, w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
+        let mixed = [("W22", w22), ("W12", w12), ("W1J", w1j), ("W2J", w2j)];
+        let vanishing = match material.curvature_by_invariants() {
+            Curvature::Volume => &[&[("W11", w11)], &mixed[..]].concat()[..],
+            Curvature::Separate => &mixed,
+            Curvature::All => &[],
+        };
+        for &(name, derivative) in vanishing {
+            let component = || format!("vanishing of {name}, as `CURVATURE_BY_INVARIANTS` says");
+            judge.holds(component, stretches, derivative == 0.0, "state another `Curvature`")?;
+        }
+
         let gradient = material.gradient(stretches);
         let first = material.gradient_by_invariants(invariants);
         // ∂I1/∂λi, ∂I2/∂λi, ∂J/∂λi.
@@ -70,7 +82,6 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
             compare(&gradient_name(i), &terms, gradient[i], scale)?;
         }
 
-        let [w1, w2, wj, w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
         let second = [[w11, w12, w1j], [w12, w22, w2j], [w1j, w2j, wjj]];
         let blocks = material.blocks(stretches);
         // Invariants are rounded as stretches are.

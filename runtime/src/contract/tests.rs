@@ -3,7 +3,7 @@
 use super::*;
 use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 use crate::lanes::{Mask, Real};
-use crate::material::{Moduli, PAIRS};
+use crate::material::{Curvature, Moduli, PAIRS};
 
 #[track_caller]
 fn check_passes(material: &impl Material, settings: &Settings) {
@@ -24,7 +24,7 @@ fn right_materials_pass() {
         check_passes(&SaintVenantKirchhoff, &settings);
         check_passes(&NeoHookean, &settings);
         check_passes(&RotatedLinear, &settings);
-        check_passes(&ByInvariants { w2: -0.5, w11: 0.875 }, &settings);
+        check_passes(&ByInvariants::<true> { w2: -0.5, w11: 0.875 }, &settings);
         for epsilon in [0.1, 0.3, 0.7] {
             check_passes(&ExtendedNeoHookean { epsilon }, &settings);
         }
@@ -224,14 +224,16 @@ fn below<R: Real>(x: R) -> R {
     (x - R::splat(0.3)).min(R::splat(0.0))
 }
 
-/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −1/2 and W11 = 7/8.
-struct ByInvariants {
+/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −1/2 and W11 = 7/8, and if W11 is said not to vanish.
+struct ByInvariants<const IS_SEPARATE: bool> {
     w2: f64,
     w11: f64,
 }
 
-impl Material for ByInvariants {
+impl<const IS_SEPARATE: bool> Material for ByInvariants<IS_SEPARATE> {
     const HAS_INVARIANTS: bool = true;
+    const CURVATURE_BY_INVARIANTS: Curvature =
+        if IS_SEPARATE { Curvature::Separate } else { Curvature::Volume };
 
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         SaintVenantKirchhoff.energy(l)
@@ -336,11 +338,16 @@ fn defects_that_one_rule_sees_are_named_by_it() {
         "second derivative of the energy by stretch 1 on the portable back end",
     );
     // Points take their stress from W2 as well, and other rules see that.
-    check_names(&ByInvariants { w2: 0.5, w11: 0.875 }, Rule::Invariants, "by invariants");
+    check_names(&ByInvariants::<true> { w2: 0.5, w11: 0.875 }, Rule::Invariants, "by invariants");
     check_names_alone(
-        &ByInvariants { w2: -0.5, w11: 0.5 },
+        &ByInvariants::<true> { w2: -0.5, w11: 0.5 },
         Rule::Invariants,
         "second derivative of the energy by stretch 1, from those by invariants",
+    );
+    check_names_alone(
+        &ByInvariants::<false> { w2: -0.5, w11: 0.875 },
+        Rule::Invariants,
+        "vanishing of W11, as `CURVATURE_BY_INVARIANTS` says",
     );
     check_names_alone(&plain(Defect::JumpingEnergy), Rule::StressSlope, "energy");
     check_names_alone(&plain(Defect::DeniesItsEnd), Rule::Domain, "ends_at_zero_volume");
@@ -403,7 +410,10 @@ fn what_a_material_has_not_is_not_asked_for() {
     assert!(without.iter().all(|rule| !plain.contains(rule)));
     assert_eq!(plain.len(), Rule::ALL.len() - without.len());
     assert!(rules(&|| check(&ExtendedNeoHookean { epsilon: 0.3 }, &settings)).contains(&Rule::Extension));
-    assert!(rules(&|| check(&ByInvariants { w2: -0.5, w11: 0.875 }, &settings)).contains(&Rule::Invariants));
+    assert!(
+        rules(&|| check(&ByInvariants::<true> { w2: -0.5, w11: 0.875 }, &settings))
+            .contains(&Rule::Invariants)
+    );
 }
 
 mod messages;

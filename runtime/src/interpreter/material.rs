@@ -6,7 +6,7 @@ use super::execute::{Context, Registers, execute_alone, execute_tile};
 use super::parameters::{Parameters, Values};
 use super::program::{Program, Sizes};
 use crate::lanes::{Mask, Real, Scalar};
-use crate::material::{Blocks, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
+use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
 use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.
@@ -60,6 +60,8 @@ pub struct ByInvariants {
     pub calls: Vec<Calls>,
     /// Whether ψ depends on I2.
     pub has_second_invariant: bool,
+    /// Second derivatives that do not vanish everywhere.
+    pub curvature: Curvature,
 }
 
 /// Calls of functions: an energy is defined where each function admits its argument.
@@ -329,6 +331,10 @@ impl Material for Interpreted {
 
     fn has_second_invariant(&self) -> bool {
         self.programs.by_invariants.as_ref().is_none_or(|programs| programs.has_second_invariant)
+    }
+
+    fn curvature_by_invariants(&self) -> Curvature {
+        self.programs.by_invariants.as_ref().map_or(Curvature::All, |programs| programs.curvature)
     }
 
     fn has_energy_by_invariants(&self) -> bool {

@@ -67,7 +67,7 @@ macro_rules! register {
         $(#[$doc:meta])*
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, mask $Mask:ty,
         features $features:literal, splat $splat:ident, load $load:ident, store $store:ident, stream $stream:ident,
-        transpose $transpose:path, add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident,
+        transpose $transpose:path, narrower $Narrower:ident, add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident,
         mul_add $mul_add:ident, sqrt $sqrt:ident, max $max:ident, min $min:ident,
         xor $xor:ident, and_not $and_not:ident,
         bits |$bits_of:ident| $bits:expr,
@@ -117,22 +117,30 @@ macro_rules! register {
                 to: &mut [$Number],
                 to_stride: usize,
             ) {
+                // What is before the end of the last row, and so every entry, is in its slice.
+                let end = |rows: usize, columns: usize, stride: usize| {
+                    (rows - 1).checked_mul(stride).and_then(|start| start.checked_add(columns))
+                };
+                assert!(end(rows, columns, from_stride).is_some_and(|end| end <= from.len()));
+                assert!(end(columns, rows, to_stride).is_some_and(|end| end <= to.len()));
+                let (from, to) = (from.as_ptr(), to.as_mut_ptr());
                 let mut i = 0;
                 while i < rows {
                     i = i.min(rows - $lanes);
                     let mut j = 0;
                     while j < columns {
                         j = j.min(columns - $lanes);
-                        let from = &from[i * from_stride + j..][..($lanes - 1) * from_stride + $lanes];
-                        let to = &mut to[j * to_stride + i..][..($lanes - 1) * to_stride + $lanes];
                         let mut square = [Self::splat(0.0).0; $lanes];
-                        for k in 0..$lanes {
-                            square[k] = Self::load(&from[k * from_stride..]).0;
-                        }
-                        // SAFETY: this function has the condition of that one.
-                        let square = unsafe { $transpose(square) };
-                        for k in 0..$lanes {
-                            Self(square[k]).store(&mut to[k * to_stride..]);
+                        // SAFETY: `$lanes` rows of either matrix from i and j on have `$lanes` entries
+                        // each, which are in their slices; this function has `$transpose`'s condition.
+                        unsafe {
+                            for k in 0..$lanes {
+                                square[k] = $load(from.add((i + k) * from_stride + j));
+                            }
+                            square = $transpose(square);
+                            for k in 0..$lanes {
+                                $store(to.add((j + k) * to_stride + i), square[k]);
+                            }
                         }
                         j += $lanes;
                     }
@@ -206,7 +214,7 @@ macro_rules! register {
                 to_stride: usize,
             ) {
                 if size[0] < $lanes || size[1] < $lanes {
-                    return <$Number as Lanes>::transpose(size, from, from_stride, to, to_stride);
+                    return $Narrower::transpose(size, from, from_stride, to, to_stride);
                 }
                 // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
                 unsafe { Self::transpose_squares(size, from, from_stride, to, to_stride) }
@@ -357,7 +365,7 @@ register_512! {
         y.mul_add(e * series, y)
     },
     features "avx512f", splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd,
-    transpose transpose::transpose_f64x8,
+    transpose transpose::transpose_f64x8, narrower F64x4,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
     mul_add _mm512_fmadd_pd, sqrt _mm512_sqrt_pd, max _mm512_max_pd, min _mm512_min_pd,
     xor _mm512_xor_pd, and_not _mm512_andnot_pd,
@@ -377,7 +385,7 @@ register_512! {
         y.mul_add(e * Self::splat(0.5), y)
     },
     features "avx512f", splat _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps,
-    transpose transpose::transpose_f32x16,
+    transpose transpose::transpose_f32x16, narrower F32x8,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
     mul_add _mm512_fmadd_ps, sqrt _mm512_sqrt_ps, max _mm512_max_ps, min _mm512_min_ps,
     xor _mm512_xor_ps, and_not _mm512_andnot_ps,
@@ -535,7 +543,7 @@ register_256! {
     },
     xor _mm256_xor_pd, and_not _mm256_andnot_pd,
     features "avx2,fma", splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd, stream _mm256_stream_pd,
-    transpose transpose::transpose_f64x4,
+    transpose transpose::transpose_f64x4, narrower f64,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd,
     mul_add _mm256_fmadd_pd, sqrt _mm256_sqrt_pd, max _mm256_max_pd, min _mm256_min_pd,
 }
@@ -568,7 +576,7 @@ register_256! {
     },
     xor _mm256_xor_ps, and_not _mm256_andnot_ps,
     features "avx2,fma", splat _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps, stream _mm256_stream_ps,
-    transpose transpose::transpose_f32x8,
+    transpose transpose::transpose_f32x8, narrower f32,
     add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
     mul_add _mm256_fmadd_ps, sqrt _mm256_sqrt_ps, max _mm256_max_ps, min _mm256_min_ps,
 }

@@ -5,7 +5,9 @@
 //! its parts.
 
 use super::response::with_responses;
-use super::{Argument, Blocks, Graded, Inversion, Material, MaterialError, Moduli, ParameterValue, PerLane};
+use super::{
+    Argument, Blocks, Curvature, Graded, Inversion, Material, MaterialError, Moduli, ParameterValue, PerLane,
+};
 use crate::lanes::Real;
 
 /// The sum of two energies: ψ = ψa + ψb.
@@ -148,6 +150,7 @@ macro_rules! sum_responses {
         impl<A: Material, B: Material> Material for Sum<A, B> {
             const HAS_INVARIANTS: bool = A::HAS_INVARIANTS && B::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = A::HAS_SECOND_INVARIANT || B::HAS_SECOND_INVARIANT;
+            const CURVATURE_BY_INVARIANTS: Curvature = A::CURVATURE_BY_INVARIANTS.and(B::CURVATURE_BY_INVARIANTS);
             const HAS_ENERGY_BY_INVARIANTS: bool = A::HAS_ENERGY_BY_INVARIANTS && B::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
@@ -166,6 +169,9 @@ macro_rules! sum_responses {
             }
             fn has_second_invariant(&self) -> bool {
                 self.a.has_second_invariant() || self.b.has_second_invariant()
+            }
+            fn curvature_by_invariants(&self) -> Curvature {
+                self.a.curvature_by_invariants().and(self.b.curvature_by_invariants())
             }
             fn has_energy_by_invariants(&self) -> bool {
                 self.a.has_energy_by_invariants() && self.b.has_energy_by_invariants()
@@ -196,6 +202,7 @@ macro_rules! sum_responses {
         impl<M: Material, P: ParameterValue> Material for Scaled<M, P> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
             const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
@@ -214,6 +221,9 @@ macro_rules! sum_responses {
             }
             fn has_second_invariant(&self) -> bool {
                 self.material.has_second_invariant()
+            }
+            fn curvature_by_invariants(&self) -> Curvature {
+                self.material.curvature_by_invariants()
             }
             fn has_energy_by_invariants(&self) -> bool {
                 self.material.has_energy_by_invariants()

@@ -2,7 +2,7 @@
 
 use super::parameter::LANES;
 use super::response::with_responses;
-use super::{Blocks, Inversion, Material, Moduli};
+use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::{Mask, Real};
 
 /// A material for each lane, at most 16: how materials are [`Graded`](super::Graded) whose parameters are not
@@ -101,6 +101,7 @@ macro_rules! mixed_responses {
         impl<M: Material + PartialEq> Material for Mixed<'_, M> {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
             const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
@@ -121,6 +122,10 @@ macro_rules! mixed_responses {
             }
             fn has_second_invariant(&self) -> bool {
                 self.materials.iter().any(|material| material.has_second_invariant())
+            }
+            fn curvature_by_invariants(&self) -> Curvature {
+                let all = self.materials.iter().map(|material| material.curvature_by_invariants());
+                all.fold(Curvature::Volume, Curvature::and)
             }
             fn has_energy_by_invariants(&self) -> bool {
                 self.materials.iter().all(|material| material.has_energy_by_invariants())

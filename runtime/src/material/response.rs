@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Blocks, Inversion, Material, Moduli};
+use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::{Backend, Real, Scalar};
 
 /// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
@@ -97,6 +97,8 @@ macro_rules! declare_response {
             fn has_invariants(&self) -> bool;
             /// Forwards to [`Material::has_second_invariant`].
             fn has_second_invariant(&self) -> bool;
+            /// Forwards to [`Material::curvature_by_invariants`].
+            fn curvature_by_invariants(&self) -> Curvature;
             /// Forwards to [`Material::has_energy_by_invariants`].
             fn has_energy_by_invariants(&self) -> bool;
             /// Forwards to [`Material::has_pole`].
@@ -127,6 +129,10 @@ macro_rules! declare_response {
                 Material::has_second_invariant(self)
             }
             #[inline]
+            fn curvature_by_invariants(&self) -> Curvature {
+                Material::curvature_by_invariants(self)
+            }
+            #[inline]
             fn has_energy_by_invariants(&self) -> bool {
                 Material::has_energy_by_invariants(self)
             }
@@ -148,6 +154,7 @@ macro_rules! forward_to_pointee {
         $($head)* {
             const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
             const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
             const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
@@ -166,6 +173,9 @@ macro_rules! forward_to_pointee {
             }
             fn has_second_invariant(&self) -> bool {
                 (**self).has_second_invariant()
+            }
+            fn curvature_by_invariants(&self) -> Curvature {
+                (**self).curvature_by_invariants()
             }
             fn has_energy_by_invariants(&self) -> bool {
                 (**self).has_energy_by_invariants()

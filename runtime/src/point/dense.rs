@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::invariants::invariants;
-use super::invariants::tangent::{Entries, Terms};
+use super::invariants::tangent::{Entries, Terms, has_all};
 use super::{Filter, Matrix3, evaluate};
 use crate::lanes::{Mask, Real};
 use crate::material::Response;
@@ -59,10 +59,12 @@ pub fn evaluate_dense<R: Real>(
     if filter != Filter::None || !material.has_invariants() {
         return by_decomposition(material, F, filter);
     }
-    let (served, mut dense) = if material.has_second_invariant() {
-        by_invariants::<R, true>(material, F)
-    } else {
-        by_invariants::<R, false>(material, F)
+    let has_second = material.has_second_invariant();
+    let (served, mut dense) = match (has_second, has_all(has_second, material.curvature_by_invariants())) {
+        (true, true) => by_invariants::<R, true, true>(material, F),
+        (true, false) => by_invariants::<R, true, false>(material, F),
+        (false, true) => by_invariants::<R, false, true>(material, F),
+        (false, false) => by_invariants::<R, false, false>(material, F),
     };
     if (!served).any() {
         let other = by_decomposition(material, F, filter);
@@ -91,15 +93,15 @@ fn by_decomposition<R: Real>(
 
 /// Where the invariants serve, and what they give there; elsewhere that means nothing.
 #[inline(always)]
-fn by_invariants<R: Real, const HAS_SECOND: bool>(
+fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (R::Mask, DensePoint<R>) {
-    let (invariants, is_in_range) = invariants(F);
+    let (invariants, is_in_range) = invariants(F, HAS_SECOND);
     let derivatives = material.derivatives_by_invariants(invariants);
-    let terms = Terms::<R, HAS_SECOND>::new(F, invariants, &derivatives);
+    let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(F, invariants, &derivatives);
     let mut tangent = [[R::splat(0.0); 9]; 9];
-    terms.assemble(&Entries, &mut tangent);
-    let served = is_in_range & material.admits_invariants(invariants) & terms.keeps_digits();
+    let largest = terms.assemble(&Entries, &mut tangent);
+    let served = is_in_range & material.admits_invariants(invariants) & terms.keeps_digits(largest);
     (served, DensePoint { stress: terms.stress(), tangent, status: Status::clean() })
 }

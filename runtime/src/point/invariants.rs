@@ -12,38 +12,58 @@
 //!
 //! D is I1 F − F Fᵀ F, but without a difference of cubes.
 //!
-//! What floating point does here. I1 and I2 are sums of squares, and J comes from a determinant in twice
-//! the working precision, so that each is as good as F determines it: within a few u of its sensitivity to
-//! relative changes of F by 1. So is P. Entries of F that a plane of symmetry makes zero make the same
-//! entries of P exactly zero.
+//! What floating point does here. I1 and I2 are sums of squares, and J is a sum of three entries times minors
+//! that are within 2u of themselves, so that each is as good as F determines it: within a few u of its
+//! sensitivity to relative changes of F by 1. So is P. A determinant in twice the working precision, from
+//! which a decomposition takes the sign of a tiny λ3, is not needed where that sum keeps its first digits.
+//! Entries of F that a plane of symmetry makes zero make the same entries of P exactly zero.
 //!
 //! \[BGO15\] Bonet, Gil, Ortigosa, *A computational framework for polyconvex large strain elasticity*, 2015.
 
 #![expect(non_snake_case, reason = "F, C, D, P, I1, I2, J as in the text above")]
 
+use super::Matrix3;
 use super::matrix::{dot, three};
-use super::svd::determinant;
-use super::{Matrix3, entries_are_finite};
 use crate::lanes::Real;
 
 pub(crate) mod tangent;
 
-/// I1, I2, J; and whether all of them, and what is computed from them, stay in range.
+/// I1, I2, J; and whether all of them, and what is computed from them, stay in range. I2 is zero where it is
+/// not asked for.
 #[inline(always)]
-pub(crate) fn invariants<R: Real>(F: &Matrix3<R>) -> ([R; 3], R::Mask) {
-    let rows: [R; 3] = three!(i => F[i][0].abs().max(F[i][1].abs()).max(F[i][2].abs()));
-    let largest = rows[0].max(rows[1]).max(rows[2]);
-    // The eighth root of the range: I2 and the error terms of the determinant are of degree 4 and 6.
-    let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.125)), R::splat(R::MIN_POSITIVE.powf(-0.125)));
-    let J = determinant(F);
-    // Nearer to zero, products of entries underflow, here or relative to the largest one. A decomposition
-    // cannot tell the sign then, and it is the decomposition that refuses.
-    let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
-    let smallest = threshold.mul_add(largest * largest * largest, threshold);
-    let room = (largest - low).min(high - largest).min(J.abs() - smallest);
-    let is_in_range = R::splat(0.0).less(room) & entries_are_finite(F);
+pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], R::Mask) {
+    let I1 = square(F);
+    let normal = exact_minors(F);
+    let terms = three!(j => F[0][j] * normal[j]);
+    let J = F[0][0].mul_add(normal[0], F[0][1].mul_add(normal[1], terms[2]));
+    let I2 = if has_second {
+        let [_, second, third] = cofactor(F);
+        dot(normal, normal) + dot(second, second) + dot(third, third)
+    } else {
+        R::splat(0.0)
+    };
 
-    ([square(F), square(&cofactor(F)), J], is_in_range)
+    // The eighth root of the range of entries: I2 and N below are of degree 4 and 6.
+    let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.25)), R::splat(R::MIN_POSITIVE.powf(-0.25)));
+    // Nearer to zero, products of entries underflow, here or relative to the largest one, or J is less than
+    // 2¹⁰ times what rounding does to its terms, so that neither its digits nor its sign are sure. There a
+    // point is decomposed, and it is the decomposition that refuses.
+    let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
+    let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
+    let smallest = R::splat(1024.0 * R::UNIT_ROUNDOFF).mul_add(size, threshold.mul_add(I1 * I1, threshold));
+    let room = (I1 - low).min(high - I1).min(J.abs() - smallest);
+    ([I1, I2, J], R::splat(0.0).less(room))
+}
+
+/// Minors of the first row of F, each within 2u of itself where no product underflows.
+#[inline(always)]
+fn exact_minors<R: Real>(F: &Matrix3<R>) -> [R; 3] {
+    three!(j => {
+        let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+        let ((left, left_error), (right, right_error)) =
+            (F[1][k].two_product(F[2][l]), F[1][l].two_product(F[2][k]));
+        (left - right) + (left_error - right_error)
+    })
 }
 
 /// Squared Frobenius norm |A|².

@@ -30,6 +30,30 @@ pub struct ByInvariants {
     pub bounds: Vec<Id>,
 }
 
+/// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curvature {
+    /// WJJ alone.
+    Volume,
+    /// W11 and WJJ.
+    Separate,
+    /// Any of them.
+    All,
+}
+
+impl ByInvariants {
+    /// The second derivatives that do not vanish everywhere.
+    #[must_use]
+    pub fn curvature(&self, graph: &Graph) -> Curvature {
+        let [w11, w22, _, w12, w1j, w2j] = self.hessian.map(|derivative| !graph.is_zero(derivative));
+        match (w11, w22 || w12 || w1j || w2j) {
+            (false, false) => Curvature::Volume,
+            (true, false) => Curvature::Separate,
+            (_, true) => Curvature::All,
+        }
+    }
+}
+
 /// The derivatives of an energy of I1, I2, J, with the bounds of its domain, and the energy itself if it has
 /// its digits.
 pub fn by_invariants(graph: &mut Graph, energy: Id, has_energy: bool, bounds: Vec<Id>) -> ByInvariants {

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::functions;
 use super::writer::{Writer, free_name};
+use crate::algebra::invariants::Curvature;
 use crate::model::Model;
 use crate::read::domain::Volume;
 use crate::read::parse::Declaration;
@@ -65,10 +66,16 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
+    let curvature = match invariants.curvature(&model.graph) {
+        Curvature::Volume => quote!(Volume),
+        Curvature::Separate => quote!(Separate),
+        Curvature::All => quote!(All),
+    };
 
     quote! {
         const HAS_INVARIANTS: bool = true;
         const HAS_SECOND_INVARIANT: bool = #has_second;
+        const CURVATURE_BY_INVARIANTS: __p::Curvature = __p::Curvature::#curvature;
         #has_no_energy
 
         #energy

@@ -547,6 +547,7 @@ const _: () = {
         }
         const HAS_INVARIANTS: bool = true;
         const HAS_SECOND_INVARIANT: bool = false;
+        const CURVATURE_BY_INVARIANTS: __p::Curvature = __p::Curvature::Separate;
         #[inline(always)]
         #[allow(non_snake_case)]
         fn energy_by_invariants<R: __p::Real>(&self, [I1, I2, J]: [R; 3]) -> R {

@@ -81,7 +81,11 @@ fn why_nothing_was_compared_is_told() {
     let without_points = Settings { points: 0, ..settings };
     check(objectivity(&NeoHookean, &without_points), Rule::Objectivity, none);
     check(extension(&ExtendedNeoHookean { epsilon: 0.3 }, &without_points), Rule::Extension, none);
-    check(invariants(&ByInvariants { w2: -0.5, w11: 0.875 }, &without_points), Rule::Invariants, none);
+    check(
+        invariants(&ByInvariants::<true> { w2: -0.5, w11: 0.875 }, &without_points),
+        Rule::Invariants,
+        none,
+    );
 }
 
 #[test]

@@ -44,14 +44,21 @@
 #![expect(non_snake_case, reason = "F, C, D, P, T, I1, I2, J, W as in the text above")]
 
 use super::super::Matrix3;
-use super::super::matrix::{dot, multiply_transposed, three};
+#[cfg(feature = "batch")]
+use super::super::matrix::multiply_transposed;
+use super::super::matrix::{dot, three};
 use super::super::tangent::Assemble;
-use super::{cofactor, cross, stress_of_terms};
+use super::{cofactor, cross, square, stress_of_terms};
 use crate::lanes::Real;
+use crate::material::Curvature;
 
-/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P.
+/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
+/// without `HAS_SECOND` or `HAS_ALL` as in [`Terms`].
 #[inline(always)]
-fn bounds<R: Real, const HAS_SECOND: bool>([I1, I2, J]: [R; 3], derivatives: &[R; 9]) -> (R, R) {
+fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+    [I1, I2, J]: [R; 3],
+    derivatives: &[R; 9],
+) -> (R, R) {
     let mut sizes = *derivatives;
     for size in &mut sizes {
         *size = size.abs();
@@ -60,33 +67,46 @@ fn bounds<R: Real, const HAS_SECOND: bool>([I1, I2, J]: [R; 3], derivatives: &[R
     let (two, four) = (R::splat(2.0), R::splat(4.0));
     let (f, c) = (I1.rough_sqrt(), I2.rough_sqrt());
     let (first, last) = (two * W1, f.mul_add(WJ, c * (c * WJJ)));
-    let own = (two * f).mul_add((two * f).mul_add(W11, two * c * W1J), first + last);
+    let mut own = first + last;
+    if HAS_SECOND || HAS_ALL {
+        own = (two * f).mul_add(two * f * W11, own);
+    }
+    if HAS_ALL {
+        own = (two * f).mul_add(two * c * W1J, own);
+    }
     let stress = f.mul_add(first, c * WJ);
     if !HAS_SECOND {
         return (own, stress);
     }
     let d = R::splat(3.0).mul_add(J * J, I1 * I2).rough_sqrt();
-    let second = two * W2 * R::splat(3.0).mul_add(I1, c);
-    let mixed = four * d * d.mul_add(W22, (two * f).mul_add(W12, c * W2J));
-    (own + second + mixed, d.mul_add(two * W2, stress))
+    let mut tangent = (two * W2).mul_add(R::splat(3.0).mul_add(I1, c), own);
+    if HAS_ALL {
+        tangent = (four * d).mul_add(d.mul_add(W22, (two * f).mul_add(W12, c * W2J)), tangent);
+    }
+    (tangent, d.mul_add(two * W2, stress))
 }
 
 /// Coordinates in which a tangent is wanted: the rows of W.
 pub(crate) trait Coordinates<R> {
+    /// Whether W = I.
+    const ARE_ENTRIES: bool;
+
     /// A Wᵀ.
     fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R>;
 
     /// A (cof W)ᵀ.
     fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R>;
 
-    /// `sum` + `factor` (W Wᵀ)xy.
-    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R;
+    /// `factor` (W Wᵀ)xy; `None` if it is zero for any factor.
+    fn metric(&self, x: usize, y: usize, factor: R) -> Option<R>;
 }
 
 /// W = I: the coordinates of dP/dF.
 pub(crate) struct Entries;
 
 impl<R: Real> Coordinates<R> for Entries {
+    const ARE_ENTRIES: bool = true;
+
     #[inline(always)]
     fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
         *A
@@ -98,8 +118,8 @@ impl<R: Real> Coordinates<R> for Entries {
     }
 
     #[inline(always)]
-    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R {
-        if x == y { sum + factor } else { sum }
+    fn metric(&self, x: usize, y: usize, factor: R) -> Option<R> {
+        (x == y).then_some(factor)
     }
 }
 
@@ -115,12 +135,14 @@ pub(crate) struct RowsOf<R> {
 impl<R: Real> RowsOf<R> {
     #[inline(always)]
     pub(crate) fn new(W: Matrix3<R>) -> Self {
-        Self { rows: W, normals: cofactor(&W), metric: multiply_transposed(&W, &W) }
+        Self { rows: W, normals: cofactor(&W), metric: gram(&W) }
     }
 }
 
 #[cfg(feature = "batch")]
 impl<R: Real> Coordinates<R> for RowsOf<R> {
+    const ARE_ENTRIES: bool = false;
+
     #[inline(always)]
     fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
         multiply_transposed(A, &self.rows)
@@ -132,8 +154,8 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
     }
 
     #[inline(always)]
-    fn plus_metric(&self, x: usize, y: usize, factor: R, sum: R) -> R {
-        factor.mul_add(self.metric[x][y], sum)
+    fn metric(&self, x: usize, y: usize, factor: R) -> Option<R> {
+        Some(factor * self.metric[x][y])
     }
 }
 
@@ -153,9 +175,12 @@ macro_rules! pairs {
     }};
 }
 
-/// The matrices and factors that P and dP/dF are made of at a point. Without `HAS_SECOND`, derivatives by I2
-/// are taken for zero.
-pub(crate) struct Terms<R, const HAS_SECOND: bool> {
+/// The matrices and factors that P and dP/dF are made of at a point.
+///
+/// Without `HAS_SECOND`, derivatives by I2 are taken for zero. Without `HAS_ALL`, so are the second
+/// derivatives other than WJJ and, with `HAS_SECOND`, W11. The few forms that this makes are each compiled
+/// for every output.
+pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool> {
     F: Matrix3<R>,
     C: Matrix3<R>,
     D: Matrix3<R>,
@@ -171,7 +196,17 @@ pub(crate) struct Terms<R, const HAS_SECOND: bool> {
     bounds: (R, R),
 }
 
-impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
+/// Whether an energy needs [`Terms`] with `HAS_ALL`.
+#[inline(always)]
+pub(crate) fn has_all(has_second: bool, curvature: Curvature) -> bool {
+    match curvature {
+        Curvature::Volume => false,
+        Curvature::Separate => !has_second,
+        Curvature::All => true,
+    }
+}
+
+impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, HAS_ALL> {
     /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
     #[inline(always)]
     pub(crate) fn new(F: &Matrix3<R>, invariants: [R; 3], derivatives: &[R; 9]) -> Self {
@@ -180,6 +215,8 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         let (p1, p2) = (two * W1, two * W2);
         let C = cofactor(F);
         let D = if HAS_SECOND { cross(&C, F) } else { C };
+        let [I1, I2, J] = invariants;
+        let invariants = [I1, if HAS_SECOND { I2 } else { square(&C) }, J];
         let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
         Self {
             F: *F,
@@ -190,10 +227,10 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
                 let T = WJ * F[i][j];
                 if HAS_SECOND { p2.mul_add(C[i][j], T) } else { T }
             })),
-            b: multiply_transposed(F, F),
-            along: [if HAS_SECOND { p2.mul_add(invariants[0], p1) } else { p1 }, p2],
+            b: if HAS_SECOND { gram(F) } else { *F },
+            along: [if HAS_SECOND { p2.mul_add(I1, p1) } else { p1 }, p2],
             factors: [[if HAS_SECOND { a11 + p2 } else { a11 }, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]],
-            bounds: bounds::<R, HAS_SECOND>(invariants, derivatives),
+            bounds: bounds::<R, HAS_SECOND, HAS_ALL>(invariants, derivatives),
         }
     }
 
@@ -210,31 +247,48 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         self.bounds.0
     }
 
-    /// Whether dP/dF has the digits that it has by a decomposition, and nothing on the way to it or to P
-    /// leaves the range.
+    /// Whether dP/dF has the digits that it has by a decomposition, given the largest entry on its diagonal,
+    /// and nothing on the way to it or to P leaves the range.
     #[inline(always)]
-    pub(crate) fn keeps_digits(&self) -> R::Mask {
-        let mut largest = R::splat(0.0);
-        for a in 0..3 {
-            let h = self.products(a, &self.F, &self.D, &self.C);
-            for x in 0..3 {
-                let entry = self.on_diagonal(a, x, x, &self.F, &self.D, &self.C, &h);
-                largest = (entry + self.metric_factor(a)).abs().max(largest);
-            }
-        }
+    pub(crate) fn keeps_digits(&self, largest: R) -> R::Mask {
         let (tangent, stress) = self.bounds;
         // Of tiny F the factors are far larger than the products.
         let [[a11, a12, a1J], [_, a22, a2J], [.., aJJ]] = self.factors;
-        let mut sizes = tangent + stress + a11.abs() + a1J.abs() + aJJ.abs();
-        if HAS_SECOND {
+        let mut sizes = tangent + stress + aJJ.abs();
+        if HAS_SECOND || HAS_ALL {
+            sizes = sizes + a11.abs();
+        }
+        if HAS_ALL {
+            sizes = sizes + a1J.abs();
+        }
+        if HAS_SECOND && HAS_ALL {
             sizes = sizes + a12.abs() + a22.abs() + a2J.abs();
         }
         tangent.less(R::splat(MAX_CANCELLATION) * largest) & (R::splat(16.0) * sizes).is_finite()
     }
 
+    /// The largest entry on the diagonal of dP/dF, Pa.
+    #[inline(always)]
+    fn largest_on_diagonal(&self) -> R {
+        let mut largest = R::splat(0.0);
+        for a in 0..3 {
+            let h = self.products(a, &self.F, &self.D, &self.C);
+            for x in 0..3 {
+                let metric = Some(self.metric_factor(a));
+                let entry = self.on_diagonal(a, x, x, &self.F, &self.D, &self.C, &h, metric);
+                largest = entry.abs().max(largest);
+            }
+        }
+        largest
+    }
+
     /// hF, hD and hC in a row, a triple for each column.
     #[inline(always)]
     fn products(&self, row: usize, F: &Matrix3<R>, D: &Matrix3<R>, C: &Matrix3<R>) -> [[R; 3]; 3] {
+        if !HAS_ALL {
+            let [[a11, ..], _, [.., aJJ]] = self.factors;
+            return three!(y => [a11 * F[row][y], R::splat(0.0), aJJ * C[row][y]]);
+        }
         three!(y => three!(k => {
             let [f, d, c] = self.factors[k];
             let sum = f.mul_add(F[row][y], c * C[row][y]);
@@ -242,14 +296,20 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         }))
     }
 
-    /// F̃ax h̃F + D̃ax h̃D + C̃ax h̃C.
+    /// F̃ax h̃F + D̃ax h̃D + C̃ax h̃C and another term.
     #[inline(always)]
-    fn ranks(&self, [F, D, C]: [R; 3], [hF, hD, hC]: [R; 3]) -> R {
-        let sum = F.mul_add(hF, C * hC);
-        if HAS_SECOND { D.mul_add(hD, sum) } else { sum }
+    fn ranks(&self, [F, D, C]: [R; 3], [hF, hD, hC]: [R; 3], other: Option<R>) -> R {
+        let mut sum = match other {
+            Some(other) => C.mul_add(hC, other),
+            None => C * hC,
+        };
+        if HAS_SECOND || HAS_ALL {
+            sum = F.mul_add(hF, sum);
+        }
+        if HAS_SECOND && HAS_ALL { D.mul_add(hD, sum) } else { sum }
     }
 
-    /// K between (a, x) and (a, y) but for the term with W Wᵀ.
+    /// K between (a, x) and (a, y), `metric` being the term with W Wᵀ.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "two rows of three matrices, and their products")]
     fn on_diagonal(
@@ -261,8 +321,9 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         D: &Matrix3<R>,
         C: &Matrix3<R>,
         h: &[[R; 3]; 3],
+        metric: Option<R>,
     ) -> R {
-        let sum = self.ranks([F[a][x], D[a][x], C[a][x]], h[y]);
+        let sum = self.ranks([F[a][x], D[a][x], C[a][x]], h[y], metric);
         if !HAS_SECOND {
             return sum;
         }
@@ -277,11 +338,13 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
         if HAS_SECOND { (-p2).mul_add(self.b[a][a], along) } else { along }
     }
 
-    /// dP/dF in the coordinates, as 3×3 blocks like those of [`assemble_blocks`](super::assemble_blocks), Pa.
+    /// Assembles dP/dF in the coordinates, as 3×3 blocks like those of
+    /// [`assemble_blocks`](super::assemble_blocks), Pa. Returns the largest entry on the diagonal of dP/dF.
     #[inline(always)]
-    pub(crate) fn assemble(&self, coordinates: &impl Coordinates<R>, to: &mut impl Assemble<R>) {
+    pub(crate) fn assemble<C: Coordinates<R>>(&self, coordinates: &C, to: &mut impl Assemble<R>) -> R {
+        let mut largest = if C::ARE_ENTRIES { R::splat(0.0) } else { self.largest_on_diagonal() };
         let (F, C) = (coordinates.pulled(&self.F), coordinates.pulled(&self.C));
-        let D = if HAS_SECOND { coordinates.pulled(&self.D) } else { C };
+        let D = if HAS_SECOND && HAS_ALL { coordinates.pulled(&self.D) } else { C };
         let T = coordinates.pulled_normals(&self.T);
         pairs!(|a, c| {
             let h = self.products(c, &F, &D, &C);
@@ -289,23 +352,41 @@ impl<R: Real, const HAS_SECOND: bool> Terms<R, HAS_SECOND> {
                 if a == c {
                     // Computed on and above the diagonal.
                     let (x, y) = if y < x { (y, x) } else { (x, y) };
-                    let entry = self.on_diagonal(a, x, y, &F, &D, &C, &h);
-                    coordinates.plus_metric(x, y, self.metric_factor(a), entry)
+                    let metric = coordinates.metric(x, y, self.metric_factor(a));
+                    self.on_diagonal(a, x, y, &F, &D, &C, &h, metric)
                 } else {
-                    let mut entry = self.ranks([F[a][x], D[a][x], C[a][x]], h[y]);
-                    if HAS_SECOND {
-                        entry = coordinates.plus_metric(x, y, -self.along[1] * self.b[a][c], entry);
-                    }
-                    match (y + 3 - x) % 3 {
-                        0 => entry,
-                        turn if turn == c - a => entry + T[third(a, c)][third(x, y)],
-                        _ => entry - T[third(a, c)][third(x, y)],
-                    }
+                    let turned = match (y + 3 - x) % 3 {
+                        0 => None,
+                        turn if turn == c - a => Some(T[third(a, c)][third(x, y)]),
+                        _ => Some(-T[third(a, c)][third(x, y)]),
+                    };
+                    let metric = coordinates.metric(x, y, -self.along[1] * self.b[a][c]);
+                    let metric = if HAS_SECOND { metric } else { None };
+                    let other = match (metric, turned) {
+                        (Some(metric), Some(turned)) => Some(metric + turned),
+                        (metric, turned) => metric.or(turned),
+                    };
+                    self.ranks([F[a][x], D[a][x], C[a][x]], h[y], other)
                 }
             }));
+            if C::ARE_ENTRIES && a == c {
+                for x in 0..3 {
+                    largest = block[x][x].abs().max(largest);
+                }
+            }
             to.block(a, c, &block);
         });
+        largest
     }
+}
+
+/// A Aᵀ.
+#[inline(always)]
+fn gram<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
+    three!(i => three!(j => {
+        let (i, j) = if j < i { (j, i) } else { (i, j) };
+        dot(A[i], A[j])
+    }))
 }
 
 /// The index beside two different ones.

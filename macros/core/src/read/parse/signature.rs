@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 36] = [
+const MEMBERS: [&str; 38] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -27,9 +27,11 @@ const MEMBERS: [&str; 36] = [
     "admits",
     "HAS_INVARIANTS",
     "HAS_SECOND_INVARIANT",
+    "CURVATURE_BY_INVARIANTS",
     "HAS_ENERGY_BY_INVARIANTS",
     "has_invariants",
     "has_second_invariant",
+    "curvature_by_invariants",
     "has_energy_by_invariants",
     "energy_by_invariants",
     "gradient_by_invariants",
