@@ -7,7 +7,9 @@ use piola::contract::{Settings, check};
 use crate::bench::Material;
 use crate::error::Error;
 
-/// For materials of the catalogue the tests of piola do the same. Prints how near each rule came to its tolerance, or what is broken, and where.
+/// For materials of the catalogue the tests of piola do the same.
+///
+/// Prints how near each rule came to its tolerance, or what is broken, and where.
 #[derive(Debug, Args)]
 pub(crate) struct Contract {
     #[command(flatten)]

@@ -116,7 +116,7 @@ pub enum Error {
     Contract {
         /// Name of the material.
         material: String,
-        /// What it breaks.
+        /// The rules that it breaks.
         violations: Violations,
     },
     /// A material of the catalogue is to be checked, which its own tests do.

@@ -13,7 +13,7 @@ pub(crate) struct Given {
 }
 
 impl Given {
-    /// What a declaration would say of the parameter.
+    /// Documentation of the parameter, as in a declaration.
     pub(crate) fn documentation(&self) -> String {
         if self.has_unit {
             format!("Parameter {}, Pa.", self.name)

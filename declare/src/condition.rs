@@ -1,6 +1,6 @@
 //! Conditions on parameters, evaluated as the Rust that they are.
 
-use piola::interpreter::{Value, Values};
+use piola::interpreter::{ParameterValues, Value};
 use piola::material::{Argument, Text};
 use piola_codegen::emit::condition_text;
 use piola_codegen::read::parse::{Declaration, identifiers, indexed_list};
@@ -81,7 +81,7 @@ impl Condition {
     }
 
     /// The parameters of the first entry for which the condition does not hold; `None` if it always does.
-    pub(crate) fn violation(&self, values: &Values) -> Option<Vec<Argument>> {
+    pub(crate) fn violation(&self, values: &ParameterValues) -> Option<Vec<Argument>> {
         let entries = self.list.map_or(1, |list| entries(values, list).len());
         let violated = (0..entries).find(|&entry| !self.holds(values, entry))?;
         let argument = |(name, k, is_list): &(Text, usize, bool)| match is_list {
@@ -92,12 +92,12 @@ impl Condition {
     }
 
     /// The numbers that the condition names, lists left out.
-    pub(crate) fn numbers(&self, values: &Values) -> Vec<Argument> {
+    pub(crate) fn numbers(&self, values: &ParameterValues) -> Vec<Argument> {
         let numbers = self.names.iter().filter(|(_, _, is_list)| !is_list);
         numbers.map(|(name, k, _)| Argument::scalar(name.clone(), number(values, *k, 0))).collect()
     }
 
-    fn holds(&self, values: &Values, entry: usize) -> bool {
+    fn holds(&self, values: &ParameterValues, entry: usize) -> bool {
         let [left, right] = self.sides.each_ref().map(|side| side.value(values, entry));
         match self.comparison {
             Comparison::Greater => left > right,
@@ -109,7 +109,7 @@ impl Condition {
     }
 }
 
-fn entries(values: &Values, parameter: usize) -> &[f64] {
+fn entries(values: &ParameterValues, parameter: usize) -> &[f64] {
     match values.all().get(parameter) {
         Some(Value::Numbers(numbers)) => numbers,
         _ => &[],
@@ -117,7 +117,7 @@ fn entries(values: &Values, parameter: usize) -> &[f64] {
 }
 
 /// An entry of a list, or a number, which has one.
-fn number(values: &Values, parameter: usize, entry: usize) -> f64 {
+fn number(values: &ParameterValues, parameter: usize, entry: usize) -> f64 {
     let entries = entries(values, parameter);
     entries.get(entry).or(entries.first()).copied().unwrap_or(f64::NAN)
 }
@@ -154,7 +154,7 @@ impl Term {
                 let argument = call.args.first();
                 match (call.method.to_string().as_str(), argument) {
                     ("powi", Some(exponent)) => {
-                        let exponent = Self::of(exponent, place).value(&Values::new(Vec::new()), 0);
+                        let exponent = Self::of(exponent, place).value(&ParameterValues::new(Vec::new()), 0);
                         Self::WholePower(one(&call.receiver), exponent as i32)
                     }
                     ("powf", Some(exponent)) => Self::Power(two(&call.receiver, exponent)),
@@ -170,7 +170,7 @@ impl Term {
         }
     }
 
-    fn value(&self, values: &Values, entry: usize) -> f64 {
+    fn value(&self, values: &ParameterValues, entry: usize) -> f64 {
         let both = |sides: &[Self; 2]| sides.each_ref().map(|side| side.value(values, entry));
         match self {
             Self::Literal(value) => *value,

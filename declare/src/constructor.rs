@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use piola::__private::{defined_at_rest, extends, stable_at_rest, stress_free_at_rest};
-use piola::interpreter::{Interpreted, Program, Programs, Value, Values};
+use piola::interpreter::{Interpreted, ParameterValues, Program, Programs, Value};
 use piola::material::{Argument, Description, Form, MaterialError, Text};
 use piola::{Inversion, Spline, Univariate};
 use piola_codegen::model::Model;
@@ -15,7 +15,7 @@ use crate::lower::lower;
 /// The largest exponent that is a parameter.
 const LARGEST_WHOLE: f64 = 64.0;
 
-/// What the values of an energy's parameters must be like.
+/// Checks of the values of an energy's parameters.
 #[derive(Debug)]
 pub(crate) struct Constructor {
     /// The length of each list, by its place among the lengths.
@@ -67,7 +67,7 @@ impl Constructor {
         &self,
         description: &Description,
         given: &[&[f64]],
-    ) -> Result<Values, MaterialError> {
+    ) -> Result<ParameterValues, MaterialError> {
         self.each(description, given, |_, list| Spline::from_values(list))
     }
 
@@ -75,9 +75,9 @@ impl Constructor {
     pub(crate) fn changed_values(
         &self,
         description: &Description,
-        old: &Values,
+        old: &ParameterValues,
         given: &[Vec<f64>],
-    ) -> Result<Values, MaterialError> {
+    ) -> Result<ParameterValues, MaterialError> {
         let given: Vec<_> = given.iter().map(Vec::as_slice).collect();
         self.each(description, &given, |k, list| match old.all().get(k) {
             Some(Value::Function(function)) => function.with_values(list),
@@ -90,7 +90,7 @@ impl Constructor {
         description: &Description,
         given: &[&[f64]],
         function: impl Fn(usize, &[f64]) -> Result<Spline, MaterialError>,
-    ) -> Result<Values, MaterialError> {
+    ) -> Result<ParameterValues, MaterialError> {
         let parameters = &description.parameters;
         if given.len() != parameters.len() {
             let names: Vec<_> = parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();
@@ -124,7 +124,7 @@ impl Constructor {
             }
             values.push(Value::Numbers(list.to_vec()));
         }
-        Ok(Values::new(values))
+        Ok(ParameterValues::new(values))
     }
 
     /// The material with these values, if they are admissible.
@@ -132,7 +132,7 @@ impl Constructor {
         &self,
         description: &Description,
         programs: &Arc<Programs>,
-        values: Values,
+        values: ParameterValues,
         inversion: Inversion,
     ) -> Result<Interpreted, MaterialError> {
         for (parameter, value) in description.parameters.iter().zip(values.all()) {

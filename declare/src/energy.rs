@@ -14,7 +14,7 @@ use piola::{Spline, Univariate};
 use piola_codegen::algebra::calls::calls;
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::invariants;
-use piola_codegen::emit::documentation::documentation;
+use piola_codegen::emit::documentation::page;
 use piola_codegen::emit::{Texts, condition_text};
 use piola_codegen::model::{self, Model};
 use piola_codegen::read;
@@ -75,7 +75,7 @@ impl Energy {
         source: String,
     ) -> Option<Self> {
         let texts = Texts::of(declaration, &mut model);
-        let documentation = documentation(declaration, &mut model, &texts);
+        let documentation = page(declaration, &mut model, &texts);
         let programs = Arc::new(programs(declaration, &mut model)?);
         Some(Self(Arc::new(Compiled {
             description: description(declaration, texts),
@@ -168,7 +168,7 @@ impl Energy {
     #[must_use]
     pub fn gradient_by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
         let material = self.without_extension(material);
-        self.0.fit.as_ref().map(|fit| fit.gradient(&material, stretches)).unwrap_or_default()
+        self.0.fit.as_ref().map(|fit| fit.by_parameters(&material, stretches)).unwrap_or_default()
     }
 
     /// The conditions on the parameters: [`Fittable::constraints`]. Empty unless the energy [is
@@ -267,7 +267,7 @@ fn calls_of(declaration: &Declaration, model: &mut Model, energy: Id) -> Option<
     Some(found)
 }
 
-/// What the declaration says of itself.
+/// Names, texts and forms of a declaration as data.
 fn description(declaration: &Declaration, texts: Texts) -> Description {
     let options = &declaration.options;
     let parameters = declaration.parameters.iter().map(|parameter| {

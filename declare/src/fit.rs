@@ -2,7 +2,7 @@
 
 use piola::__private::by_values;
 use piola::Univariate;
-use piola::interpreter::{Interpreted, Program, Value, Values};
+use piola::interpreter::{Interpreted, ParameterValues, Program, Value};
 use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::{Graph, Id, Node};
 use piola_codegen::emit::condition_text;
@@ -35,7 +35,7 @@ impl Fit {
     }
 
     /// ∂ψi/∂p for each number p.
-    pub(crate) fn gradient(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
+    pub(crate) fn by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
         self.gradient.each(material, &stretches, &|material| material.gradient(stretches))
     }
 
@@ -194,10 +194,10 @@ impl Slopes {
 fn with(material: &Interpreted, parameter: usize, value: Value) -> Interpreted {
     let mut values = material.values().all().to_vec();
     values[parameter] = value;
-    material.clone_with(Values::new(values))
+    material.clone_with(ParameterValues::new(values))
 }
 
-fn length(values: &Values, parameter: usize) -> usize {
+fn length(values: &ParameterValues, parameter: usize) -> usize {
     match values.all().get(parameter) {
         Some(Value::Numbers(numbers)) => numbers.len(),
         _ => 0,

@@ -15,18 +15,19 @@
 //!
 //! The text is a formula in the notation of papers ([`Energy::from_formula`]), or the Rust function that
 //! [`#[piola::material]`](macro@piola::material) takes ([`Energy::from_rust`]), so that one file serves both.
-//! It goes through the compiler of that attribute, `piola-codegen`, and has its checks and messages; what comes
-//! out is not Rust but a program, which an [`Interpreted`](piola::interpreter::Interpreted) material executes.
-//! That computes what the compiled material does, bit by bit, for every kind of real number and on every back
-//! end, and so keeps its digits.
+//! It goes through the compiler of that attribute, `piola-codegen`, and has its checks and messages; what
+//! comes out is not Rust but a program, which an [`Interpreted`](piola::interpreter::Interpreted) material
+//! executes. That computes what the compiled material does, bit by bit, for every kind of real number and on
+//! every back end, and so keeps its digits.
 //!
-//! Texts may come from anybody: their length, their nesting and what becomes of them are limited, and what goes
-//! beyond is a [`Mistake`]. No text makes the crate panic.
+//! Texts may come from anybody: their length, their nesting and what becomes of them are limited, and what
+//! goes beyond is a [`Mistake`]. No text makes the crate panic.
 //!
 //! # What it does not do
 //!
-//! No function is a parameter but a [`Spline`](piola::Spline): other types need the declaration to be compiled.
-//! No derivative of a formula is looked for that the compiler does not know, and no branch is understood.
+//! No function is a parameter but a [`Spline`](piola::Spline): other types need the declaration to be
+//! compiled. No derivative of a formula is looked for that the compiler does not know, and no branch is
+//! understood.
 
 mod condition;
 mod constructor;

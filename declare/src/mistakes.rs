@@ -7,7 +7,7 @@ use proc_macro2::Span;
 /// A mistake in the text of an energy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// What is wrong, and what to write instead.
+    /// The reason, and what to write instead.
     pub message: String,
     /// Where it is; `None` if it is about the text as a whole.
     pub place: Option<Place>,

@@ -1,9 +1,10 @@
 //! Energies declared at run time beside those that the compiler has made of the same declarations: equal
 //! results, bit by bit.
 //!
-//! Every energy of the catalogue is read from its own source file. Batches are compared in `f64` on every back
-//! end, and in `f32` those of energies with all kinds of operations; single points in `f64`, all responses of
-//! them. Deformation gradients are arbitrary patterns of bits, so that the ends of the formats take part.
+//! Every energy of the catalogue is read from its own source file. Batches are compared in `f64` on every
+//! back end, and in `f32` those of energies with all kinds of operations; single points in `f64`, all
+//! responses of them. Deformation gradients are arbitrary patterns of bits, so that the ends of the formats
+//! take part.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 

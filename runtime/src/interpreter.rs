@@ -21,6 +21,6 @@ pub use material::Interpreted;
 #[doc(hidden)] // how the compiler fills them in: no part of the interface
 pub use material::{ByInvariants, Calls, Programs, Variant, Volume};
 #[doc(hidden)]
-pub use parameters::{Value, Values};
+pub use parameters::{ParameterValues, Value};
 #[doc(hidden)]
 pub use program::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};

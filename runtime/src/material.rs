@@ -201,8 +201,8 @@ pub trait Material: Send + Sync {
     #[doc(hidden)]
     const RESPONDS_TOGETHER: bool = false;
 
-    /// Computes a response of a tile, whose points have the materials `material(point)`; gives those inside the
-    /// domain as bits.
+    /// Computes a response of a tile, whose points have the materials `material(point)`; gives those inside
+    /// the domain as bits.
     ///
     /// For materials that pay for each operation whatever it is applied to, as an interpreter does. Called
     /// where [`RESPONDS_TOGETHER`](Self::RESPONDS_TOGETHER) says so, and nowhere else.

@@ -102,7 +102,7 @@ fn raised(character: char) -> Option<char> {
     digit.and_then(|digit| char::from_digit(digit as u32, 10)).or((character == '⁻').then_some('-'))
 }
 
-/// What a character is written as.
+/// The character of Rust for one that papers use.
 fn lowered(character: char) -> Option<char> {
     const LOWERED: [char; 10] = ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'];
     let digit = LOWERED.iter().position(|&lowered| lowered == character);

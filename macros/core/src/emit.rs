@@ -30,7 +30,7 @@ mod young_poisson;
 #[must_use]
 pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let texts = Texts::of(declaration, &mut model);
-    let documentation = documentation::documentation(declaration, &mut model, &texts);
+    let documentation = documentation::page(declaration, &mut model, &texts);
     let structure = structure(declaration, &documentation);
     let constructor = constructor(declaration, &mut model);
     let material = material(declaration, &mut model);

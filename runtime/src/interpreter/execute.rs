@@ -74,8 +74,7 @@ fn grow<T: Clone>(list: &mut Vec<T>, length: usize, entry: impl FnOnce() -> T) {
     }
 }
 
-/// What a program computes with: the parameters, the entry of lists that it reads outside of sums, and the
-/// threshold of an extension.
+/// Parameters, the entry of lists that a program reads outside of sums, and the threshold of an extension.
 #[derive(Clone, Copy)]
 pub(super) struct Context<'a> {
     pub(super) parameters: Parameters<'a>,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::execute::{Context, Registers, execute_alone, execute_tile};
-use super::parameters::{Parameters, Values};
+use super::parameters::{ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
@@ -95,7 +95,7 @@ pub enum Volume {
 #[derive(Clone, Debug)]
 pub struct Interpreted {
     programs: Arc<Programs>,
-    values: Values,
+    values: ParameterValues,
     inversion: Inversion,
 }
 
@@ -109,21 +109,21 @@ impl Interpreted {
     /// The material with these values, which have been checked, and without extension.
     #[doc(hidden)]
     #[must_use]
-    pub fn new(programs: Arc<Programs>, values: Values, inversion: Inversion) -> Self {
+    pub fn new(programs: Arc<Programs>, values: ParameterValues, inversion: Inversion) -> Self {
         Self { programs, values, inversion }
     }
 
     /// The values of the parameters.
     #[doc(hidden)]
     #[must_use]
-    pub fn values(&self) -> &Values {
+    pub fn values(&self) -> &ParameterValues {
         &self.values
     }
 
     /// The material of the same energy with other values, which are not checked.
     #[doc(hidden)]
     #[must_use]
-    pub fn clone_with(&self, values: Values) -> Self {
+    pub fn clone_with(&self, values: ParameterValues) -> Self {
         Self { values, ..self.clone() }
     }
 

@@ -5,7 +5,7 @@ use crate::univariate::Spline;
 
 /// The values of all parameters, in the order of the declaration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Values(Vec<Value>);
+pub struct ParameterValues(Vec<Value>);
 
 /// The value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub enum Value {
     Function(Spline),
 }
 
-impl Values {
+impl ParameterValues {
     /// One value for each parameter of the declaration.
     #[must_use]
     pub fn new(values: Vec<Value>) -> Self {
@@ -60,16 +60,16 @@ impl Values {
 #[derive(Clone, Copy)]
 pub(super) struct Parameters<'a> {
     /// The values of some point, of which all have the lengths, functions and whole exponents.
-    pub(super) some: &'a Values,
+    pub(super) some: &'a ParameterValues,
     /// The values of each point where these differ, in real numbers alone.
-    pub(super) each: Option<&'a dyn Fn(usize) -> &'a Values>,
+    pub(super) each: Option<&'a dyn Fn(usize) -> &'a ParameterValues>,
     /// The number of points side by side in a group.
     pub(super) lanes: usize,
 }
 
 impl<'a> Parameters<'a> {
-    /// Values that are the same at all points.
-    pub(super) fn same(values: &'a Values) -> Self {
+    /// ParameterValues that are the same at all points.
+    pub(super) fn same(values: &'a ParameterValues) -> Self {
         Self { some: values, each: None, lanes: 1 }
     }
 

@@ -50,6 +50,9 @@ fn lines_of_word(tokens: TokenStream, word: &str) -> Vec<usize> {
 /// Traits by which an energy answers.
 const ANSWERS: [&str; 4] = ["Material", "Varying", "Law", "Response"];
 
+/// Hands stretches to programs, whose derivatives the compiler has found.
+const EXECUTOR: &str = "runtime/src/interpreter/material.rs";
+
 /// No shipped code answers for a material but by other ones: a method of such a trait, and any that is called
 /// as one, hands the stretches on to methods of these names and combines what they answer. Who looks at a
 /// stretch computes an energy or a derivative of it by hand.
@@ -72,7 +75,7 @@ fn no_derivative_is_written_by_hand() {
     }
     let mut found = Vec::new();
     let mut judged = 0;
-    for module in modules() {
+    for module in modules().filter(|module| !module.file.ends_with(EXECUTOR)) {
         for item in &module.items {
             let Item::Impl(block) = item else { continue };
             for item in &block.items {

@@ -131,8 +131,8 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// A graph of so many nodes at most. Beyond, every node is the first one, so that whatever goes on comes to
-    /// an end soon, with results that mean nothing; the cell then says so.
+    /// A graph of so many nodes at most. Beyond, every node is the first one, so that whatever goes on comes
+    /// to an end soon, with results that mean nothing; the cell then says so.
     pub fn with_most(most: Option<usize>) -> (Self, Rc<Cell<bool>>) {
         let graph = Self { most, ..Self::default() };
         let is_full = graph.is_full.clone();

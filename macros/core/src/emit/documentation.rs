@@ -9,7 +9,7 @@ use crate::schedule::count::{LEGEND, table};
 use super::{Texts, condition_text};
 
 /// The documentation of the type, below that of its declaration.
-pub fn documentation(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
+pub fn page(declaration: &Declaration, model: &mut Model, texts: &Texts) -> String {
     let Texts { formula, moduli: [shear, lame], .. } = texts;
     let sections = [
         format!("```text\nψ = {formula}\n```"),
@@ -173,7 +173,7 @@ mod tests {
         let (declaration, mut model) =
             crate::analyse(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item).unwrap();
         let texts = super::Texts::of(&declaration, &mut model);
-        let documentation = super::documentation(&declaration, &mut model, &texts);
+        let documentation = super::page(&declaration, &mut model, &texts);
         let lines: Vec<_> = documentation.lines().collect();
         for line in [
             "ψ = 1/2 μ (I1 − 3) − μ ln J",
