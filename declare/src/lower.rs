@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use piola::interpreter::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};
+use piola::interpreter::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
 use piola_codegen::algebra::expr::Elementary as Function;
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
@@ -27,7 +27,8 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
             parameters: Vec::new(),
             entries: Vec::new(),
             epsilon: None,
-            steps: Vec::new(),
+            operations: Vec::new(),
+            loops: Vec::new(),
             results: Vec::new(),
             sizes: Sizes::default(),
         },
@@ -198,7 +199,7 @@ impl Lowering<'_> {
             Statement::Let(value, op) => {
                 *time += 1;
                 let operation = self.operation(*value, op, *time);
-                self.program.steps.extend(operation.map(Step::Compute));
+                self.program.operations.extend(operation);
             }
             Statement::Loop { length, body, totals } => {
                 let parameters = &self.declaration.parameters;
@@ -213,15 +214,20 @@ impl Lowering<'_> {
                         entries.push((self.make(Kind::Number, Name::Value(value)), k));
                     }
                 }
-                let mut operations = Vec::new();
+                let place = self.program.loops.len();
+                self.program.operations.push(Operation::Begin(place));
+                let begin = self.program.operations.len();
                 for (value, op) in body {
                     *time += 1;
-                    operations.extend(self.operation(*value, op, *time));
+                    let operation = self.operation(*value, op, *time);
+                    self.program.operations.extend(operation);
                 }
+                let length = self.program.operations.len() - begin;
+                self.program.operations.push(Operation::End(place));
                 *time += 1;
                 let totals = sums.into_iter().zip(totals.iter().map(|&(_, term)| self.read(term))).collect();
                 let list = list.unwrap_or_default();
-                self.program.steps.push(Step::Loop { list, entries, body: operations, totals });
+                self.program.loops.push(Loop { list, entries, totals, length });
                 let is_over = |name: &&Name| self.lives.get(*name) == Some(time);
                 let over = self.places.keys().filter(is_over).copied().collect();
                 self.free(over);

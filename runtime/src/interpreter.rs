@@ -23,4 +23,4 @@ pub use material::{ByInvariants, Calls, Programs, Variant, Volume};
 #[doc(hidden)]
 pub use parameters::{ParameterValues, Value};
 #[doc(hidden)]
-pub use program::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};
+pub use program::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};

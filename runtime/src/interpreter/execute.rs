@@ -8,7 +8,7 @@ use std::any::Any;
 use std::cell::{Cell, RefCell};
 
 use super::parameters::Parameters;
-use super::program::{Elementary, Exponent, Operation, Program, Register, Sizes, Step};
+use super::program::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
 use crate::lanes::{Backend, Kernel, Lanes, Real, Scalar};
 use crate::quotient::{
     Pair, above_zero, asinh_quotient, atan_quotient, cos_quotient, cosh_quotient, erf_quotient,
@@ -92,7 +92,7 @@ pub(super) fn execute_alone<R: Real>(
     arguments: &[R],
     registers: &mut Registers<R>,
 ) {
-    execute(program, context, |k, _| arguments[k], registers);
+    execute::<R, 1>(program, context, |k, _| arguments[k], registers);
 }
 
 /// Executes a program for a tile of points. Rows of arguments and of results are `stride` apart.
@@ -124,37 +124,55 @@ impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
+        // As many groups together as make a tile, or one after the other where there are few points.
+        match 64 / R::LANES {
+            _ if self.count <= 2 * R::LANES => self.by_groups::<R, 1>(),
+            4 => self.by_groups::<R, 4>(),
+            8 => self.by_groups::<R, 8>(),
+            16 => self.by_groups::<R, 16>(),
+            _ => self.by_groups::<R, 32>(),
+        }
+    }
+}
+
+impl<E: Scalar> Tile<'_, '_, E> {
+    /// Executes the program for G groups of lanes at a time.
+    #[inline(always)]
+    fn by_groups<R: Lanes<Scalar = E>, const G: usize>(self) {
         let Self { program, mut context, count, stride, arguments, results } = self;
         context.parameters.lanes = R::LANES;
-        let groups = count.div_ceil(R::LANES);
-        let mut registers = Registers::<R>::take(program.sizes, groups);
-        let argument = |k: usize, group: usize| R::load(&arguments[k * stride + group * R::LANES..]);
-        execute(program, context, argument, &mut registers);
-        for (k, &register) in program.results.iter().enumerate() {
-            for group in 0..groups {
-                let to = &mut results[k * stride + group * R::LANES..];
-                registers.number(register, group).store(to);
+        let mut registers = Registers::<R>::take(program.sizes, G);
+        let mut start = 0;
+        while start < count {
+            context.parameters.start = start;
+            let argument =
+                |k: usize, group: usize| R::load(&arguments[k * stride + start + group * R::LANES..]);
+            execute::<R, G>(program, context, argument, &mut registers);
+            for (k, &register) in program.results.iter().enumerate() {
+                for group in 0..G {
+                    let to = &mut results[k * stride + start + group * R::LANES..];
+                    registers.number(register, group).store(to);
+                }
             }
+            start += G * R::LANES;
         }
         registers.give_back();
     }
 }
 
-/// Executes a program for all groups of points; `argument(k, group)` gives argument k at a group.
+/// Executes a program for G groups of points; `argument(k, group)` gives argument k at a group.
 #[inline(always)]
-pub(super) fn execute<R: Real>(
+fn execute<R: Real, const G: usize>(
     program: &Program,
     context: Context<'_>,
     argument: impl Fn(usize, usize) -> R,
     registers: &mut Registers<R>,
 ) {
-    let Context { ref parameters, entry, epsilon } = context;
-    let groups = registers.groups;
-    let file = Files {
-        numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells(),
-        logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells(),
-        pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells(),
-        groups,
+    let Context { ref parameters, mut entry, epsilon } = context;
+    let file = Files::<R, G> {
+        numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells().as_chunks().0,
+        logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells().as_chunks().0,
+        pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells().as_chunks().0,
     };
     let fill = |register: Register, value: R| {
         for number in file.number(register) {
@@ -162,6 +180,9 @@ pub(super) fn execute<R: Real>(
         }
     };
     let load = |register: Register, parameter: usize, entry: usize| {
+        if parameters.each.is_none() {
+            return fill(register, parameters.number(parameter, entry, 0));
+        }
         for (group, number) in file.number(register).iter().enumerate() {
             number.set(parameters.number(parameter, entry, group));
         }
@@ -183,104 +204,80 @@ pub(super) fn execute<R: Real>(
     for &(register, list) in &program.entries {
         load(register, list, entry);
     }
-    // One loop over operations for both: the code of each operation stands once.
-    let mut step = 0;
-    let mut place = Place::OUTSIDE;
-    loop {
-        let operation = if place.is_inside {
-            let Some(Step::Loop { list, entries, body, totals }) = program.steps.get(step) else { return };
-            if let Some(operation) = body.get(place.operation) {
-                place.operation += 1;
-                operation
-            } else {
+    let outside = entry;
+    let mut next = 0;
+    while let Some(operation) = program.operations.get(next) {
+        next += 1;
+        match *operation {
+            Operation::Begin(place) => {
+                let Loop { list, entries, totals, length } = &program.loops[place];
+                totals.iter().for_each(|&(total, _)| fill(total, R::splat(0.0)));
+                entry = 0;
+                if parameters.length(*list) == 0 {
+                    entry = outside;
+                    next += length + 1;
+                } else {
+                    entries.iter().for_each(|&(register, list)| load(register, list, 0));
+                }
+            }
+            Operation::End(place) => {
+                let Loop { list, entries, totals, length } = &program.loops[place];
                 for &(total, term) in totals {
                     for (total, term) in file.number(total).iter().zip(file.number(term)) {
                         total.set(total.get() + term.get());
                     }
                 }
-                place.entry += 1;
-                place.operation = 0;
-                if place.entry < parameters.length(*list) {
-                    entries.iter().for_each(|&(register, list)| load(register, list, place.entry));
+                entry += 1;
+                if entry < parameters.length(*list) {
+                    entries.iter().for_each(|&(register, list)| load(register, list, entry));
+                    next -= length + 1;
                 } else {
-                    place = Place::OUTSIDE;
-                    step += 1;
-                }
-                continue;
-            }
-        } else {
-            match program.steps.get(step) {
-                None => return,
-                Some(Step::Compute(operation)) => {
-                    step += 1;
-                    operation
-                }
-                Some(Step::Loop { list, entries, totals, .. }) => {
-                    totals.iter().for_each(|&(total, _)| fill(total, R::splat(0.0)));
-                    if parameters.length(*list) == 0 {
-                        step += 1;
-                    } else {
-                        place = Place { is_inside: true, ..Place::OUTSIDE };
-                        entries.iter().for_each(|&(register, list)| load(register, list, 0));
-                    }
-                    continue;
+                    entry = outside;
                 }
             }
-        };
-        compute(operation, &file, parameters, if place.is_inside { place.entry } else { entry });
+            _ => compute(operation, &file, parameters, entry),
+        }
     }
-}
-
-/// The place of the next operation: in a loop or outside.
-struct Place {
-    is_inside: bool,
-    entry: usize,
-    operation: usize,
-}
-
-impl Place {
-    const OUTSIDE: Self = Self { is_inside: false, entry: 0, operation: 0 };
 }
 
 /// The registers of each kind, as cells: an operand may be in the register of the result.
-struct Files<'a, R: Real> {
-    numbers: &'a [Cell<R>],
-    logarithms: &'a [Cell<R::Logarithm>],
-    pairs: &'a [Cell<Pair<R>>],
-    groups: usize,
+struct Files<'a, R: Real, const G: usize> {
+    numbers: &'a [[Cell<R>; G]],
+    logarithms: &'a [[Cell<R::Logarithm>; G]],
+    pairs: &'a [[Cell<Pair<R>>; G]],
 }
 
-impl<'a, R: Real> Files<'a, R> {
+impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     #[inline(always)]
-    fn number(&self, register: Register) -> &'a [Cell<R>] {
-        of(self.numbers, register, self.groups)
+    fn number(&self, register: Register) -> &'a [Cell<R>; G] {
+        &self.numbers[usize::from(register)]
     }
 
     #[inline(always)]
-    fn logarithm(&self, register: Register) -> &'a [Cell<R::Logarithm>] {
-        of(self.logarithms, register, self.groups)
+    fn logarithm(&self, register: Register) -> &'a [Cell<R::Logarithm>; G] {
+        &self.logarithms[usize::from(register)]
     }
 
     #[inline(always)]
-    fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>] {
-        of(self.pairs, register, self.groups)
+    fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>; G] {
+        &self.pairs[usize::from(register)]
     }
-}
-
-#[inline(always)]
-fn of<T>(all: &[Cell<T>], register: Register, groups: usize) -> &[Cell<T>] {
-    &all[usize::from(register) * groups..][..groups]
 }
 
 /// Computes one operation at all groups.
 #[inline(always)]
-fn compute<R: Real>(operation: &Operation, file: &Files<'_, R>, parameters: &Parameters<'_>, entry: usize) {
+fn compute<R: Real, const G: usize>(
+    operation: &Operation,
+    file: &Files<'_, R, G>,
+    parameters: &Parameters<'_>,
+    entry: usize,
+) {
     /// A loop over the groups: `to = value` with the operands read from their registers.
     macro_rules! each {
         ($kind:ident $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
             let to = file.$kind($to);
             $(let $x = file.$operand_kind($register);)+
-            for group in 0..file.groups {
+            for group in 0..G {
                 let value = { $(let $x = $x[group].get();)+ $value };
                 to[group].set(value);
             }
@@ -304,6 +301,8 @@ fn compute<R: Real>(operation: &Operation, file: &Files<'_, R>, parameters: &Par
         Exponent::Entry(k) => parameters.whole(k, entry),
     };
     match *operation {
+        // The order of the operations, which is not theirs to decide.
+        Operation::Begin(_) | Operation::End(_) => {}
         Operation::Neg(to, a) => unary!(to, a, |x| -x),
         Operation::Add(to, a, b) => binary!(to, a, b, |x, y| x + y),
         Operation::Sub(to, a, b) => binary!(to, a, b, |x, y| x - y),

@@ -243,36 +243,49 @@ impl Interpreted {
         parameters: Parameters<'_>,
         tile: &mut Tile<'_, E>,
     ) -> u64 {
-        let Tile { backend, count, stride, arguments, ref mut results, .. } = *tile;
+        let Tile { backend, count, stride, arguments, .. } = *tile;
         let context = Context { parameters, ..self.context() };
         if let Some(program) = self.program(response) {
-            execute_tile(backend, program, context, (count, stride), arguments, results);
+            execute_tile(backend, program, context, (count, stride), arguments, tile.results);
         }
         let is_by_invariants = response.is_by_invariants();
         let Some((bounds, calls)) = self.domain(is_by_invariants) else { return 0 };
         let at = |point: usize| [0, 1, 2].map(|k| arguments[k * stride + point]);
-        let mut admitted = bits(count, |point| self.has_volume(is_by_invariants, at(point)));
-        let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, E) -> bool| {
-            if program.results.is_empty() {
-                return;
-            }
-            let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
-            let mut rows = Registers::<E>::take(sizes, 1);
-            let context = Context { entry, ..context };
-            execute_tile(backend, program, context, (count, stride), arguments, rows.numbers());
-            for (k, row) in rows.numbers().chunks(stride).take(program.results.len()).enumerate() {
-                admitted &= bits(count, |point| holds(k, row[point]));
-            }
-            rows.give_back();
+        let mut admitted = match self.programs.volume {
+            Volume::Any => u64::MAX,
+            _ => bits(count, |point| self.has_volume(is_by_invariants, at(point))),
         };
-        and(bounds, 0, &|_, bound| E::default() < bound);
+        if !bounds.results.is_empty() {
+            admitted &= domain_bits(tile, bounds, context, |_, bound| E::default() < bound);
+        }
         for Calls { list, arguments, functions } in calls {
             for entry in 0..list.map_or(1, |list| parameters.length(list)) {
-                and(arguments, entry, &|k, argument| admits(&parameters, functions[k], argument));
+                let context = Context { entry, ..context };
+                let is_defined = |k: usize, argument: E| admits(&parameters, functions[k], argument);
+                admitted &= domain_bits(tile, arguments, context, is_defined);
             }
         }
         admitted
     }
+}
+
+/// The points for which all results of a program satisfy a condition, as bits.
+fn domain_bits<E: Scalar>(
+    tile: &Tile<'_, E>,
+    program: &Program,
+    context: Context<'_>,
+    holds: impl Fn(usize, E) -> bool,
+) -> u64 {
+    let Tile { backend, count, stride, arguments, .. } = *tile;
+    let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
+    let mut rows = Registers::<E>::take(sizes, 1);
+    execute_tile(backend, program, context, (count, stride), arguments, rows.numbers());
+    let results = rows.numbers().chunks(stride).take(program.results.len()).enumerate();
+    let all = results
+        .map(|(k, row)| bits(count, |point| holds(k, row[point])))
+        .fold(u64::MAX, |all, one| all & one);
+    rows.give_back();
+    all
 }
 
 /// Where a function that is a parameter is defined.

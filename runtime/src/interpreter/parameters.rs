@@ -65,12 +65,14 @@ pub(super) struct Parameters<'a> {
     pub(super) each: Option<&'a dyn Fn(usize) -> &'a ParameterValues>,
     /// The number of points side by side in a group.
     pub(super) lanes: usize,
+    /// The first point of the first group.
+    pub(super) start: usize,
 }
 
 impl<'a> Parameters<'a> {
     /// ParameterValues that are the same at all points.
     pub(super) fn same(values: &'a ParameterValues) -> Self {
-        Self { some: values, each: None, lanes: 1 }
+        Self { some: values, each: None, lanes: 1, start: 0 }
     }
 
     /// An entry of a list, or a number, at a group of points.
@@ -78,7 +80,9 @@ impl<'a> Parameters<'a> {
     pub(super) fn number<R: Real>(&self, parameter: usize, entry: usize, group: usize) -> R {
         match self.each {
             None => R::splat(self.some.number(parameter, entry)),
-            Some(each) => R::from_fn(|lane| each(group * self.lanes + lane).number(parameter, entry)),
+            Some(each) => {
+                R::from_fn(|lane| each(self.start + group * self.lanes + lane).number(parameter, entry))
+            }
         }
     }
 

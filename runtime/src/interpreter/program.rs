@@ -18,8 +18,10 @@ pub struct Program {
     pub entries: Vec<(Register, usize)>,
     /// The register that holds the threshold ε of an extension.
     pub epsilon: Option<Register>,
-    /// The operations.
-    pub steps: Vec<Step>,
+    /// The operations, in order.
+    pub operations: Vec<Operation>,
+    /// The loops among them.
+    pub loops: Vec<Loop>,
     /// The registers of the results.
     pub results: Vec<Register>,
     /// Numbers of registers.
@@ -37,22 +39,17 @@ pub struct Sizes {
     pub pairs: usize,
 }
 
-/// A step of a program.
+/// A loop over the entries of lists of one length.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
-    /// One operation.
-    Compute(Operation),
-    /// A loop over the entries of lists of one length.
-    Loop {
-        /// A list of that length: its place in the declaration.
-        list: usize,
-        /// Registers that hold the current entry of a list: its place in the declaration.
-        entries: Vec<(Register, usize)>,
-        /// Operations for each entry.
-        body: Vec<Operation>,
-        /// Registers of totals, which begin with zero, and of what is added to each for every entry.
-        totals: Vec<(Register, Register)>,
-    },
+pub struct Loop {
+    /// A list of that length: its place in the declaration.
+    pub list: usize,
+    /// Registers that hold the current entry of a list: its place in the declaration.
+    pub entries: Vec<(Register, usize)>,
+    /// Registers of totals, which begin with zero, and of what is added to each for every entry.
+    pub totals: Vec<(Register, Register)>,
+    /// Number of operations between the begin of the loop and its end, for each entry.
+    pub length: usize,
 }
 
 /// A whole exponent, read from the parameters.
@@ -67,6 +64,10 @@ pub enum Exponent {
 /// An operation: the register of the result comes first, then those of its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
+    /// The begin of a loop, by its place among the loops.
+    Begin(usize),
+    /// The end of the loop that has begun.
+    End(usize),
     /// −a.
     Neg(Register, Register),
     /// a + b.
