@@ -90,8 +90,8 @@ pub enum Volume {
 ///
 /// It computes what a material compiled from the same declaration does, to the last bit, and is as good
 /// behind `dyn` [`DynMaterial`](crate::DynMaterial). Batches and bodies execute each operation for a tile of
-/// 64 points before the next, which costs little beside the operation; a single point takes two to three
-/// times as long as compiled.
+/// 64 points before the next, which costs little beside the operation. A single point takes up to three times
+/// as long as compiled.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
     programs: Arc<Programs>,
