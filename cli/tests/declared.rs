@@ -94,7 +94,7 @@ fn the_contract_is_checked_without_a_crate() {
     );
     assert!(text.contains("keeps the contract") && text.contains("below 0.1, it does as well"), "{text}");
     assert!(text.lines().filter(|line| line.contains("comparisons")).count() >= 26, "{text}");
-    // ln 1 of a difference of terms that are large and nearly equal: f32 keeps none of it.
+    // Terms that are large and nearly cancel: f32 keeps nothing of their sum.
     let lossy = [
         "contract",
         "--energy",
@@ -104,7 +104,7 @@ fn the_contract_is_checked_without_a_crate() {
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(
-        message.contains("does not keep the contract") && message.contains("single_precision"),
+        message.contains("does not keep the contract") && message.contains("f32 against f64"),
         "{message}"
     );
     assert!(refusal(&["contract", "gent"]).contains("is of the catalogue"));

@@ -12,6 +12,7 @@ mod notation;
 mod parse;
 
 use piola_codegen::algebra::increment::substitute_rest;
+use piola_codegen::emit::spaced;
 use piola_codegen::model::Model;
 use piola_codegen::printer;
 use piola_codegen::read::parse::Declaration;
@@ -179,16 +180,14 @@ impl Parsed {
 
 /// The declaration as a person would write it.
 fn source(arguments: &TokenStream, item: &TokenStream) -> String {
-    let with_attribute = quote! {
-        use piola::material;
-
-        #[material(#arguments)]
-        #item
-    };
-    match syn::parse2(with_attribute.clone()) {
+    let function = match syn::parse2(item.clone()) {
         Ok(file) => prettyplease::unparse(&file),
-        Err(_) => with_attribute.to_string(),
-    }
+        Err(_) => item.to_string(),
+    };
+    // The attribute stands between documentation and function.
+    let (documentation, function) = function.split_once("pub fn ").unwrap_or(("", &function));
+    let arguments = spaced(arguments);
+    format!("use piola::material;\n\n{documentation}#[material({arguments})]\npub fn {function}")
 }
 
 /// Whether papers have a name for something that an energy writes in another way.

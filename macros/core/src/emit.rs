@@ -89,11 +89,16 @@ fn doc(text: &str) -> TokenStream {
 }
 
 /// A condition as people write it: `mu[p] * alpha[p] > 0`.
-///
-/// Inside of the compiler tokens are printed with other spaces than outside.
 #[must_use]
 pub fn condition_text(condition: &Expr) -> String {
-    let printed = condition.to_token_stream().to_string();
+    spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").to_owned()
+}
+
+/// Tokens with spaces where people write them: inside of the compiler they are printed with others than
+/// outside.
+#[must_use]
+pub fn spaced(tokens: &TokenStream) -> String {
+    let printed = tokens.to_string();
     let mut text = String::new();
     let mut characters = printed.chars().peekable();
     while let Some(character) = characters.next() {
@@ -101,7 +106,7 @@ pub fn condition_text(condition: &Expr) -> String {
             text.push(character);
         }
     }
-    text.replace("(| ", "(|").replace(" | ", "| ").replace(".0 ", " ").trim_end_matches(".0").to_owned()
+    text.replace("(| ", "(|").replace(" | ", "| ")
 }
 
 /// Whether people write a space between a text and the next token.
