@@ -1,11 +1,11 @@
 //! Files of a run: frames for ParaView, of which each rank writes its own part, and a summary.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
 use piola::step::Integrator;
+use piola_scenes::material::Parameters;
 use piola_scenes::output::{Ended, Field, write_pvd, write_vtu, write_whole};
 use serde::Serialize;
 
@@ -28,7 +28,7 @@ pub struct Summary {
     /// Name of the material.
     pub material: String,
     /// Parameters of the material by name, in SI units.
-    pub parameters: BTreeMap<&'static str, Vec<f64>>,
+    pub parameters: Parameters,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.

@@ -350,7 +350,7 @@ impl Course<'_> {
             self.progress;
         Summary {
             scene: settings.scene.name.to_owned(),
-            material: info.as_ref().map_or_else(String::new, |info| info.name.to_owned()),
+            material: info.as_ref().map_or_else(String::new, |info| info.name.to_string()),
             parameters: info.map(|info| info.parameters).unwrap_or_default(),
             tets: share.totals[1],
             nodes: share.totals[0],
