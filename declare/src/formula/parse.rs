@@ -84,6 +84,12 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         parser.use_name(&bulk, false);
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
     }
+    // One that the formula does not use is told, and is what another may have been meant for.
+    for (name, _) in options.parameters.iter().flatten() {
+        if let Ok(name) = syn::parse_str::<Ident>(name) {
+            parser.use_name(&name, false);
+        }
+    }
     let is_declared = |name: &str| match &options.parameters {
         Some(known) => known.iter().any(|(known, _)| known == name) || options.bulk.as_deref() == Some(name),
         None => !is_notation(name),
