@@ -14,7 +14,7 @@ pub const TWIST: Scene = Scene {
     body: Body::BAR,
     material: || MaterialSpec::matching("fixed corotated", soft_moduli()),
     pinned: Some(Bounds { max: [f64::INFINITY, 0.0, f64::INFINITY], ..EVERYWHERE }),
-    pulls: &[Pull { region: UPPER_END, motion: Motion::Turn(2.0), reached: 2.0, released: 2.5 }],
+    pulls: &[Pull { region: UPPER_END, motion: Motion::Turn(2.0), reached: 2.0, released: 2.4 }],
     ..COMMON
 };
 

@@ -174,15 +174,15 @@ fn inert_type(function: &Function) -> TokenStream {
         #[allow(unused_variables)]
         impl<#(const #generics: usize),*> ::piola::material::Declared for #name<#(#generics),*> {
             const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
-                name: "",
-                summary: "",
-                formula: "",
-                parameters: &[],
-                domain: "",
+                name: ::std::borrow::Cow::Borrowed(""),
+                summary: ::std::borrow::Cow::Borrowed(""),
+                formula: ::std::borrow::Cow::Borrowed(""),
+                parameters: ::std::borrow::Cow::Borrowed(&[]),
+                domain: ::std::borrow::Cow::Borrowed(""),
                 extends: false,
                 refusal: ::core::option::Option::None,
-                admissible: &[],
-                moduli: ["", ""],
+                admissible: ::std::borrow::Cow::Borrowed(&[]),
+                moduli: [::std::borrow::Cow::Borrowed(""), ::std::borrow::Cow::Borrowed("")],
                 typical: ::core::option::Option::None,
             };
             fn from_values(
