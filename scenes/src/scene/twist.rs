@@ -8,6 +8,8 @@ use crate::region::EVERYWHERE;
 
 /// A bar whose upper end is turned twice around and let go: only the body, not the rotation of its end,
 /// remembers the way back.
+///
+/// Held a little longer, until 2.5 s, the bar comes to rest in another equilibrium.
 pub const TWIST: Scene = Scene {
     name: "twist",
     about: "an upright bar with a pinned foot is twisted by 720° at its upper end and let go",
