@@ -4,7 +4,7 @@
 //! written.
 
 use crate::lanes::{Mask, Real};
-use crate::material::{Blocks, Curvature, Inversion, Material, PAIRS};
+use crate::material::{Blocks, Inversion, Material, PAIRS};
 use crate::quotient::{Pair, pole_floor};
 
 const MU: f64 = 1.0;
@@ -130,7 +130,7 @@ impl Material for NeoHookeanByInvariants {
 
     const HAS_INVARIANTS: bool = true;
     const HAS_SECOND_INVARIANT: bool = false;
-    const CURVATURE_BY_INVARIANTS: Curvature = Curvature::Volume;
+    const CURVATURE_BY_INVARIANTS: crate::material::Curvature = crate::material::Curvature::Volume;
 
     fn energy_by_invariants<R: Real>(&self, [i1, _, j]: [R; 3]) -> R {
         let log = j.ln();
