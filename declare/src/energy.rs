@@ -22,7 +22,7 @@ use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
 use crate::fit::Fit;
-use crate::lower::lower;
+use crate::lower::{lower, lower_within};
 
 /// An elastic energy, compiled from text.
 ///
@@ -195,6 +195,9 @@ impl Energy {
 /// The programs of all responses.
 fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
     let program = |model: &mut Model, roots: &[Id]| lower(declaration, &model.program(roots));
+    let within = |model: &mut Model, roots: &[Id], bounds: &[Id]| {
+        lower_within(declaration, &model.program(roots), &model.program(bounds))
+    };
     let plain = variant(declaration, model, |model| &model.plain)?;
     let extended = match model.extended.is_some() {
         true => Some(variant(declaration, model, |model| model.extended.as_ref().unwrap_or(&model.plain))?),
@@ -203,9 +206,9 @@ fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
     let by_invariants = match model.invariants.clone() {
         None => None,
         Some(by) => Some(ByInvariants {
-            energy: if by.has_energy { Some(program(model, &[by.energy])?) } else { None },
-            gradient: program(model, &by.gradient)?,
-            derivatives: program(model, &[&by.gradient[..], &by.hessian].concat())?,
+            energy: if by.has_energy { Some(within(model, &[by.energy], &by.bounds)?) } else { None },
+            gradient: within(model, &by.gradient, &by.bounds)?,
+            derivatives: within(model, &[&by.gradient[..], &by.hessian].concat(), &by.bounds)?,
             bounds: program(model, &by.bounds)?,
             calls: calls_of(declaration, model, by.energy)?,
             has_second_invariant: !model.graph.is_zero(by.gradient[1]),
@@ -239,10 +242,12 @@ fn variant(
 ) -> Option<Variant> {
     let model::Variant { energy, gradient, has_pole, .. } = *of(model);
     let blocks = of(model).blocks();
+    let bounds = model.program(&model.bounds.clone());
+    let mut within = |roots: &[Id]| lower_within(declaration, &model.program(roots), &bounds);
     Some(Variant {
-        energy: lower(declaration, &model.program(&[energy]))?,
-        gradient: lower(declaration, &model.program(&gradient))?,
-        blocks: lower(declaration, &model.program(&blocks))?,
+        energy: within(&[energy])?,
+        gradient: within(&gradient)?,
+        blocks: within(&blocks)?,
         calls: calls_of(declaration, model, energy)?,
         has_pole,
     })

@@ -16,11 +16,36 @@ const MOST_REGISTERS: usize = 1024;
 
 /// The program of ordered operations for the interpreter; `None` if it needs too many registers.
 pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Program> {
+    lower_parts(declaration, &[ordered])
+}
+
+/// The program of a response, and behind it that of the bounds of its domain, whose constants and arguments are
+/// in the same registers; `None` if it needs too many of them.
+///
+/// They are not ordered as one, because what both compute could then be shared: bits of the response would
+/// depend on the domain.
+pub(crate) fn lower_within(
+    declaration: &Declaration,
+    response: &Ordered,
+    bounds: &Ordered,
+) -> Option<Program> {
+    lower_parts(declaration, &[response, bounds])
+}
+
+/// The parts of a program one after the other: a response, and its bounds if there are any.
+fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
+    let constants = constants(declaration, parts);
+    let mut registers = Kind::ALL.map(|_| Registers::default());
+    // Two values may be one constant, so that these are enough.
+    registers[Kind::Number as usize].first = constants.len();
     let mut lowering = Lowering {
         declaration,
-        lives: lives(ordered),
+        lives: lives(parts),
+        constants,
         places: BTreeMap::new(),
-        registers: Kind::ALL.map(|_| Registers::default()),
+        filled: BTreeMap::new(),
+        registers,
+        part: 0,
         program: Program {
             literals: Vec::new(),
             arguments: Vec::new(),
@@ -30,72 +55,130 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
             operations: Vec::new(),
             loops: Vec::new(),
             results: Vec::new(),
+            bounds: Vec::new(),
             sizes: Sizes::default(),
         },
     };
-    lowering.inputs(ordered);
-    let mut time = 0;
-    for statement in &ordered.statements {
-        lowering.statement(statement, &mut time);
+    for (part, ordered) in parts.iter().enumerate() {
+        lowering.part = part;
+        lowering.inputs(ordered);
     }
-    let results = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
-    let [numbers, logarithms, pairs] = lowering.registers.map(|registers| registers.count);
-    let sizes = Sizes { numbers, logarithms, pairs };
-    (numbers.max(logarithms).max(pairs) <= MOST_REGISTERS).then_some(Program {
-        results,
-        sizes,
-        ..lowering.program
-    })
+    let mut time = 0;
+    let mut outputs = [Vec::new(), Vec::new()];
+    for (part, ordered) in parts.iter().enumerate() {
+        lowering.part = part;
+        for statement in &ordered.statements {
+            lowering.statement(statement, &mut time);
+        }
+        outputs[part] = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
+    }
+    let [results, bounds] = outputs;
+    let constants = lowering.constants.len();
+    let [numbers, _, logarithms, pairs] =
+        lowering.registers.map(|registers| registers.first + registers.count);
+    let sizes = Sizes { numbers, constants, logarithms, pairs };
+    let most = numbers.max(logarithms).max(pairs);
+    (most <= MOST_REGISTERS).then_some(Program { results, bounds, sizes, ..lowering.program })
 }
 
-/// A value of the program, or a stretch, which an operation may read that does not name it.
+/// A value of a part of the program, or a stretch, which an operation may read that does not name it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Name {
-    Value(Value),
+    Value(usize, Value),
     Stretch(usize),
+}
+
+/// A number that is the same at every point.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Constant {
+    Literal(u64),
+    Parameter(usize),
+    /// The entry of a list that the caller names.
+    Entry(usize),
+    Epsilon,
 }
 
 /// The time at which each value is read last. Each operation has a time of its own, and so has the end of
 /// each loop; results are read after all.
-fn lives(ordered: &Ordered) -> BTreeMap<Name, usize> {
+fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
     let mut last = BTreeMap::new();
     let mut time = 0;
-    for statement in &ordered.statements {
-        match statement {
-            Statement::Let(_, op) => {
-                time += 1;
-                reads(op, |name| _ = last.insert(name, time));
-            }
-            Statement::Loop { body, totals, .. } => {
-                let inside: BTreeSet<_> = body.iter().map(|&(value, _)| Name::Value(value)).collect();
-                let end = time + body.len() + 1;
-                for (_, op) in body {
+    for (part, ordered) in parts.iter().enumerate() {
+        let named = |value: Value| Name::Value(part, value);
+        for statement in &ordered.statements {
+            match statement {
+                Statement::Let(_, op) => {
                     time += 1;
-                    reads(op, |name| _ = last.insert(name, if inside.contains(&name) { time } else { end }));
+                    reads(op, named, |name| _ = last.insert(name, time));
                 }
-                time = end;
-                for name in totals.iter().flat_map(|&(total, term)| [total, term]) {
-                    last.insert(Name::Value(name), end);
+                Statement::Loop { body, totals, .. } => {
+                    let inside: BTreeSet<_> = body.iter().map(|&(value, _)| named(value)).collect();
+                    let end = time + body.len() + 1;
+                    for (_, op) in body {
+                        time += 1;
+                        let until = |name| if inside.contains(&name) { time } else { end };
+                        reads(op, named, |name| _ = last.insert(name, until(name)));
+                    }
+                    time = end;
+                    for name in totals.iter().flat_map(|&(total, term)| [total, term]).map(named) {
+                        last.insert(name, end);
+                    }
                 }
             }
         }
+        last.extend(ordered.outputs.iter().map(|&output| (named(output), usize::MAX)));
     }
-    last.extend(ordered.outputs.iter().map(|&output| (Name::Value(output), usize::MAX)));
     // A stretch is in one register, whatever it is called.
-    for statement in &ordered.statements {
-        if let Statement::Let(value, Op::Stretch(i)) = *statement {
-            let both = [Name::Value(value), Name::Stretch(i)];
-            if let Some(latest) = both.into_iter().filter_map(|name| last.get(&name).copied()).max() {
-                last.extend(both.map(|name| (name, latest)));
-            }
+    for i in 0..3 {
+        let of_stretch = |(part, ordered): (usize, &&Ordered)| {
+            let values = ordered.statements.iter().filter_map(move |statement| match *statement {
+                Statement::Let(value, Op::Stretch(k)) if k == i => Some(Name::Value(part, value)),
+                _ => None,
+            });
+            values.collect::<Vec<_>>()
+        };
+        let names = parts.iter().enumerate().flat_map(of_stretch).chain([Name::Stretch(i)]);
+        let names: Vec<_> = names.collect();
+        if let Some(latest) = names.iter().filter_map(|name| last.get(name).copied()).max() {
+            last.extend(names.into_iter().map(|name| (name, latest)));
         }
     }
     last
 }
 
+/// The values that are the same at every point: what the declaration and its parameters give, and what
+/// arithmetic makes of it.
+fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
+    let mut constants = BTreeSet::new();
+    let is_whole = |k: usize| declaration.parameters[k].is_whole;
+    for (part, ordered) in parts.iter().enumerate() {
+        let mut add = |value: Value, op: &Op| {
+            let mut operands = op.operands().into_iter();
+            let mut are_constant = || operands.all(|operand| constants.contains(&Name::Value(part, operand)));
+            let is_constant = match *op {
+                Op::Literal(_) | Op::Epsilon => true,
+                Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
+                Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
+                Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => are_constant(),
+                _ => false,
+            };
+            if is_constant {
+                constants.insert(Name::Value(part, value));
+            }
+        };
+        for statement in &ordered.statements {
+            match statement {
+                Statement::Let(value, op) => add(*value, op),
+                Statement::Loop { body, .. } => body.iter().for_each(|(value, op)| add(*value, op)),
+            }
+        }
+    }
+    constants
+}
+
 /// Shows the names that an operation reads.
-fn reads(op: &Op, mut show: impl FnMut(Name)) {
-    op.operands().into_iter().for_each(|value| show(Name::Value(value)));
+fn reads(op: &Op, named: impl Fn(Value) -> Name, mut show: impl FnMut(Name)) {
+    op.operands().into_iter().for_each(|value| show(named(value)));
     if *op == Op::PoleFloor {
         (0..3).for_each(|i| show(Name::Stretch(i)));
     }
@@ -105,17 +188,20 @@ fn reads(op: &Op, mut show: impl FnMut(Name)) {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Number,
+    Constant,
     Logarithm,
     Pair,
 }
 
 impl Kind {
-    const ALL: [Self; 3] = [Self::Number, Self::Logarithm, Self::Pair];
+    const ALL: [Self; 4] = [Self::Number, Self::Constant, Self::Logarithm, Self::Pair];
 }
 
 /// Registers of one kind.
 #[derive(Default)]
 struct Registers {
+    /// The first of the kind.
+    first: usize,
     count: usize,
     free: Vec<Register>,
 }
@@ -134,47 +220,42 @@ struct Lowering<'a> {
     lives: BTreeMap<Name, usize>,
     /// Where each value is, or was when it was read last.
     places: BTreeMap<Name, Place>,
-    registers: [Registers; 3],
+    /// The registers of constants that are filled before the first operation.
+    filled: BTreeMap<Constant, Register>,
+    /// The values that are constants.
+    constants: BTreeSet<Name>,
+    registers: [Registers; 4],
+    /// The part of the program that is being lowered.
+    part: usize,
     program: Program,
 }
 
 impl Lowering<'_> {
+    fn named(&self, value: Value) -> Name {
+        Name::Value(self.part, value)
+    }
+
     /// Fills registers before the first operation.
     fn inputs(&mut self, ordered: &Ordered) {
         let mut input = |value: Value, op: Op, is_in_loop: bool| {
-            let name = Name::Value(value);
+            let name = self.named(value);
             let is_whole = |k: usize| self.declaration.parameters[k].is_whole;
-            match op {
-                Op::Parameter(k) if is_whole(k) => {
-                    self.places.insert(name, Place::Whole(Exponent::Parameter(k)));
-                }
-                Op::Entry(k) if is_whole(k) => {
-                    self.places.insert(name, Place::Whole(Exponent::Entry(k)));
-                }
-                Op::Stretch(i) => {
-                    let register = self.stretch(i);
-                    self.places.insert(name, Place::Register(Kind::Number, register));
-                }
-                Op::PoleFloor => (0..3).for_each(|i| _ = self.stretch(i)),
+            let place = match op {
+                Op::Parameter(k) if is_whole(k) => Place::Whole(Exponent::Parameter(k)),
+                Op::Entry(k) if is_whole(k) => Place::Whole(Exponent::Entry(k)),
+                Op::Stretch(i) => Place::Register(Kind::Number, self.stretch(i)),
+                Op::PoleFloor => return (0..3).for_each(|i| _ = self.stretch(i)),
                 Op::Strain(i) => {
                     let register = self.make(Kind::Number, name);
-                    self.program.arguments.push((register, 3 + i));
+                    return self.program.arguments.push((register, 3 + i));
                 }
-                Op::Literal(bits) => {
-                    let register = self.make(Kind::Number, name);
-                    self.program.literals.push((register, f64::from_bits(bits)));
-                }
-                Op::Parameter(k) => {
-                    let register = self.make(Kind::Number, name);
-                    self.program.parameters.push((register, k));
-                }
-                Op::Entry(k) if !is_in_loop => {
-                    let register = self.make(Kind::Number, name);
-                    self.program.entries.push((register, k));
-                }
-                Op::Epsilon => self.program.epsilon = Some(self.make(Kind::Number, name)),
-                _ => {}
-            }
+                Op::Literal(bits) => self.constant(Constant::Literal(bits)),
+                Op::Parameter(k) => self.constant(Constant::Parameter(k)),
+                Op::Entry(k) if !is_in_loop => self.constant(Constant::Entry(k)),
+                Op::Epsilon => self.constant(Constant::Epsilon),
+                _ => return,
+            };
+            self.places.insert(name, place);
         };
         for statement in &ordered.statements {
             match statement {
@@ -182,6 +263,26 @@ impl Lowering<'_> {
                 Statement::Loop { body, .. } => body.iter().for_each(|&(value, op)| input(value, op, true)),
             }
         }
+    }
+
+    /// The place of a constant that is filled before the first operation.
+    fn constant(&mut self, constant: Constant) -> Place {
+        let register = match self.filled.get(&constant) {
+            Some(&register) => register,
+            None => {
+                let register = self.registers[Kind::Constant as usize].add();
+                let program = &mut self.program;
+                match constant {
+                    Constant::Literal(bits) => program.literals.push((register, f64::from_bits(bits))),
+                    Constant::Parameter(k) => program.parameters.push((register, k)),
+                    Constant::Entry(k) => program.entries.push((register, k)),
+                    Constant::Epsilon => program.epsilon = Some(register),
+                }
+                self.filled.insert(constant, register);
+                register
+            }
+        };
+        Place::Register(Kind::Constant, register)
     }
 
     /// The register of a stretch.
@@ -204,14 +305,14 @@ impl Lowering<'_> {
             Statement::Loop { length, body, totals } => {
                 let parameters = &self.declaration.parameters;
                 let list = parameters.iter().position(|parameter| parameter.length() == Some(*length));
-                let sums: Vec<_> =
-                    totals.iter().map(|&(total, _)| self.make(Kind::Number, Name::Value(total))).collect();
+                let mut sum = |total: Value| self.make(Kind::Number, self.named(total));
+                let sums: Vec<_> = totals.iter().map(|&(total, _)| sum(total)).collect();
                 let mut entries = Vec::new();
                 for &(value, op) in body {
                     if let Op::Entry(k) = op
                         && !parameters[k].is_whole
                     {
-                        entries.push((self.make(Kind::Number, Name::Value(value)), k));
+                        entries.push((self.make(Kind::Constant, self.named(value)), k));
                     }
                 }
                 let place = self.program.loops.len();
@@ -242,16 +343,21 @@ impl Lowering<'_> {
             Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => return None,
             Op::Logarithm(_) => Kind::Logarithm,
             Op::Pair { .. } => Kind::Pair,
+            _ if self.constants.contains(&self.named(value)) => Kind::Constant,
             _ => Kind::Number,
         };
         let mut over = BTreeSet::new();
-        reads(op, |name| {
-            if self.lives.get(&name) == Some(&time) {
-                over.insert(name);
-            }
-        });
+        reads(
+            op,
+            |value| self.named(value),
+            |name| {
+                if self.lives.get(&name) == Some(&time) {
+                    over.insert(name);
+                }
+            },
+        );
         self.free(over);
-        let to = self.make(kind, Name::Value(value));
+        let to = self.make(kind, self.named(value));
         let r = |value: Value| self.read(value);
         Some(match *op {
             Op::Neg(a) => Operation::Neg(to, r(a)),
@@ -310,7 +416,7 @@ impl Lowering<'_> {
 
     /// The register of a value, which the order of the operations has filled.
     fn read(&self, value: Value) -> Register {
-        self.register(Name::Value(value))
+        self.register(self.named(value))
     }
 
     fn register(&self, name: Name) -> Register {
@@ -321,22 +427,19 @@ impl Lowering<'_> {
     }
 
     fn whole(&self, value: Value) -> Exponent {
-        match self.places.get(&Name::Value(value)) {
+        match self.places.get(&self.named(value)) {
             Some(&Place::Whole(exponent)) => exponent,
             _ => Exponent::Parameter(0),
         }
     }
 
-    /// A free register for a value.
+    /// A free register for a value; constants keep theirs.
     fn make(&mut self, kind: Kind, name: Name) -> Register {
         let registers = &mut self.registers[kind as usize];
-        let register = registers.free.pop().unwrap_or_else(|| {
-            registers.count += 1;
-            Register::try_from(registers.count - 1).unwrap_or(Register::MAX)
-        });
+        let register = registers.free.pop().unwrap_or_else(|| registers.add());
         self.places.insert(name, Place::Register(kind, register));
         // A value that nothing reads is written all the same.
-        if !self.lives.contains_key(&name) {
+        if kind != Kind::Constant && !self.lives.contains_key(&name) {
             registers.free.push(register);
         }
         register
@@ -345,12 +448,20 @@ impl Lowering<'_> {
     /// Frees the registers of values that nothing reads any more.
     fn free(&mut self, over: BTreeSet<Name>) {
         let places = over.into_iter().filter_map(|name| match self.places.get(&name) {
-            Some(&Place::Register(kind, register)) => Some((kind, register)),
+            Some(&Place::Register(kind, register)) if kind != Kind::Constant => Some((kind, register)),
             _ => None,
         });
         // Two names may be one register.
         let registers: BTreeSet<_> = places.collect();
         registers.into_iter().for_each(|(kind, register)| self.registers[kind as usize].free.push(register));
+    }
+}
+
+impl Registers {
+    /// One more register.
+    fn add(&mut self) -> Register {
+        self.count += 1;
+        Register::try_from(self.first + self.count - 1).unwrap_or(Register::MAX)
     }
 }
 

@@ -12,14 +12,17 @@
 //!
 //! How a declaration becomes a program is not known here, nor what an energy means.
 
+mod domain;
 mod execute;
 mod material;
 mod parameters;
 mod program;
 
+#[doc(hidden)]
+pub use domain::Volume;
 pub use material::Interpreted;
 #[doc(hidden)] // how the compiler fills them in: no part of the interface
-pub use material::{ByInvariants, Calls, Programs, Variant, Volume};
+pub use material::{ByInvariants, Calls, Programs, Variant};
 #[doc(hidden)]
 pub use parameters::{ParameterValues, Value};
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use super::tile::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
-use crate::point::invariants::tangent::has_all;
+use crate::point::invariants::tangent::vanishes;
 use crate::status::Status;
 
 /// The material of a batch's points: the same for all, or one for each.
@@ -132,7 +132,7 @@ macro_rules! tile_responses {
                                 let result = $to_rows(material.$response(at));
                                 let ($at, $result) = (at, result);
                                 finite |= R::bits($finite) << group;
-                                                                for row in 0..$rows {
+                                for row in 0..$rows {
                                     $(
                                         let $k = row;
                                         if $vanishes {
@@ -146,13 +146,23 @@ macro_rules! tile_responses {
                             domain_and_range(count, admitted, finite)
                         }
                     }
+                    struct Finite<'a, E>(Arguments<'a, E>, &'a Rows<E, $rows>);
+                    impl<E: Scalar> Kernel<E> for Finite<'_, E> {
+                        type Output = u64;
+                        #[inline(always)]
+                        fn run<R: Lanes<Scalar = E>>(self) -> u64 {
+                            let Self(Arguments { count, rows, .. }, to) = self;
+                            let mut finite = 0;
+                            for_each_group!(R, count, |group| {
+                                let ($at, $result) = (rows.get_all::<R>(group), to.get_all::<R>(group));
+                                finite |= R::bits($finite) << group;
+                            });
+                            finite
+                        }
+                    }
                     if P::Material::RESPONDS_TOGETHER {
                         let admitted = together(self, ResponseKind::$Kind, arguments, to.0.as_flattened_mut());
-                        let mut finite = 0;
-                        for_each_group!(E, arguments.count, |point| {
-                            let ($at, $result) = (arguments.rows.get_all::<E>(point), to.get_all::<E>(point));
-                            finite |= u64::from($finite) << point;
-                        });
+                        let finite = arguments.backend.run(Finite(arguments, to));
                         return domain_and_range(arguments.count, admitted, finite);
                     }
                     arguments.backend.run(Respond(self, arguments, to))
@@ -202,24 +212,11 @@ tile_responses! {
     tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
     3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
-    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what [`vanishes`].
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for those that [vanish](vanishes).
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
-    9 rows by |derivatives| derivatives, without row k if vanishes::<P::Material>(k);
+    9 rows by |derivatives| derivatives, without row k if
+    vanishes(k, P::Material::HAS_SECOND_INVARIANT, P::Material::CURVATURE_BY_INVARIANTS);
     finite where |at, _| anywhere(at);
-}
-
-/// Whether nothing reads derivative k by invariants, since the constants of the material say that it is zero.
-#[inline(always)]
-fn vanishes<M: Material>(k: usize) -> bool {
-    let has_second = M::HAS_SECOND_INVARIANT;
-    let has_all = has_all(has_second, M::CURVATURE_BY_INVARIANTS);
-    match k {
-        1 => !has_second,
-        3 => !has_second && !has_all,
-        7 => !has_all,
-        4 | 6 | 8 => !has_second || !has_all,
-        _ => false,
-    }
 }
 
 /// Properties of a batch's materials that no deformation decides.

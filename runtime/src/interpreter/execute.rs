@@ -7,6 +7,7 @@
 use std::any::Any;
 use std::cell::{Cell, RefCell};
 
+use super::domain::VolumeBound;
 use super::parameters::Parameters;
 use super::program::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
 use crate::lanes::{Backend, Kernel, Lanes, Real, Scalar};
@@ -20,10 +21,12 @@ use crate::univariate::Univariate;
 
 /// Registers of a program, each as many real numbers side by side as there are groups of points.
 pub(super) struct Registers<R: Real> {
+    /// Those for constants, and behind them those for other numbers.
     numbers: Vec<R>,
+    /// How many are for constants.
+    constants: usize,
     logarithms: Vec<R::Logarithm>,
     pairs: Vec<Pair<R>>,
-    groups: usize,
 }
 
 thread_local! {
@@ -39,9 +42,9 @@ impl<R: Real> Registers<R> {
             let place = all.iter().position(|one| one.is::<Self>())?;
             all.swap_remove(place).downcast::<Self>().ok()
         });
-        let none = || Self { numbers: Vec::new(), logarithms: Vec::new(), pairs: Vec::new(), groups };
+        let none = || Self { numbers: Vec::new(), constants: 0, logarithms: Vec::new(), pairs: Vec::new() };
         let mut registers = used.unwrap_or_else(|| Box::new(none()));
-        registers.groups = groups;
+        registers.constants = sizes.constants;
         let one = R::splat(1.0);
         let Self { numbers, logarithms, pairs, .. } = &mut *registers;
         grow(numbers, sizes.numbers * groups, || one);
@@ -61,10 +64,10 @@ impl<R: Real> Registers<R> {
         &mut self.numbers
     }
 
-    /// The number in a register at a group of points.
+    /// The number in a register, where there is one group of points.
     #[inline(always)]
-    pub(super) fn number(&self, register: Register, group: usize) -> R {
-        self.numbers[usize::from(register) * self.groups + group]
+    pub(super) fn number(&self, register: Register) -> R {
+        self.numbers[usize::from(register)]
     }
 }
 
@@ -92,41 +95,54 @@ pub(super) fn execute_alone<R: Real>(
     arguments: &[R],
     registers: &mut Registers<R>,
 ) {
-    execute::<R, 1>(program, context, |k, _| arguments[k], registers);
+    let file = Files::<R, 1>::new(registers, &context.parameters);
+    for &(register, k) in &program.arguments {
+        file.number(register).set(0, arguments[k]);
+    }
+    execute(program, context, &file);
 }
 
-/// Executes a program for a tile of points. Rows of arguments and of results are `stride` apart.
+/// What a tile of points asks of a program.
+pub(super) struct Request<'a, E> {
+    pub(super) count: usize,
+    /// How far rows of arguments and of results are apart.
+    pub(super) stride: usize,
+    pub(super) arguments: &'a [E],
+    pub(super) results: &'a mut [E],
+    /// Results that nothing reads, as bits.
+    pub(super) unread: u32,
+    /// The volumes inside the domain.
+    pub(super) volume: VolumeBound,
+}
+
+/// Executes a program for a tile of points. Gives the points at which its bounds are positive and whose volume
+/// is inside the domain, as bits.
 ///
 /// One kernel for all programs: what differs between them is data.
 pub(super) fn execute_tile<E: Scalar>(
     backend: Backend,
     program: &Program,
     context: Context<'_>,
-    (count, stride): (usize, usize),
-    arguments: &[E],
-    results: &mut [E],
-) {
-    backend.run(Tile { program, context, count, stride, arguments, results });
+    request: Request<'_, E>,
+) -> u64 {
+    backend.run(Tile { program, context, request })
 }
 
 /// [`execute_tile`] on the lanes of a back end.
 struct Tile<'a, 'c, E> {
     program: &'a Program,
     context: Context<'c>,
-    count: usize,
-    stride: usize,
-    arguments: &'a [E],
-    results: &'a mut [E],
+    request: Request<'a, E>,
 }
 
 impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
-    type Output = ();
+    type Output = u64;
 
     #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) {
+    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         // As many groups together as make a tile, or one after the other where there are few points.
         match 64 / R::LANES {
-            _ if self.count <= 2 * R::LANES => self.by_groups::<R, 1>(),
+            _ if self.request.count <= 2 * R::LANES => self.by_groups::<R, 1>(),
             4 => self.by_groups::<R, 4>(),
             8 => self.by_groups::<R, 8>(),
             16 => self.by_groups::<R, 16>(),
@@ -138,71 +154,67 @@ impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
 impl<E: Scalar> Tile<'_, '_, E> {
     /// Executes the program for G groups of lanes at a time.
     #[inline(always)]
-    fn by_groups<R: Lanes<Scalar = E>, const G: usize>(self) {
-        let Self { program, mut context, count, stride, arguments, results } = self;
+    fn by_groups<R: Lanes<Scalar = E>, const G: usize>(self) -> u64 {
+        let Self { program, mut context, request } = self;
+        let Request { count, stride, arguments, results, unread, volume } = request;
         context.parameters.lanes = R::LANES;
         let mut registers = Registers::<R>::take(program.sizes, G);
+        let mut admitted = if volume.is_any() && program.bounds.is_empty() { u64::MAX } else { 0 };
         let mut start = 0;
         while start < count {
             context.parameters.start = start;
-            let argument =
-                |k: usize, group: usize| R::load(&arguments[k * stride + start + group * R::LANES..]);
-            execute::<R, G>(program, context, argument, &mut registers);
-            for (k, &register) in program.results.iter().enumerate() {
+            let file = Files::<R, G>::new(&mut registers, &context.parameters);
+            for &(register, k) in &program.arguments {
+                let from = &arguments[k * stride + start..][..G * R::LANES];
+                let to = file.number(register);
                 for group in 0..G {
-                    let to = &mut results[k * stride + start + group * R::LANES..];
-                    registers.number(register, group).store(to);
+                    to.set(group, R::load(&from[group * R::LANES..]));
+                }
+            }
+            execute(program, context, &file);
+            for (k, &register) in program.results.iter().enumerate() {
+                if unread >> k & 1 == 1 {
+                    continue;
+                }
+                let to = &mut results[k * stride + start..][..G * R::LANES];
+                let from = file.number(register);
+                for group in 0..G {
+                    from.get(group).store(&mut to[group * R::LANES..]);
+                }
+            }
+            if admitted != u64::MAX {
+                for group in 0..G {
+                    let at = start + group * R::LANES;
+                    let argument = |k: usize| R::load(&arguments[k * stride + at..]);
+                    let mut is_inside = volume.admits([argument(0), argument(1), argument(2)]);
+                    for &bound in &program.bounds {
+                        is_inside = is_inside & R::splat(0.0).less(file.number(bound).get(group));
+                    }
+                    admitted |= R::bits(is_inside) << at;
                 }
             }
             start += G * R::LANES;
         }
         registers.give_back();
+        admitted
     }
 }
 
-/// Executes a program for G groups of points; `argument(k, group)` gives argument k at a group.
+/// Executes a program whose arguments are in their registers, for G groups of points.
 #[inline(always)]
-fn execute<R: Real, const G: usize>(
-    program: &Program,
-    context: Context<'_>,
-    argument: impl Fn(usize, usize) -> R,
-    registers: &mut Registers<R>,
-) {
+fn execute<R: Real, const G: usize>(program: &Program, context: Context<'_>, file: &Files<'_, R, G>) {
     let Context { ref parameters, mut entry, epsilon } = context;
-    let file = Files::<R, G> {
-        numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells().as_chunks().0,
-        logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells().as_chunks().0,
-        pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells().as_chunks().0,
-    };
-    let fill = |register: Register, value: R| {
-        for number in file.number(register) {
-            number.set(value);
-        }
-    };
-    let load = |register: Register, parameter: usize, entry: usize| {
-        if parameters.each.is_none() {
-            return fill(register, parameters.number(parameter, entry, 0));
-        }
-        for (group, number) in file.number(register).iter().enumerate() {
-            number.set(parameters.number(parameter, entry, group));
-        }
-    };
-    for &(register, k) in &program.arguments {
-        for (group, number) in file.number(register).iter().enumerate() {
-            number.set(argument(k, group));
-        }
-    }
     for &(register, value) in &program.literals {
-        fill(register, R::splat(value));
+        file.number(register).fill(R::splat(value));
     }
     if let Some(register) = program.epsilon {
-        fill(register, R::splat(epsilon));
+        file.number(register).fill(R::splat(epsilon));
     }
     for &(register, parameter) in &program.parameters {
-        load(register, parameter, 0);
+        file.load(register, parameters, parameter, 0);
     }
     for &(register, list) in &program.entries {
-        load(register, list, entry);
+        file.load(register, parameters, list, entry);
     }
     let outside = entry;
     let mut next = 0;
@@ -211,31 +223,36 @@ fn execute<R: Real, const G: usize>(
         match *operation {
             Operation::Begin(place) => {
                 let Loop { list, entries, totals, length } = &program.loops[place];
-                totals.iter().for_each(|&(total, _)| fill(total, R::splat(0.0)));
+                totals.iter().for_each(|&(total, _)| file.number(total).fill(R::splat(0.0)));
                 entry = 0;
                 if parameters.length(*list) == 0 {
                     entry = outside;
                     next += length + 1;
                 } else {
-                    entries.iter().for_each(|&(register, list)| load(register, list, 0));
+                    for &(register, list) in entries {
+                        file.load(register, parameters, list, 0);
+                    }
                 }
             }
             Operation::End(place) => {
                 let Loop { list, entries, totals, length } = &program.loops[place];
                 for &(total, term) in totals {
-                    for (total, term) in file.number(total).iter().zip(file.number(term)) {
-                        total.set(total.get() + term.get());
+                    let (total, term) = (file.number(total), file.number(term));
+                    for group in 0..G {
+                        total.set(group, total.get(group) + term.get(group));
                     }
                 }
                 entry += 1;
                 if entry < parameters.length(*list) {
-                    entries.iter().for_each(|&(register, list)| load(register, list, entry));
+                    for &(register, list) in entries {
+                        file.load(register, parameters, list, entry);
+                    }
                     next -= length + 1;
                 } else {
                     entry = outside;
                 }
             }
-            _ => compute(operation, &file, parameters, entry),
+            _ => compute(operation, file, parameters, entry),
         }
     }
 }
@@ -243,14 +260,58 @@ fn execute<R: Real, const G: usize>(
 /// The registers of each kind, as cells: an operand may be in the register of the result.
 struct Files<'a, R: Real, const G: usize> {
     numbers: &'a [[Cell<R>; G]],
+    /// How many of the numbers are constants, of which only the first group is in use.
+    constants: usize,
     logarithms: &'a [[Cell<R::Logarithm>; G]],
     pairs: &'a [[Cell<Pair<R>>; G]],
 }
 
+/// The cells of a register for numbers, or of a constant.
+#[derive(Clone, Copy)]
+struct Numbers<'a, R, const G: usize> {
+    cells: &'a [Cell<R>; G],
+    /// Whether the first cell stands for all.
+    is_constant: bool,
+}
+
+impl<R: Real, const G: usize> Numbers<'_, R, G> {
+    #[inline(always)]
+    fn get(self, group: usize) -> R {
+        self.cells[if self.is_constant { 0 } else { group }].get()
+    }
+
+    #[inline(always)]
+    fn set(self, group: usize, value: R) {
+        self.cells[group].set(value);
+    }
+
+    /// Sets all groups.
+    #[inline(always)]
+    fn fill(self, value: R) {
+        if self.is_constant {
+            return self.set(0, value);
+        }
+        for group in 0..G {
+            self.set(group, value);
+        }
+    }
+}
+
 impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     #[inline(always)]
-    fn number(&self, register: Register) -> &'a [Cell<R>; G] {
-        &self.numbers[usize::from(register)]
+    fn new(registers: &'a mut Registers<R>, parameters: &Parameters<'_>) -> Self {
+        Self {
+            numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells().as_chunks().0,
+            constants: if parameters.each.is_none() { registers.constants } else { 0 },
+            logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells().as_chunks().0,
+            pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells().as_chunks().0,
+        }
+    }
+
+    #[inline(always)]
+    fn number(&self, register: Register) -> Numbers<'a, R, G> {
+        let place = usize::from(register);
+        Numbers { cells: &self.numbers[place], is_constant: place < self.constants }
     }
 
     #[inline(always)]
@@ -261,6 +322,40 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     #[inline(always)]
     fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>; G] {
         &self.pairs[usize::from(register)]
+    }
+
+    /// Sets a constant to a parameter, or to an entry of a list.
+    #[inline(always)]
+    fn load(&self, register: Register, parameters: &Parameters<'_>, parameter: usize, entry: usize) {
+        let to = self.number(register);
+        if to.is_constant {
+            return to.set(0, R::splat(parameters.some.number(parameter, entry)));
+        }
+        for group in 0..G {
+            to.set(group, parameters.number(parameter, entry, group));
+        }
+    }
+}
+
+/// An operand that is the same at all groups.
+#[derive(Clone, Copy)]
+struct Same<R>(R);
+
+impl<R: Real> Same<R> {
+    #[inline(always)]
+    fn get(self, _group: usize) -> R {
+        self.0
+    }
+}
+
+/// An operand with a value of its own at each group.
+#[derive(Clone, Copy)]
+struct Each<'a, R, const G: usize>(&'a [Cell<R>; G]);
+
+impl<R: Real, const G: usize> Each<'_, R, G> {
+    #[inline(always)]
+    fn get(self, group: usize) -> R {
+        self.0[group].get()
     }
 }
 
@@ -274,14 +369,29 @@ fn compute<R: Real, const G: usize>(
 ) {
     /// A loop over the groups: `to = value` with the operands read from their registers.
     macro_rules! each {
+        (number $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
+            let to = file.number($to);
+            $(let $x = file.$operand_kind($register);)+
+            for group in 0..G {
+                to.set(group, { $(let $x = read!($operand_kind $x, group);)+ $value });
+            }
+        }};
         ($kind:ident $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
             let to = file.$kind($to);
             $(let $x = file.$operand_kind($register);)+
             for group in 0..G {
-                let value = { $(let $x = $x[group].get();)+ $value };
+                let value = { $(let $x = read!($operand_kind $x, group);)+ $value };
                 to[group].set(value);
             }
         }};
+    }
+    macro_rules! read {
+        (number $x:ident, $group:expr) => {
+            $x.get($group)
+        };
+        ($kind:ident $x:ident, $group:expr) => {
+            $x[$group].get()
+        };
     }
     macro_rules! unary {
         ($to:expr, $a:expr, |$x:ident| $value:expr) => { each!(number $to, [number $x: $a] $value) };
@@ -296,6 +406,33 @@ fn compute<R: Real, const G: usize>(
             each!(number $to, [number $x: $operands[0], number $y: $operands[1], number $z: $operands[2]] $value)
         };
     }
+    /// An operation of arithmetic: an operand that is constant is read once, and a result that is constant
+    /// computed once.
+    macro_rules! arithmetic {
+        ($to:expr, [$($x:ident: $register:expr),+] $value:expr) => {{
+            let to = file.number($to);
+            $(let $x = file.number($register);)+
+            if to.is_constant {
+                to.set(0, { $(let $x = $x.get(0);)+ $value });
+            } else {
+                arithmetic!(to, [] [$($x)+] $value);
+            }
+        }};
+        ($to:ident, [$($known:ident)*] [$x:ident $($others:ident)*] $value:expr) => {
+            if $x.is_constant {
+                let $x = Same($x.get(0));
+                arithmetic!($to, [$($known)* $x] [$($others)*] $value);
+            } else {
+                let $x = Each($x.cells);
+                arithmetic!($to, [$($known)* $x] [$($others)*] $value);
+            }
+        };
+        ($to:ident, [$($x:ident)+] [] $value:expr) => {
+            for group in 0..G {
+                $to.set(group, { $(let $x = $x.get(group);)+ $value });
+            }
+        };
+    }
     let whole = |exponent: Exponent| match exponent {
         Exponent::Parameter(k) => parameters.whole(k, 0),
         Exponent::Entry(k) => parameters.whole(k, entry),
@@ -303,14 +440,14 @@ fn compute<R: Real, const G: usize>(
     match *operation {
         // The order of the operations, which is not theirs to decide.
         Operation::Begin(_) | Operation::End(_) => {}
-        Operation::Neg(to, a) => unary!(to, a, |x| -x),
-        Operation::Add(to, a, b) => binary!(to, a, b, |x, y| x + y),
-        Operation::Sub(to, a, b) => binary!(to, a, b, |x, y| x - y),
-        Operation::Mul(to, a, b) => binary!(to, a, b, |x, y| x * y),
-        Operation::Div(to, a, b) => binary!(to, a, b, |x, y| x / y),
-        Operation::MulAdd(to, of) => ternary!(to, of, |x, y, z| x.mul_add(y, z)),
-        Operation::NegMulAdd(to, of) => ternary!(to, of, |x, y, z| (-x).mul_add(y, z)),
-        Operation::MulSub(to, of) => ternary!(to, of, |x, y, z| x.mul_add(y, -z)),
+        Operation::Neg(to, a) => arithmetic!(to, [x: a] -x),
+        Operation::Add(to, a, b) => arithmetic!(to, [x: a, y: b] x + y),
+        Operation::Sub(to, a, b) => arithmetic!(to, [x: a, y: b] x - y),
+        Operation::Mul(to, a, b) => arithmetic!(to, [x: a, y: b] x * y),
+        Operation::Div(to, a, b) => arithmetic!(to, [x: a, y: b] x / y),
+        Operation::MulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, z)),
+        Operation::NegMulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] (-x).mul_add(y, z)),
+        Operation::MulSub(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, -z)),
         Operation::Sqrt(to, a) => unary!(to, a, |x| x.sqrt()),
         Operation::Cbrt(to, a) => unary!(to, a, |x| x.cbrt()),
         Operation::Ln(to, a) => unary!(to, a, |x| x.ln()),

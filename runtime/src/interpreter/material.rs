@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use super::execute::{Context, Registers, execute_alone, execute_tile};
+use super::domain::{Volume, VolumeBound};
+use super::execute::{Context, Registers, Request, execute_alone, execute_tile};
 use super::parameters::{ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
+use crate::point::invariants::tangent::vanishes;
 use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.
@@ -75,17 +77,6 @@ pub struct Calls {
     pub functions: Vec<usize>,
 }
 
-/// The volumes J for which an energy is defined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Volume {
-    /// All of them.
-    Any,
-    /// J > 0.
-    Positive,
-    /// J ≠ 0.
-    Nonzero,
-}
-
 /// A material whose energy was declared at run time, as the crate `piola-declare` makes it.
 ///
 /// It computes what a material compiled from the same declaration does, to the last bit, and is as good
@@ -134,7 +125,7 @@ impl Interpreted {
     pub fn compute(&self, program: &Program, arguments: &[f64], entry: usize) -> Vec<f64> {
         let mut registers = Registers::take(program.sizes, 1);
         execute_alone(program, Context { entry, ..self.context() }, arguments, &mut registers);
-        let results = program.results.iter().map(|&register| registers.number(register, 0)).collect();
+        let results = program.results.iter().map(|&register| registers.number(register)).collect();
         registers.give_back();
         results
     }
@@ -183,7 +174,7 @@ impl Interpreted {
     fn results<R: Real, const N: usize>(&self, program: &Program, arguments: &[R]) -> [R; N] {
         let mut registers = Registers::take(program.sizes, 1);
         execute_alone(program, self.context(), arguments, &mut registers);
-        let results = std::array::from_fn(|k| registers.number(program.results[k], 0));
+        let results = std::array::from_fn(|k| registers.number(program.results[k]));
         registers.give_back();
         results
     }
@@ -198,31 +189,20 @@ impl Interpreted {
         Some((&programs.bounds, &programs.calls))
     }
 
-    /// Whether volumes are inside the domain, by stretches or by invariants.
-    fn has_volume<R: Real>(&self, is_by_invariants: bool, [first, _, last]: [R; 3]) -> R::Mask {
-        let zero = R::splat(0.0);
-        match (self.programs.volume, self.inversion) {
-            (Volume::Any, _) => R::Mask::splat(true),
-            // λ1 λ2 ≤ (λ1² + λ2²)/2, so λ3 ≥ 2J/I1: no stretch is below ε where 2J > ε I1.
-            (_, Inversion::Extend { epsilon }) if is_by_invariants => {
-                (R::splat(epsilon) * first).less(last + last)
-            }
-            (_, Inversion::Extend { .. }) => R::Mask::splat(true),
-            // J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0.
-            (Volume::Positive, Inversion::Refuse) => zero.less(last),
-            (Volume::Nonzero, Inversion::Refuse) => zero.less(last.abs()),
-        }
+    /// The volumes inside the domain, by stretches or by invariants.
+    fn volume(&self, is_by_invariants: bool) -> VolumeBound {
+        VolumeBound { volume: self.programs.volume, inversion: self.inversion, is_by_invariants }
     }
 
     fn admits_alone<R: Real>(&self, is_by_invariants: bool, at: [R; 3]) -> R::Mask {
         let Some((bounds, calls)) = self.domain(is_by_invariants) else { return R::Mask::splat(false) };
-        let mut mask = self.has_volume(is_by_invariants, at);
+        let mut mask = self.volume(is_by_invariants).admits(at);
         let context = self.context();
         let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
             let mut registers = Registers::take(program.sizes, 1);
             execute_alone(program, Context { entry, ..context }, &at, &mut registers);
             for (k, &register) in program.results.iter().enumerate() {
-                mask = mask & holds(k, registers.number(register, 0));
+                mask = mask & holds(k, registers.number(register));
             }
             registers.give_back();
         };
@@ -235,29 +215,25 @@ impl Interpreted {
         mask
     }
 
-    /// A response of a tile whose points have this material but for real numbers among its parameters. Gives
-    /// the points inside the domain as bits.
+    /// A response of a tile whose points have this material but for real numbers among its parameters; results
+    /// that nothing reads, as bits, are left out. Gives the points inside the domain as bits.
     fn respond<E: Scalar>(
         &self,
         response: ResponseKind,
         parameters: Parameters<'_>,
         tile: &mut Tile<'_, E>,
+        unread: u32,
     ) -> u64 {
         let Tile { backend, count, stride, arguments, .. } = *tile;
         let context = Context { parameters, ..self.context() };
-        if let Some(program) = self.program(response) {
-            execute_tile(backend, program, context, (count, stride), arguments, tile.results);
-        }
         let is_by_invariants = response.is_by_invariants();
-        let Some((bounds, calls)) = self.domain(is_by_invariants) else { return 0 };
-        let at = |point: usize| [0, 1, 2].map(|k| arguments[k * stride + point]);
-        let mut admitted = match self.programs.volume {
-            Volume::Any => u64::MAX,
-            _ => bits(count, |point| self.has_volume(is_by_invariants, at(point))),
+        let (Some(program), Some((_, calls))) = (self.program(response), self.domain(is_by_invariants))
+        else {
+            return 0;
         };
-        if !bounds.results.is_empty() {
-            admitted &= domain_bits(tile, bounds, context, |_, bound| E::default() < bound);
-        }
+        let volume = self.volume(is_by_invariants);
+        let request = Request { count, stride, arguments, results: tile.results, unread, volume };
+        let mut admitted = execute_tile(backend, program, context, request);
         for Calls { list, arguments, functions } in calls {
             for entry in 0..list.map_or(1, |list| parameters.length(list)) {
                 let context = Context { entry, ..context };
@@ -279,7 +255,9 @@ fn domain_bits<E: Scalar>(
     let Tile { backend, count, stride, arguments, .. } = *tile;
     let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
     let mut rows = Registers::<E>::take(sizes, 1);
-    execute_tile(backend, program, context, (count, stride), arguments, rows.numbers());
+    let volume = VolumeBound { volume: Volume::Any, inversion: Inversion::Refuse, is_by_invariants: false };
+    let request = Request { count, stride, arguments, results: rows.numbers(), unread: 0, volume };
+    execute_tile(backend, program, context, request);
     let results = rows.numbers().chunks(stride).take(program.results.len()).enumerate();
     let all = results
         .map(|(k, row)| bits(count, |point| holds(k, row[point])))
@@ -398,9 +376,16 @@ impl Material for Interpreted {
         mut tile: Tile<'_, E>,
     ) -> u64 {
         let first = material(0);
+        let unread = match response {
+            ResponseKind::DerivativesByInvariants => {
+                let (has_second, curvature) = (first.has_second_invariant(), first.curvature_by_invariants());
+                (0..9).filter(|&k| vanishes(k, has_second, curvature)).fold(0, |bits, k| bits | 1 << k)
+            }
+            _ => 0,
+        };
         let others = || (1..tile.materials).map(material);
         if others().all(|other| std::ptr::eq(other, first) || other == first) {
-            return first.respond(response, Parameters::same(&first.values), &mut tile);
+            return first.respond(response, Parameters::same(&first.values), &mut tile, unread);
         }
         let is_alike = |other: &Self| {
             other.is_of_the_same_energy(first)
@@ -411,7 +396,7 @@ impl Material for Interpreted {
             let last = tile.materials - 1;
             let each = |point: usize| &material(point.min(last)).values;
             let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
-            return first.respond(response, parameters, &mut tile);
+            return first.respond(response, parameters, &mut tile, unread);
         }
         // Each different material at all points, of which those that have it take its results.
         let mut admitted = 0;
@@ -422,7 +407,7 @@ impl Material for Interpreted {
                 continue;
             }
             let own = bits(tile.count, |point| material(point) == one);
-            admitted |= own & one.respond(response, Parameters::same(&one.values), &mut tile);
+            admitted |= own & one.respond(response, Parameters::same(&one.values), &mut tile, 0);
             for (to, from) in together.chunks_mut(tile.stride).zip(tile.results.chunks(tile.stride)) {
                 for point in (0..tile.count).filter(|point| own >> point & 1 == 1) {
                     to[point] = from[point];

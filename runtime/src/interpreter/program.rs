@@ -1,6 +1,10 @@
 //! Programs as data: operations on registers, in order, and loops over lists.
 
 /// A register: its place among those of its kind, numbers, logarithms or pairs.
+///
+/// The first registers for numbers are constants: the same at every point, unless parameters differ between
+/// the points. Only the first group of a constant is written and read, so that it takes one place in the
+/// innermost cache. What the operations of arithmetic compute of constants alone is a constant, too.
 pub type Register = u16;
 
 /// Operations in order, the registers that they begin with, and those that hold the results.
@@ -8,15 +12,15 @@ pub type Register = u16;
 /// A register may serve several values one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// Registers that hold the same number at every point.
+    /// Constants that the declaration writes as numbers.
     pub literals: Vec<(Register, f64)>,
     /// Registers that hold an argument: its place among the arguments.
     pub arguments: Vec<(Register, usize)>,
-    /// Registers that hold a parameter: its place in the declaration.
+    /// Constants that are a parameter: its place in the declaration.
     pub parameters: Vec<(Register, usize)>,
-    /// Registers that hold the entry of a list which the caller names: the list's place in the declaration.
+    /// Constants that are the entry of a list which the caller names: the list's place in the declaration.
     pub entries: Vec<(Register, usize)>,
-    /// The register that holds the threshold ε of an extension.
+    /// The constant that is the threshold ε of an extension.
     pub epsilon: Option<Register>,
     /// The operations, in order.
     pub operations: Vec<Operation>,
@@ -24,6 +28,8 @@ pub struct Program {
     pub loops: Vec<Loop>,
     /// The registers of the results.
     pub results: Vec<Register>,
+    /// Registers of numbers that are positive inside the domain of the energy, for a response of a tile.
+    pub bounds: Vec<Register>,
     /// Numbers of registers.
     pub sizes: Sizes,
 }
@@ -31,8 +37,10 @@ pub struct Program {
 /// How many registers of each kind a program needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
-    /// Registers for real numbers.
+    /// Registers for real numbers, constants among them.
     pub numbers: usize,
+    /// Registers for constants, which come first.
+    pub constants: usize,
     /// Registers for logarithms with extra digits, from which powers are made.
     pub logarithms: usize,
     /// Registers for what the divided differences of two values share.
@@ -44,7 +52,7 @@ pub struct Sizes {
 pub struct Loop {
     /// A list of that length: its place in the declaration.
     pub list: usize,
-    /// Registers that hold the current entry of a list: its place in the declaration.
+    /// Constants that are the current entry of a list: its place in the declaration.
     pub entries: Vec<(Register, usize)>,
     /// Registers of totals, which begin with zero, and of what is added to each for every entry.
     pub totals: Vec<(Register, Register)>,

@@ -206,6 +206,19 @@ pub(crate) fn has_all(has_second: bool, curvature: Curvature) -> bool {
     }
 }
 
+/// Whether nothing reads derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, since it is zero everywhere.
+#[inline(always)]
+pub(crate) fn vanishes(k: usize, has_second: bool, curvature: Curvature) -> bool {
+    let has_all = has_all(has_second, curvature);
+    match k {
+        1 => !has_second,
+        3 => !has_second && !has_all,
+        7 => !has_all,
+        4 | 6 | 8 => !has_second || !has_all,
+        _ => false,
+    }
+}
+
 impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, HAS_ALL> {
     /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
     #[inline(always)]
