@@ -129,6 +129,44 @@ test("the material changes while the body moves", async () => {
   await until((frame) => globalThis.piola.figures().frame > frame + 3, frame);
 });
 
+test("an energy is typed while the body moves, and shared by its address", async () => {
+  const field = page.locator("#energy-text");
+  assert.match(await field.inputValue(), /fn StableNeoHookean/, "the energy in use is shown");
+  await field.fill("mu/2*(I1 - 3) - mu*ln(J) + lamda/2*ln(J)^2 + mu*stiff(I1)");
+  await page.locator("#mistakes:visible").waitFor();
+  assert.match(await page.textContent("#mistakes"), /stiff/);
+  assert.equal(await page.textContent("#marks mark"), "stiff", "the word is marked");
+  const under = await page.locator("#marks mark").boundingBox();
+  const around = await field.boundingBox();
+  assert.ok(under.x > around.x && under.y > around.y && under.y < around.y + around.height, "where it stands");
+  const { frame } = await figures();
+  await until((frame) => globalThis.piola.figures().frame > frame, frame); // the energy before is still in use
+  await shoot("mistake");
+  await field.fill("mu/2*(I1 - 3) - mu*ln(J) + K/2*(J - 1)^2");
+  await until(() => document.getElementById("formula").textContent.includes("K"));
+  assert.ok(await page.locator("#mistakes").isHidden());
+  const names = await page.locator("#parameters .slider label").allTextContents();
+  assert.deepEqual(names, ["mu", "K"]);
+  const bulk = page.locator(".slider", { has: page.locator("label", { hasText: /^K$/ }) }).locator("input[type=number]");
+  await bulk.fill("300000");
+  await bulk.press("Enter");
+  await until(() => new URLSearchParams(location.hash.slice(1)).get("K") === "300000");
+  await shoot("typed");
+  const address = page.url();
+  await page.selectOption("#material", "stable_neo_hookean");
+  await until(() => location.hash === "");
+
+  const friend = await browser.newPage();
+  await friend.goto(address);
+  await friend.waitForFunction(() => document.querySelectorAll("#parameters .slider").length === 2 &&
+    document.getElementById("formula").textContent.includes("K"));
+  const values = await friend.locator("#parameters input[type=number]").evaluateAll((fields) => fields.map(({ value }) => Number(value)));
+  assert.equal(values[1], 300000);
+  await friend.close();
+  await page.selectOption("#material", "stable_neo_hookean");
+  await until(() => document.getElementById("formula").textContent.includes("3/4"));
+});
+
 test("pause, step, reset, wireframe, by keys and buttons", async () => {
   await page.locator("#stage").focus();
   await page.keyboard.press("w");

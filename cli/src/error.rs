@@ -111,6 +111,16 @@ pub enum Error {
     /// An energy has mistakes.
     #[error("{0}")]
     Declaration(Mistakes),
+    /// The text of an energy is longer than the viewer takes.
+    #[error(
+        "the text of an energy has at most {most} bytes here, and this one has {bytes}; `piola view FILE.rs` takes longer ones"
+    )]
+    LongText {
+        /// Its length, in bytes.
+        bytes: usize,
+        /// The greatest length, in bytes.
+        most: usize,
+    },
     /// A material breaks rules that all must keep.
     #[error("{material} does not keep the contract of a material:\n{violations}")]
     Contract {

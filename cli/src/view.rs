@@ -4,7 +4,7 @@
 //! acts; `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between
 //! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server`, `request`
 //! and `token` decide who comes in, `patience` how long one that is silent stays, and `page` is what they
-//! get. [`state`] and [`recording`] are the files.
+//! get. `typed` makes a material of what is typed there. [`state`] and [`recording`] are the files.
 //!
 //! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. A random token in the
 //! [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
@@ -22,6 +22,7 @@ pub mod session;
 mod show;
 pub mod state;
 mod token;
+mod typed;
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;

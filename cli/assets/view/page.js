@@ -25,6 +25,7 @@ const link = connect({
       orbit.look(stage.centre, FIT * stage.size, setup.azimuth, setup.elevation);
     }
     panel.setUp(setup);
+    panel.editor.takeFromAddress();
   },
   figures(figures) {
     panel.setFigures(figures);

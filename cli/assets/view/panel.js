@@ -1,5 +1,6 @@
 // The panel beside the stage: buttons, figures, the material with its sliders.
 
+import { Editor } from "./editor.js";
 import { Slider } from "./slider.js";
 
 const byId = (id) => document.getElementById(id);
@@ -13,6 +14,7 @@ export class Panel {
     this.sliders = new Map(); // by parameter, one for each entry
     this.timeStep = null;
     this.material = null;
+    this.editor = new Editor(link);
     this.notice = null;
     const click = (id, action) =>
       byId(id).addEventListener("click", (event) => {
@@ -37,7 +39,7 @@ export class Panel {
       " ": "pause", ".": "step", r: "reset", l: "let-go", s: "save", b: "restore", t: "take-over", f: "real-time", w: "wireframe",
     };
     window.addEventListener("keydown", (event) => {
-      const isTyping = event.target.matches?.("input:not([type=checkbox]):not([type=range]), select");
+      const isTyping = event.target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea");
       const id = keys[event.key.toLowerCase()];
       if (!id || isTyping || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
@@ -77,13 +79,15 @@ export class Panel {
         choice.add(option);
       }
     }
-    choice.value = material.name;
+    // An energy that was typed is none of these.
+    choice.selectedIndex = material.is_declared ? -1 : [...choice.options].findIndex(({ value }) => value === material.name);
     choice.title = material.summary;
     this.refuseMaterial(null);
+    this.editor.follow(material);
     byId("formula").textContent = `ψ = ${material.formula}`;
     byId("formula").title = `${material.summary} Defined for ${material.domain}.`;
     const shape = (material) =>
-      JSON.stringify([material?.name, material?.parameters.map(({ values }) => values.length)]);
+      JSON.stringify([material?.name, material?.formula, material?.parameters.map(({ values }) => values.length)]);
     if (shape(material) !== shape(this.material)) this.makeSliders(material.parameters);
     this.material = material;
     for (const { name, values } of material.parameters) {
@@ -95,8 +99,9 @@ export class Panel {
     this.sliders.clear();
     byId("parameters").replaceChildren();
     for (const { name, doc, is_list, values } of parameters) {
-      const isLogarithmic = doc.includes(", Pa");
       const sliders = values.map((value, k) => {
+        // A formula does not say which of its parameters are moduli; these are large in Pa.
+        const isLogarithmic = doc.includes(", Pa") || value > 1e3;
         const about = { name: is_list ? name + subscript(k + 1) : name, title: doc, value, isLogarithmic };
         return new Slider(about, () => {
           this.link.actLater(name, { parameter: { name, values: sliders.map((slider) => slider.value) } });
@@ -109,11 +114,12 @@ export class Panel {
   }
 
   /** Why something was not done, where it was asked for. */
-  refuse({ act, reason }) {
+  refuse({ act, reason, mistakes }) {
     const [[kind, what]] = Object.entries(act);
     if (kind === "parameter") this.sliders.get(what.name)?.forEach((slider) => slider.refuse(reason));
     else if (kind === "time_step") this.timeStep.refuse(reason);
     else if (kind === "material") this.refuseMaterial(reason);
+    else if (kind === "energy") this.editor.refuse(what.text, reason, mistakes);
     else {
       this.notice = reason;
       clearTimeout(this.forgetting);
@@ -124,7 +130,7 @@ export class Panel {
   refuseMaterial(reason) {
     byId("material-refusal").hidden = reason === null;
     byId("material-refusal").textContent = reason ?? "";
-    if (reason !== null && this.material) byId("material").value = this.material.name;
+    if (reason !== null && this.material) byId("material").value = this.material.is_declared ? "" : this.material.name;
   }
 
   /** What changes with each step. */

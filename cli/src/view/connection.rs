@@ -17,7 +17,7 @@ use super::driver::{Answer, Order};
 use super::patience::{Patience, TimedStream, is_silence};
 use super::protocol::{Act, Message};
 
-/// The longest message that makes sense is a long list of parameters.
+/// The longest message that makes sense is a declaration with its parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
 /// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other
 /// pages.

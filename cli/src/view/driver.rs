@@ -160,12 +160,17 @@ impl Driver {
         match order {
             Order::Act { act, answer } => {
                 let result = match self.replay {
-                    Some(_) => Err("a recording is played back; take over, or wait for its end".into()),
-                    None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| for_page(&error)),
+                    Some(_) => {
+                        Err(("a recording is played back; take over, or wait for its end".into(), Vec::new()))
+                    }
+                    None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| match error {
+                        Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
+                        error => (for_page(&error), Vec::new()),
+                    }),
                 };
-                if let Err(reason) = result {
+                if let Err((reason, mistakes)) = result {
                     // A connection that has ended needs no answer.
-                    let _ = answer.send(Answer::Refused(show::refused(&act, &reason)));
+                    let _ = answer.send(Answer::Refused(show::refused(&act, &reason, &mistakes)));
                 }
             }
             Order::Run(Run::Pause { paused }) => {
@@ -207,7 +212,9 @@ impl Driver {
         self.session.apply(act)?;
         let steps = self.session.steps();
         self.record(|recorder| recorder.act(steps, act));
-        if matches!(act, Act::Reset {} | Act::Restore {} | Act::Material { .. } | Act::Parameter { .. }) {
+        let is_another_body =
+            matches!(act, Act::Material { .. } | Act::Energy { .. } | Act::Parameter { .. });
+        if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {
             self.stats.trouble = None;
         }
         self.is_setup_stale |= !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {});

@@ -18,6 +18,7 @@ const FILES: &[(&str, &str)] = files![
     "orbit.js",
     "drag.js",
     "panel.js",
+    "editor.js",
     "slider.js",
     "three/three.module.min.js",
     "three/three.core.min.js",

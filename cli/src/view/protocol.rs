@@ -9,6 +9,8 @@
 //! assert!(Message::parse(r#"{"act": {"jump": {}}}"#).is_err());
 //! ```
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 /// A message from a page.
@@ -49,6 +51,14 @@ pub enum Act {
         name: String,
         /// Whether it gets the small-strain moduli that the body has, in place of its typical ones.
         as_stiff: bool,
+    },
+    /// Replaces the material by an energy as it is typed; the body stays where it is.
+    Energy {
+        /// A formula, or a declaration in Rust.
+        text: String,
+        /// Values of parameters, several for a list. One that is left out has that of the present material,
+        /// if there is one of its name, and else a value for the body to be about as stiff as before.
+        parameters: BTreeMap<String, Vec<f64>>,
     },
     /// Changes a parameter of the material.
     Parameter {

@@ -16,6 +16,7 @@ use piola_scenes::settings::Settings;
 
 use super::protocol::Act;
 use super::state::{Drag, MAX_DRAG, State};
+use super::typed;
 use crate::error::Error;
 
 /// Most pulls at a time; people have fewer fingers.
@@ -140,7 +141,7 @@ impl Session {
     /// Does what a page asks for, before the next step.
     ///
     /// # Errors
-    /// [`Error::Scene`] or [`Error::NothingSaved`]; the state is then as before.
+    /// [`Error::Scene`], [`Error::Declaration`], [`Error::LongText`] or [`Error::NothingSaved`]; the state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
             &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),
@@ -154,6 +155,11 @@ impl Session {
             }
             Act::Material { name, as_stiff } => {
                 let material = self.material(name, *as_stiff)?;
+                self.change(self.settings.clone().with_material(material))
+            }
+            Act::Energy { text, parameters } => {
+                let moduli = self.play.moduli();
+                let material = typed::material(text, parameters, &self.settings.material, moduli)?;
                 self.change(self.settings.clone().with_material(material))
             }
             Act::Parameter { name, values } => {

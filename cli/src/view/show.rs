@@ -12,8 +12,10 @@ use std::collections::BTreeSet;
 
 use piola::material::Parameter;
 use piola::step::Energies;
+use piola_declare::{Energy, Mistake};
 use piola_materials::CATALOGUE;
 use piola_scenes::geometry::Geometry;
+use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
 use serde_json::json;
 use tungstenite::{Bytes, Utf8Bytes};
@@ -95,6 +97,8 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
             "name": session.play().material(),
             "summary": description.summary,
             "formula": description.formula,
+            "text": text(&settings.material),
+            "is_declared": settings.material.energy().is_some(),
             "domain": description.domain,
             "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
         })
@@ -118,6 +122,15 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
         "file": file, // for saved states
     });
     json!({ "setup": setup }).to_string().into()
+}
+
+/// The text of the energy in use, as it is typed: for one of the catalogue the declaration in Rust.
+fn text(material: &MaterialSpec) -> &str {
+    let entry = || CATALOGUE.iter().find(|entry| material.is(entry.name));
+    let source = material.energy().map(Energy::text).or_else(|| entry().map(|entry| entry.source));
+    let text = source.unwrap_or_default();
+    // What the file says of itself, and what it imports, is not the energy.
+    text.find("\n///").map_or(text, |begin| &text[begin + 1..])
 }
 
 /// Figures that change with each step.
@@ -144,7 +157,12 @@ pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
     json!({ "figures": figures }).to_string().into()
 }
 
-/// The reason why an act was refused.
-pub(super) fn refused(act: &Act, reason: &str) -> Utf8Bytes {
-    json!({ "refused": { "act": act, "reason": reason } }).to_string().into()
+/// The reason why an act was refused, and the mistakes of a text with their places.
+pub(super) fn refused(act: &Act, reason: &str, mistakes: &[Mistake]) -> Utf8Bytes {
+    let mistake = |Mistake { message, place }: &Mistake| {
+        let place = place.map(|place| [place.line, place.column, place.length]);
+        json!({ "message": message, "place": place })
+    };
+    let mistakes: Vec<_> = mistakes.iter().map(mistake).collect();
+    json!({ "refused": { "act": act, "reason": reason, "mistakes": mistakes } }).to_string().into()
 }

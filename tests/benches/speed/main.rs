@@ -15,6 +15,7 @@ mod goals;
 mod measure;
 mod point_by_point;
 mod tables;
+mod typed;
 
 fn main() {
     let is_quick = std::env::args().skip(1).any(|argument| argument == "--quick");
@@ -44,6 +45,7 @@ fn main() {
     println!("{}", goals::table(effort, streaming_effort));
     println!("{}", goals::REASONS);
     println!("## Energies by hand\n\n{}", comparisons::hand_written(effort));
+    println!("## Energies typed at run time\n\n{}", typed::table(effort).expect("typical parameters"));
     println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
     println!("## Few points a call, {best}, f64, by points\n\n{}", tables::few_points(effort));
     for backend in Backend::available().take(if is_quick { 1 } else { usize::MAX }) {

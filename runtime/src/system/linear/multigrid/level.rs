@@ -266,7 +266,7 @@ impl<const N: usize> Level<N> {
 /// A vector with a part in every direction: one without symmetry.
 fn anything<const N: usize>(row: usize) -> [f32; N] {
     std::array::from_fn(|c| {
-        let hash = (N * row + c + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        let hash = ((N * row + c + 1) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
         hash as f32 / (1 << 23) as f32 - 1.0
     })
 }

@@ -1,0 +1,121 @@
+//! An energy as it is typed on the page, and values for the parameters that have none yet.
+
+use std::collections::BTreeMap;
+
+use piola::material::{Moduli, Parameter};
+use piola_declare::{Energy, Mistakes};
+use piola_scenes::error::Error as SceneError;
+use piola_scenes::material::MaterialSpec;
+
+use crate::error::Error;
+
+/// The longest text, in bytes: several times the longest declaration of the catalogue.
+const MAX_TEXT: usize = 12 * 1024;
+/// New parameters of which all combinations of values are tried; any more begin with 1.
+const MOST_TRIED: usize = 6;
+
+/// The material of a text with these values. A parameter without one has that of the present material, if
+/// that has one of its name, and else begins with [a value of its own](begin).
+///
+/// # Errors
+/// [`Error::Declaration`], or an error of the material.
+pub(super) fn material(
+    text: &str,
+    given: &BTreeMap<String, Vec<f64>>,
+    present: &MaterialSpec,
+    moduli: Moduli,
+) -> Result<MaterialSpec, Error> {
+    let spec = MaterialSpec::declared(energy(text)?);
+    let names: Vec<_> = parameters(&spec)?.iter().map(|parameter| parameter.name.to_string()).collect();
+    if let Some(parameter) = given.keys().find(|name| !names.contains(name)) {
+        let material = spec.description()?.name.clone();
+        let known = names.into_iter().map(Into::into).collect();
+        return Err(SceneError::UnknownParameter { material, parameter: parameter.clone(), known }.into());
+    }
+    let known = names.iter().filter_map(|name| {
+        let values = given.get(name).map_or(present.values_of(name), Vec::as_slice);
+        (!values.is_empty()).then_some((name, values))
+    });
+    let spec = known.fold(spec, |spec, (name, values)| spec.with_parameter(name, values));
+    let spec = begin(spec, moduli)?;
+    Ok(spec.explicit()?)
+}
+
+/// The energy of a formula, or of a declaration in Rust.
+fn energy(text: &str) -> Result<Energy, Error> {
+    if text.len() > MAX_TEXT {
+        return Err(Error::LongText { bytes: text.len(), most: MAX_TEXT });
+    }
+    let is_rust = text.split(|c: char| !c.is_alphanumeric()).any(|word| word == "fn");
+    let energy: Result<_, Mistakes> =
+        if is_rust { Energy::from_rust(text) } else { Energy::from_formula(text) };
+    energy.map_err(Error::Declaration)
+}
+
+fn parameters(spec: &MaterialSpec) -> Result<&[Parameter], SceneError> {
+    Ok(&spec.description()?.parameters)
+}
+
+/// Gives each parameter without a value the shear modulus of the body, or 1: of all combinations the one with
+/// which the material is about as stiff as the body was.
+///
+/// A formula does not say which of its parameters are moduli.
+fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, SceneError> {
+    let is_new = |parameter: &&Parameter| spec.values_of(&parameter.name).is_empty();
+    let new: Vec<_> =
+        parameters(&spec)?.iter().filter(is_new).map(|parameter| parameter.name.to_string()).collect();
+    let with = |combination: usize| {
+        let valued = new.iter().enumerate().map(|(k, name)| (name, combination >> k & 1 == 1));
+        valued.fold(spec.clone(), |spec, (name, is_modulus)| {
+            spec.with_parameter(name, [if is_modulus { body.mu } else { 1.0 }])
+        })
+    };
+    let bulk = |moduli: Moduli| moduli.lambda + 2.0 / 3.0 * moduli.mu;
+    let distance = |combination: &usize| {
+        let stiffness = with(*combination).build().map(|info| info.moduli);
+        let away =
+            stiffness.map(|moduli| (moduli.mu / body.mu).ln().abs() + (bulk(moduli) / bulk(body)).ln().abs());
+        away.ok().filter(|away| away.is_finite()).unwrap_or(f64::MAX)
+    };
+    let tried = 1_usize << new.len().min(MOST_TRIED);
+    let nearest = (0..tried).min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    Ok(with(nearest.unwrap_or_default()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BODY: Moduli = Moduli { mu: 1e5, lambda: 4e5 };
+
+    fn typed(text: &str, given: &[(&str, f64)]) -> Result<MaterialSpec, Error> {
+        let given = given.iter().map(|&(name, value)| (name.to_owned(), vec![value])).collect();
+        let present = MaterialSpec::new("neo_hookean").with_parameter("mu", [3e4]);
+        material(text, &given, &present, BODY)
+    }
+
+    #[test]
+    fn parameters_without_values_are_those_of_the_body_or_make_it_as_stiff() {
+        let text = "mu/2*(I1 - 3) - mu*ln(J) + K/2*(J - 1)^2 + mu/n*(I1 - 3)^2";
+        let spec = typed(text, &[]).unwrap();
+        assert_eq!(["mu", "K", "n"].map(|name| spec.values_of(name)[0]), [3e4, 1e5, 1.0]);
+        let spec = typed(text, &[("n", 7.0), ("mu", 2e4)]).unwrap();
+        assert_eq!(["mu", "K", "n"].map(|name| spec.values_of(name)[0]), [2e4, 1e5, 7.0]);
+    }
+
+    #[test]
+    fn declarations_in_rust_are_known_by_their_function() {
+        let text = piola_materials::CATALOGUE.iter().find(|entry| entry.name == "gent").unwrap().source;
+        assert_eq!(typed(text, &[]).unwrap().values_of("jm"), [108.0]);
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_places() {
+        let Err(Error::Declaration(mistakes)) = typed("mu/2*(I1 - 3", &[]) else { panic!() };
+        assert_eq!(mistakes.list[0].place.unwrap().column, 6);
+        let unknown = typed("mu/2*(I1 - 3) - mu*ln(J)", &[("nu", 0.3)]).unwrap_err().to_string();
+        assert!(unknown.contains("nu") && unknown.contains("mu"), "{unknown}");
+        let long = typed(&"1 + ".repeat(4000), &[]).unwrap_err().to_string();
+        assert!(long.contains("16000"), "{long}");
+    }
+}

@@ -1,0 +1,72 @@
+//! Energies typed at run time beside compiled ones, the same declarations.
+
+use std::hint::black_box;
+
+use piola::batch::Batch;
+use piola::lanes::Backend;
+use piola::material::{Declared, MaterialError};
+use piola::point::{Filter, evaluate, evaluate_stress};
+use piola::{Inversion, Material};
+use piola_declare::Energy;
+use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola_speed::{Effort, Task, Times, deformation_gradients, time_in_turns};
+
+use super::measure::side_by_side;
+use super::tables::{cell, header, row};
+
+const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
+const POINTS: usize = 64;
+
+/// P, and P with dP/dF, f64: in cache on the back ends with vectors, and point by point.
+pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
+    let mut table = header(&["energy", "kernel", "instructions", "compiled", "typed", "typed / compiled"]);
+    for entry in CATALOGUE.iter().filter(|entry| NAMES.contains(&entry.name)) {
+        let values = entry.typical();
+        let energy = Energy::from_rust(entry.source).expect("a declaration of the catalogue");
+        let typed = energy.material(&values, Inversion::Refuse)?;
+        let compiled = entry.elements(&values, Inversion::Refuse)?;
+        for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
+            for task in [Task::Stresses, Task::Tangents] {
+                let batches = [Batch::new(&*compiled), Batch::new(&typed)];
+                let times = side_by_side(effort, task, batches.each_ref().map(|batch| batch.with_backend(backend)).each_ref());
+                compare(&mut table, [entry.name, task.name(), backend.name()], times);
+            }
+        }
+        entry.visit(&values, Inversion::Refuse, PointByPoint { effort, entry, typed, table: &mut table })?;
+    }
+    Ok(table)
+}
+
+/// One point after the other, without lanes.
+struct PointByPoint<'a, M> {
+    effort: Effort,
+    entry: &'a Entry,
+    typed: M,
+    table: &'a mut String,
+}
+
+impl<T: Material> Visitor for PointByPoint<'_, T> {
+    type Output = ();
+
+    fn visit<M: Declared + 'static>(self, compiled: M) {
+        let Self { effort, entry, typed, table } = self;
+        let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
+        let gradients: Vec<_> = deformation_gradients().take(POINTS).map(rows).collect();
+        let times = time_in_turns(effort, POINTS, [
+            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
+            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
+        ]);
+        compare(table, [entry.name, "evaluate_stress", "a point"], times);
+        let times = time_in_turns(effort, POINTS, [
+            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
+            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
+        ]);
+        compare(table, [entry.name, "evaluate", "a point"], times);
+    }
+}
+
+fn compare(table: &mut String, labels: [&str; 3], [compiled, typed]: [Times; 2]) {
+    let mut cells = labels.map(str::to_owned).to_vec();
+    cells.extend([cell(compiled), cell(typed), format!("{:.2}", typed.least / compiled.least)]);
+    row(table, &cells);
+}
