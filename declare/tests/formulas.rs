@@ -132,7 +132,8 @@ fn check_mistake(formula: &str, options: &FormulaOptions, underlined: &str, mess
 #[test]
 fn mistakes_are_told_at_their_places() {
     let any = FormulaOptions::default();
-    check_mistake("mu/2*(I1 - 3) - mu*lnn(J)", &any, "lnn", "did you mean `.ln()`?");
+    check_mistake("mu/2*(I1 - 3) - mu*lnn(J)", &any, "lnn", "did you mean `ln`?");
+    check_mistake("mu*stiff(I1)", &any, "stiff", "unknown function `stiff`: there are `ln`, `exp`");
     check_mistake("mu/2*(I1 - 3", &any, "(", "this `(` is not closed");
     check_mistake("mu/2*(I1 - 3) -", &any, "-", "a formula ends with");
     check_mistake("mu/2*(I1 − 3)² + · 2", &any, "·", "is expected here");

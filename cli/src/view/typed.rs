@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use piola::material::{Moduli, Parameter};
-use piola_declare::{Energy, Mistakes};
+use piola_declare::Energy;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 
@@ -46,10 +46,7 @@ fn energy(text: &str) -> Result<Energy, Error> {
     if text.len() > MAX_TEXT {
         return Err(Error::LongText { bytes: text.len(), most: MAX_TEXT });
     }
-    let is_rust = text.split(|c: char| !c.is_alphanumeric()).any(|word| word == "fn");
-    let energy: Result<_, Mistakes> =
-        if is_rust { Energy::from_rust(text) } else { Energy::from_formula(text) };
-    energy.map_err(Error::Declaration)
+    Energy::from_text(text).map_err(Error::Declaration)
 }
 
 fn parameters(spec: &MaterialSpec) -> Result<&[Parameter], SceneError> {

@@ -117,5 +117,12 @@ fn lowered(character: char) -> Option<char> {
 
 /// A message of the compiler in the notation of formulas, as far as it quotes that of Rust.
 fn in_notation(message: &str) -> String {
-    message.replace("J.ln()", "ln(J)").replace("`domain(J > 0.0)`", "`where J > 0`")
+    let message = message.replace("J.ln()", "ln(J)").replace("`domain(J > 0.0)`", "`where J > 0`");
+    match message.split_once(": there are `.powi(2)`") {
+        None => message.replace("did you mean `.", "did you mean `").replace("()`?", "`?"),
+        Some((unknown, _)) => format!(
+            "{unknown}: there are `ln`, `exp`, `sqrt`, `cbrt`, `log10`, `sinh`, `cosh`, `tanh`, `asinh`, `atan`, \
+             `erf`, …; for a product write `*` before the parenthesis"
+        ),
+    }
 }

@@ -28,7 +28,11 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
         for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
             for task in [Task::Stresses, Task::Tangents] {
                 let batches = [Batch::new(&*compiled), Batch::new(&typed)];
-                let times = side_by_side(effort, task, batches.each_ref().map(|batch| batch.with_backend(backend)).each_ref());
+                let times = side_by_side(
+                    effort,
+                    task,
+                    batches.each_ref().map(|batch| batch.with_backend(backend)).each_ref(),
+                );
                 compare(&mut table, [entry.name, task.name(), backend.name()], times);
             }
         }
@@ -52,15 +56,23 @@ impl<T: Material> Visitor for PointByPoint<'_, T> {
         let Self { effort, entry, typed, table } = self;
         let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
         let gradients: Vec<_> = deformation_gradients().take(POINTS).map(rows).collect();
-        let times = time_in_turns(effort, POINTS, [
-            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
-            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
-        ]);
+        let times = time_in_turns(
+            effort,
+            POINTS,
+            [
+                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
+                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
+            ],
+        );
         compare(table, [entry.name, "evaluate_stress", "a point"], times);
-        let times = time_in_turns(effort, POINTS, [
-            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
-            &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
-        ]);
+        let times = time_in_turns(
+            effort,
+            POINTS,
+            [
+                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
+                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
+            ],
+        );
         compare(table, [entry.name, "evaluate", "a point"], times);
     }
 }
