@@ -1,0 +1,1 @@
+//! piola for programs in Python.
