@@ -17,6 +17,8 @@ pub struct Entry {
     /// Whether it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
     /// be fitted to tests of others.
     pub is_rubber: bool,
+    /// The declaration, as `piola_declare::Energy::from_rust` takes it.
+    pub source: &'static str,
     pub(crate) kind: Kind,
 }
 
@@ -64,6 +66,7 @@ macro_rules! catalogue {
                 name: stringify!($module),
                 description: catalogue!(@description $Material $($($length)+)?),
                 is_rubber: catalogue!(@is $($rubber)?),
+                source: include_str!(concat!(stringify!($module), ".rs")),
                 kind: Kind::$Material,
             },
         )+];

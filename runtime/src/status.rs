@@ -88,7 +88,10 @@ impl Status<u64> {
 }
 
 /// Room for the status of a point of a batch, which any thread may write.
+///
+/// One byte, which other languages may lend: bit 0 says refused, 1 bounded, 2 nonfinite, 3 filtered.
 #[derive(Debug, Default)]
+#[repr(transparent)]
 pub struct StatusCell(AtomicU8);
 
 impl StatusCell {
