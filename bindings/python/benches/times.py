@@ -9,6 +9,8 @@ one thread, unless a line says otherwise; what the others use is their own choic
 import argparse
 import importlib.util
 import pathlib
+import shutil
+import subprocess
 import sys
 import time
 
@@ -59,6 +61,10 @@ def many(points):
     columns = np.ascontiguousarray(F.transpose(1, 2, 0))
     P, A = np.empty_like(F), np.empty((*F.shape, 3, 3))
     P_t, A_t = np.empty_like(columns), np.empty((3, 3, *columns.shape))
+    for threads in (1, piola.num_threads()):
+        there = in_rust(points, threads)
+        if there:
+            print(f"neo-Hookean in Rust, {threads} threads: P {there[0]:6.1f}   P and dP/dF {there[1]:6.1f}   ns a point")
     materials = {"neo-Hookean": solids.neo_hooke(), "Ogden, declared": solids.ogden()}
     for name, rubber in materials.items():
         for threads in (False, True):
@@ -76,6 +82,15 @@ def many(points):
                 f"{name:16} {count:9}  P {each[0]:6.1f}   P and dP/dF {each[1]:6.1f}   "
                 f"(3, 3, n): P {each[2]:6.1f}   P and dP/dF {each[3]:6.1f}   ns a point"
             )
+
+
+def in_rust(points, threads):
+    """Times of the batch in Rust for P, and for P and dP/dF, ns a point; None where there is no cargo."""
+    if not shutil.which("cargo"):
+        return None
+    command = ["cargo", "bench", "-q", "-p", "piola-python", "--bench", "batch", "--", str(points), str(threads)]
+    folder = pathlib.Path(__file__).parents[1]
+    return [float(time) for time in subprocess.run(command, cwd=folder, check=True, capture_output=True).stdout.split()]
 
 
 def compare(client, what, other, own, points):

@@ -1,8 +1,7 @@
 //! What arrays are taken, and where results go.
 //!
-//! Points are along the leading axes of an array, F of shape (..., 3, 3), or along the trailing ones,
-//! (3, 3, ...). Leading points are what `Batch` takes, and nothing is copied. Trailing ones are, a chunk of
-//! points at a time that stays in the cache, to the lines of `Batch` and back.
+//! Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch` takes: nothing is
+//! copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
 
 use numpy::{
     Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
@@ -58,8 +57,13 @@ impl<'py, E: Element> Input<'py, E> {
             let shape = shape_text(array.shape());
             return Err(value_error(format!("F has the shape {shape}; it must be {wanted}")));
         }
-        let array = if array.is_c_contiguous() { array.readonly() } else { copy(array)?.readonly() };
-        Ok(Self { array, axes })
+        let array = if array.is_c_contiguous() { array.clone() } else { copy(array)? };
+        let refused = |error: numpy::BorrowError| value_error(format!("F cannot be read: {error}"));
+        Ok(Self { array: array.try_readonly().map_err(refused)?, axes })
+    }
+
+    pub(crate) fn py(&self) -> Python<'py> {
+        self.array.py()
     }
 
     pub(crate) fn slice(&self) -> PyResult<&[E]> {

@@ -56,7 +56,11 @@ impl Body {
         py: Python<'_>,
         compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), LengthError> + Send,
     ) -> PyResult<T> {
-        let evaluated = py.detach(|| on_threads(|| compute(&self.body, &mut self.memory())))?;
+        let evaluated = py.detach(|| {
+            // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+            let memory = &mut *self.memory();
+            on_threads(|| compute(&self.body, memory))
+        })?;
         let (value, survey) = evaluated.map_err(of_body)?;
         let Some(first) = survey.first else { return Ok(value) };
         let Survey { refused, nonfinite, .. } = survey;

@@ -17,12 +17,17 @@ import_exception!(piola.errors, StepError);
 
 /// A material that does not exist, or that refuses its parameters.
 pub(crate) fn of_material(error: Error) -> PyErr {
-    MaterialError::new_err(error.to_string())
+    MaterialError::new_err(in_python(&error.to_string()))
 }
 
 /// Parameters that a material refuses.
 pub(crate) fn of_parameters(error: Refused) -> PyErr {
-    MaterialError::new_err(error.to_string())
+    MaterialError::new_err(in_python(&error.to_string()))
+}
+
+/// A message with Rust's names of what Python's keywords choose.
+fn in_python(message: &str) -> String {
+    message.replace("Inversion::Refuse", "extend=None")
 }
 
 /// A text that declares no energy: its mistakes, and for each its line, its column and its length.

@@ -2,11 +2,8 @@
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
-use std::ops::Range;
-
-use numpy::{Element, PyArrayDyn};
-use piola::batch::{Batch, Layout, LengthError, Stages, TileMaterial};
-use piola::interpreter::Interpreted;
+use numpy::PyArrayDyn;
+use piola::batch::{Batch, TileMaterial};
 use piola::material::PerPoint;
 use piola::point::Filter;
 use piola::point::measures::Measure;
@@ -14,93 +11,16 @@ use piola::{StatusCell, Survey};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use rayon::prelude::*;
 
 use crate::arrays::{Axes, Input, Output, kind, shape_text, statuses};
+use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
+use crate::quantity::{Number, Quantity};
 use crate::threads::on_threads;
 
 /// Points from which on the threads of the pool share a call, unless the caller decides.
 const MANY: usize = 2048;
-
-/// Points that go through together where they are copied to lines: the 81 entries of their tangents, 83 kB,
-/// stay in the second cache.
-const CHUNK: usize = 128;
-
-/// A number of an array.
-trait Number: Stages + Element {
-    const ONE: Self;
-
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>>;
-}
-
-impl Number for f64 {
-    const ONE: Self = 1.0;
-
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
-        Ok(&*material.double)
-    }
-}
-
-impl Number for f32 {
-    const ONE: Self = 1.0;
-
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
-        material.single()
-    }
-}
-
-/// What is computed of each point.
-#[derive(Clone, Copy)]
-enum Quantity {
-    Energy,
-    Stress,
-    /// P and dP/dF.
-    Tangent,
-    /// ψ, P and dP/dF.
-    All,
-    MeasuredStress(Measure),
-    MeasuredTangent(Measure),
-}
-
-impl Quantity {
-    /// The shape of each result.
-    fn components(self) -> &'static [&'static [usize]] {
-        match self {
-            Self::Energy => &[&[]],
-            Self::Stress => &[&[3, 3]],
-            Self::Tangent => &[&[3, 3], &[3, 3, 3, 3]],
-            Self::All => &[&[], &[3, 3], &[3, 3, 3, 3]],
-            Self::MeasuredStress(_) => &[&[6]],
-            Self::MeasuredTangent(_) => &[&[6], &[6, 6]],
-        }
-    }
-
-    /// Numbers in a component.
-    fn numbers(self) -> impl Iterator<Item = usize> {
-        self.components().iter().map(|shape| shape.iter().product())
-    }
-
-    fn compute<E: Stages>(
-        self,
-        batch: &Batch<'_, E>,
-        F: &[E],
-        results: &mut [&mut [E]],
-    ) -> Result<Survey, LengthError> {
-        match (self, results) {
-            (Self::Energy, [energies]) => batch.energies(F, energies),
-            (Self::Stress, [P]) => batch.stresses(F, P),
-            (Self::Tangent, [P, dP_dF]) => batch.tangents(F, P, dP_dF),
-            (Self::All, [energies, P, dP_dF]) => batch.energies_and_tangents(F, energies, P, dP_dF),
-            (Self::MeasuredStress(measure), [stresses]) => batch.measured_stresses(measure, F, stresses),
-            (Self::MeasuredTangent(measure), [stresses, tangents]) => {
-                batch.measured_tangents(measure, F, stresses, tangents)
-            }
-            _ => unreachable!("a result for each of the components"),
-        }
-    }
-}
 
 /// How a caller wants points to be computed, by keywords that all methods share.
 struct Call<'a, 'py> {
@@ -135,32 +55,29 @@ impl<'py> Call<'_, 'py> {
         F: &Bound<'py, PyArrayDyn<E>>,
         quantity: Quantity,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let py = F.py();
         let input = Input::new(F, self.axes)?;
-        let count: usize = input.points().iter().product();
         let mut outputs = Vec::with_capacity(3);
         for (k, components) in quantity.components().iter().enumerate() {
-            outputs.push(input.output(py, components, self.out.get(k).and_then(Option::as_ref))?);
+            outputs.push(input.output(F.py(), components, self.out.get(k).and_then(Option::as_ref))?);
         }
         let mut status = self.status.map(|given| statuses(given, input.points())).transpose()?;
-        let survey = self.survey(py, material, &input, quantity, &mut outputs, status.as_mut(), count)?;
+        let survey = self.survey(material, &input, quantity, &mut outputs, status.as_mut())?;
         if let (Some(first), None) = (survey.first, &status) {
             return Err(outside(survey, first, input.points()));
         }
         Ok(outputs.into_iter().map(|output| output.finish().into_any()).collect())
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the parts of one call")]
+    /// Computes a quantity, and writes the status of each point.
     fn survey<E: Number>(
         &self,
-        py: Python<'py>,
         material: &Material,
         input: &Input<'py, E>,
         quantity: Quantity,
         outputs: &mut [Output<'py, E>],
         status: Option<&mut Output<'py, u8>>,
-        count: usize,
     ) -> PyResult<Survey> {
+        let (py, count) = (input.py(), input.points().iter().product());
         let threads = self.threads.unwrap_or(count >= MANY);
         let F = input.slice()?;
         let mut results: Vec<_> = outputs.iter_mut().map(Output::slice).collect::<PyResult<_>>()?;
@@ -185,10 +102,8 @@ impl<'py> Call<'_, 'py> {
             Axes::Leading => {
                 quantity.compute(&batch.with_threads(threads).with_statuses(&cells), F, &mut results)
             }
-            Axes::Trailing => {
-                let work = Columns { batch, quantity, F, cells: &cells, count };
-                work.compute(results, threads, material.each())
-            }
+            Axes::Trailing => Columns { batch, quantity, F, cells: &cells, count, each: material.each() }
+                .compute(results, threads),
         };
         let survey = match (threads, count) {
             (true, _) => py.detach(|| on_threads(compute))?,
@@ -202,123 +117,6 @@ impl<'py> Call<'_, 'py> {
             }
         }
         survey.map_err(|error| value_error(error.to_string()))
-    }
-}
-
-/// Points in columns: number k of point p at k times the number of points, plus p.
-struct Columns<'a, E> {
-    batch: Batch<'a, E>,
-    quantity: Quantity,
-    F: &'a [E],
-    /// One for each point, or none.
-    cells: &'a [StatusCell],
-    count: usize,
-}
-
-/// Columns of each result for some of the points.
-type Part<'a, E> = (Range<usize>, Vec<Vec<&'a mut [E]>>);
-
-impl<E: Number> Columns<'_, E> {
-    fn compute(
-        &self,
-        results: Vec<&mut [E]>,
-        threads: bool,
-        each: Option<&[Interpreted]>,
-    ) -> Result<Survey, LengthError> {
-        if self.count == 0 {
-            return Ok(Survey::default());
-        }
-        let shares = if threads { 4 * rayon::current_num_threads() } else { 1 };
-        let length = self.count.div_ceil(shares).next_multiple_of(CHUNK);
-        let ranges = (0..self.count).step_by(length).map(|start| start..self.count.min(start + length));
-        let mut parts: Vec<Part<'_, E>> =
-            ranges.map(|range| (range, results.iter().map(|_| Vec::new()).collect())).collect();
-        for (k, result) in results.into_iter().enumerate() {
-            for column in result.chunks_mut(self.count) {
-                for ((_, columns), piece) in parts.iter_mut().zip(column.chunks_mut(length)) {
-                    columns[k].push(piece);
-                }
-            }
-        }
-        let compute = |part| self.part(part, each);
-        let surveys: Vec<_> = match threads {
-            true => parts.into_par_iter().map(compute).collect(),
-            false => parts.into_iter().map(compute).collect(),
-        };
-        surveys.into_iter().sum()
-    }
-
-    /// Computes the points of a range, chunk by chunk.
-    fn part(
-        &self,
-        (range, mut columns): Part<'_, E>,
-        each: Option<&[Interpreted]>,
-    ) -> Result<Survey, LengthError> {
-        let mut F = [E::default(); 9 * CHUNK];
-        let mut rooms: Vec<_> = self.quantity.numbers().map(|n| vec![E::default(); n * CHUNK]).collect();
-        let mut sum = Survey::default();
-        for start in range.clone().step_by(CHUNK) {
-            let points = start..range.end.min(start + CHUNK);
-            let room = points.len().next_multiple_of(E::LINE);
-            for (k, column) in self.F.chunks_exact(self.count).enumerate() {
-                let filler = if k % 4 == 0 { E::ONE } else { E::default() };
-                for (line, from) in column[points.clone()].chunks(E::LINE).enumerate() {
-                    let to = &mut F[(9 * line + k) * E::LINE..][..E::LINE];
-                    to[..from.len()].copy_from_slice(from);
-                    to[from.len()..].fill(filler);
-                }
-            }
-            let cells: Vec<_> = self.cells.iter().take(room).map(|_| StatusCell::default()).collect();
-            let cells =
-                if cells.is_empty() { cells } else { (0..room).map(|_| StatusCell::default()).collect() };
-            let mut results: Vec<_> = rooms
-                .iter_mut()
-                .map(|numbers| {
-                    let n = numbers.len() / CHUNK;
-                    &mut numbers[..n * room]
-                })
-                .collect();
-            let survey = self.on_lines(points.clone(), room, &cells, &F[..9 * room], &mut results, each)?;
-            for (cell, computed) in self.cells.iter().skip(start).zip(&cells[..points.len().min(cells.len())])
-            {
-                cell.set(computed.get());
-            }
-            sum = sum + Survey { first: survey.first.map(|first| start + first), ..survey };
-            for (lines, columns) in results.iter().zip(&mut columns) {
-                let n = columns.len();
-                for (k, column) in columns.iter_mut().enumerate() {
-                    let column = &mut column[points.start - range.start..points.end - range.start];
-                    for (line, to) in column.chunks_mut(E::LINE).enumerate() {
-                        to.copy_from_slice(&lines[(n * line + k) * E::LINE..][..to.len()]);
-                    }
-                }
-            }
-        }
-        Ok(sum)
-    }
-
-    /// Computes points that are in lines, the last of them filled up.
-    fn on_lines(
-        &self,
-        points: Range<usize>,
-        room: usize,
-        cells: &[StatusCell],
-        F: &[E],
-        results: &mut [&mut [E]],
-        each: Option<&[Interpreted]>,
-    ) -> Result<Survey, LengthError> {
-        let batch = self.batch.with_layout(Layout::Lines).with_statuses(cells);
-        let Some(each) = each else { return self.quantity.compute(&batch, F, results) };
-        let last = points.end - 1;
-        let materials: Vec<_> =
-            (points.start..points.start + room).map(|point| &each[point.min(last)]).collect();
-        match PerPoint::new(&materials) {
-            Ok(material) => {
-                let batch = Batch::new(&material).with_filter(batch.filter).with_layout(batch.layout);
-                self.quantity.compute(&batch.with_statuses(cells), F, results)
-            }
-            Err(_) => unreachable!("all materials do the same outside of their domain"),
-        }
     }
 }
 

@@ -8,6 +8,8 @@
 //! | `material` | materials, by name or declared |
 //! | `description` | what a declaration says of itself |
 //! | `evaluate` | energy, stress and tangent of many points |
+//! | `quantity` | which of these, in which precision |
+//! | `columns` | points along trailing axes |
 //! | `arrays` | what arrays are taken, and where results go |
 //! | `laboratory` | curves, fits, stability, contract |
 //! | `body` | bodies of tetrahedra |
@@ -18,11 +20,13 @@
 
 mod arrays;
 mod body;
+mod columns;
 mod description;
 mod errors;
 mod evaluate;
 mod laboratory;
 mod material;
+mod quantity;
 mod settings;
 mod simulation;
 mod threads;

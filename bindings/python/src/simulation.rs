@@ -43,7 +43,11 @@ impl Simulation {
         py: Python<'py>,
         advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let report = py.detach(|| on_threads(|| advance(&mut self.lock())))?;
+        let report = py.detach(|| {
+            // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+            let simulation = &mut *self.lock();
+            on_threads(|| advance(simulation))
+        })?;
         to_dict(py, &report.map_err(|error| StepError::new_err(error.to_string()))?)
     }
 }

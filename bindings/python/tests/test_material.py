@@ -73,20 +73,19 @@ def test_wrong_parameters_are_named_with_their_range():
     assert "`lambda` is inf; it must be a finite number" in message(
         ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=np.inf)
     )
-    assert "list" in message(ValueError, lambda: new("ogden", mu=[1.0, 2.0], alpha=[1.0], kappa=1.0)).lower()
+    assert message(ValueError, lambda: new("ogden", mu=[1.0, 2.0], alpha=[1.0], kappa=1.0)) == (
+        "ogden: `alpha` must have 2 entries"
+    )
     assert "`mu` is of type str" in message(TypeError, lambda: new("neo_hookean", mu="1", lambda_=1.0))
     assert "`mu`" in message(TypeError, lambda: new("neo_hookean", mu=None, lambda_=1.0))
-    assert "`mu`" in message(TypeError, lambda: new("neo_hookean", mu=1j, lambda_=1.0))
+    assert "mu is of type complex" in message(TypeError, lambda: new("neo_hookean", mu=1j, lambda_=1.0))
     assert "0.1" not in message(ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=1.0, extend=2.0))
-    assert "extend" in message(ValueError, lambda: new("murnaghan", extend=0.1, **_typical("murnaghan"))).lower()
+    typical = piola.Material.typical("murnaghan").parameters
+    assert "use `extend=None`" in message(ValueError, lambda: new("murnaghan", extend=0.1, **typical))
     with pytest.raises(TypeError):
         new(3)
     with pytest.raises(TypeError):
         new()
-
-
-def _typical(name):
-    return piola.Material.typical(name).parameters
 
 
 def test_a_declared_energy_is_that_of_the_catalogue(F):
