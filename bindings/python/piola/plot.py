@@ -45,11 +45,11 @@ def curves(materials, data=None, *, modes=None, controls=None, incompressible=Fa
     return axes
 
 
-def body(points, tets, *, values=None, ax=None):
+def body(points, tets, *, values=None, label=None, ax=None):
     """Draws the surface of a body of tetrahedra.
 
     points: positions, m, of shape (n, 3). tets: of shape (m, 4).
-    values: a number for each node, of shape (n,), that colours the surface.
+    values: a number for each node, of shape (n,), that colours the surface; label: what they are.
     ax: an axis of matplotlib in three dimensions; None for a new one.
 
     Returns the axis.
@@ -62,7 +62,11 @@ def body(points, tets, *, values=None, ax=None):
     drawn = ax.plot_trisurf(*points.T, triangles=faces, linewidth=0.2, edgecolor="grey", cmap="viridis")
     if values is not None:
         drawn.set_array(np.asarray(values)[faces].mean(axis=1))
-        ax.figure.colorbar(drawn, ax=ax, shrink=0.6)
+        drawn.autoscale()
+        ax.figure.colorbar(drawn, ax=ax, shrink=0.6, label=label)
+    lengths = np.ptp(points, axis=0)
+    for axis, length in zip("xyz", lengths):
+        ax.locator_params(axis=axis, nbins=max(1, round(6 * length / lengths.max())))
     ax.set(xlabel="x in m", ylabel="y in m", zlabel="z in m", aspect="equal")
     return ax
 

@@ -90,4 +90,6 @@ def test_pictures_show_curves_and_bodies():
     assert areas.sum() == pytest.approx(10.0)
     outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert (np.einsum("ki,ki->k", outward, corners.mean(axis=1) - [1, 0.5, 0.5]) > 0).all()
-    assert piola.plot.body(points, tets, values=points[:, 0]).has_data()
+    ax = piola.plot.body(points, tets, values=points[:, 0], label="x in m")
+    assert len(ax.collections) == 1 and ax.figure.axes[1].get_ylabel() == "x in m"
+    assert ax.collections[0].get_clim() == pytest.approx((0.0, 2.0))
