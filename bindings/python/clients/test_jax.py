@@ -45,6 +45,16 @@ def test_derivatives_agree(name):
         assert solids.difference(jax.vmap(second(energy))(F), expected) < 1e-11
 
 
+def test_stress_and_tangent_come_in_one_call():
+    F, plain = points(), SOLIDS["yeoh"]
+    for function in (piola.jax.tangent(solids.yeoh()), jax.jit(jax.vmap(piola.jax.tangent(solids.yeoh())))):
+        P, A = function(F)
+        assert solids.difference(P, jax.vmap(jax.grad(plain))(F)) < 1e-12
+        assert solids.difference(A, jax.vmap(jax.hessian(plain))(F)) < 1e-11
+    A = piola.jax.tangent(solids.yeoh(), filter="clamp")(F)[1]
+    assert np.linalg.eigvalsh(np.asarray(A).reshape(-1, 9, 9)).min() > -1e-9
+
+
 def test_single_precision_stays_so():
     F = points().astype(jnp.float32)
     P = jax.vmap(jax.grad(piola.jax.energy(solids.yeoh())))(F)

@@ -1,9 +1,7 @@
 """Energies for JAX: functions that `jax.grad`, `jax.jvp`, `jax.hessian`, `jax.vmap` and `jax.jit` know.
 
-What is computed runs on the processor, called back from the program of JAX.
+What is computed runs on the processor, called back from the program of JAX, in the precision of F.
 """
-
-import functools
 
 import jax
 import jax.numpy as jnp
@@ -28,6 +26,7 @@ def energy(material):
 
 def stress(material):
     """The function F ↦ P, Pa, differentiable: of shapes (..., 3, 3)."""
+    both = tangent(material)
 
     @jax.custom_jvp
     def P(F):
@@ -36,16 +35,25 @@ def stress(material):
     @P.defjvp
     def P_jvp(primals, tangents):
         (F,), (dF,) = primals, tangents
-        A = _call(lambda F: material.tangent(F)[1], F, (*F.shape, 3, 3))
-        return P(F), jnp.einsum("...ijkl,...kl->...ij", A, dF)
+        stress, dP_dF = both(F)
+        return stress, jnp.einsum("...ijkl,...kl->...ij", dP_dF, dF)
 
     return P
 
 
-def _call(function, F, shape):
-    result = jax.ShapeDtypeStruct(shape, F.dtype)
-    return jax.pure_callback(functools.partial(_on_numpy, function), result, F, vmap_method="expand_dims")
+def tangent(material, *, filter=None):
+    """The function F ↦ (P, dP/dF), Pa, in one call, for whoever needs all of it: not differentiable any further.
+
+    filter: as of `Material.tangent`.
+    """
+
+    def both(F):
+        return _call(lambda F: material.tangent(F, filter=filter), F, F.shape, (*F.shape, 3, 3))
+
+    return both
 
 
-def _on_numpy(function, F):
-    return function(np.asarray(F))
+def _call(function, F, *shapes):
+    results = tuple(jax.ShapeDtypeStruct(shape, F.dtype) for shape in shapes)
+    results = results if len(results) > 1 else results[0]
+    return jax.pure_callback(lambda F: function(np.asarray(F)), results, F, vmap_method="expand_dims")
