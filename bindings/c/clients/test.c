@@ -678,7 +678,7 @@ static void *compute(void *context) {
         if (code != PIOLA_CODE_OK && code != PIOLA_CODE_BUSY) return context;
         /* The message is that of this thread. */
         piola_energy *energy_handle;
-        char name[16];
+        char name[32];
         snprintf(name, sizeof name, "jelly%d", k);
         if (piola_energy_named(name, &energy_handle) != PIOLA_CODE_MATERIAL ||
             strstr(piola_error_message(), name) == NULL)

