@@ -1,5 +1,7 @@
-"""The solids that clients are compared by: each in piola, and in the words of felupe, hyperelastic, tensortrax,
-matadi, torch and JAX. Moduli in MPa, as their users have them."""
+"""The solids that clients are compared by, in piola; their tests have them in the words of other libraries.
+
+Moduli are in MPa, as many users have them.
+"""
 
 import numpy as np
 import piola
@@ -19,7 +21,7 @@ def yeoh():
 
 
 def ogden():
-    """Two terms 2 μ/α² Σ λb^α in isochoric stretches, which papers and these libraries print in as many ways."""
+    """Two terms 2 μ/α² Σ λb^α in isochoric stretches."""
     term = "2*m{0}/a{0}^2*(J^(-a{0}/3)*(l1^a{0} + l2^a{0} + l3^a{0}) - 3)"
     (m1, m2), (a1, a2) = OGDEN["mu"], OGDEN["alpha"]
     formula = f"{term.format(1)} + {term.format(2)} + K/2*(J - 1)^2"

@@ -42,7 +42,7 @@ def stress(material):
 
 
 def tangent(material, *, filter=None):
-    """The function F ↦ (P, dP/dF), Pa, in one call, for whoever needs all of it: not differentiable any further.
+    """The function F ↦ (P, dP/dF), Pa, in one call, for whoever needs all of it: not differentiable further.
 
     filter: as of `Material.tangent`.
     """

@@ -1,8 +1,15 @@
 """What the functions of the package return, where it is more than an array."""
 
+from __future__ import annotations
+
 import enum
 import json
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from piola import Material
 
 
 class Status(enum.IntFlag):
@@ -38,11 +45,11 @@ class Curve(NamedTuple):
 
     mode: str
     """The test."""
-    control: "numpy.ndarray"
+    control: np.ndarray
     """What the machine sets, of shape (n,): stretch, shear or ratio of volumes."""
-    stress: "numpy.ndarray"
+    stress: np.ndarray
     """What it reads, Pa, of shape (n,); NaN where there is no point."""
-    stretches: "numpy.ndarray"
+    stretches: np.ndarray
     """Principal stretches, of shape (n, 3)."""
     reasons: list
     """Why there is no point, or None, for each control."""
@@ -51,7 +58,7 @@ class Curve(NamedTuple):
 class Fit(NamedTuple):
     """Parameters that agree best with measurements."""
 
-    material: "piola.Material"
+    material: Material
     """The material with them."""
     errors: dict
     """Standard error of each number, to first order; None where there is none."""
@@ -104,6 +111,7 @@ def to_json(settings):
     def plain(value):
         if hasattr(value, "tolist"):
             return value.tolist()
-        raise TypeError(f"a setting is of type {type(value).__name__}; it must be a number, a string or a list of these")
+        kind = type(value).__name__
+        raise TypeError(f"a setting is of type {kind}; it must be a number, a string or a list of these")
 
     return json.dumps(settings, default=plain)

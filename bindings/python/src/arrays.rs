@@ -1,7 +1,7 @@
 //! What arrays are taken, and where results go.
 //!
-//! Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch` takes: nothing is
-//! copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
+//! Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch` takes:
+//! nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
 
 use numpy::{
     Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,

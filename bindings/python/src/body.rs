@@ -66,8 +66,8 @@ impl Body {
         let Survey { refused, nonfinite, .. } = survey;
         let tet = self.order[first];
         let message = format!(
-            "{refused} tetrahedra are outside the domain of their material, and {nonfinite} not finite; the first of them \
-             is {tet} (from 0)"
+            "{refused} tetrahedra are outside the domain of their material, and {nonfinite} not finite; the first \
+             of them is {tet} (from 0)"
         );
         Err(DomainError::new_err((message, (tet,), refused, nonfinite)))
     }

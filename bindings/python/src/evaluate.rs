@@ -144,8 +144,8 @@ fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
     index.reverse();
     let Survey { refused, nonfinite, .. } = survey;
     let message = format!(
-        "of {} points, {refused} are outside the domain of the energy, and {nonfinite} have an F or a result that is not \
-         finite; the first has the index {}",
+        "of {} points, {refused} are outside the domain of the energy, and {nonfinite} have an F or a result \
+         that is not finite; the first has the index {}",
         points.iter().product::<usize>(),
         shape_text(&index)
     );
@@ -172,7 +172,8 @@ fn measure(name: &str) -> PyResult<Measure> {
         "green_naghdi" => Measure::GreenNaghdi,
         other => {
             return Err(value_error(format!(
-                "measure is {other:?}; it must be \"second_piola\", \"kirchhoff\", \"cauchy\", \"jaumann\" or \"green_naghdi\""
+                "measure is {other:?}; it must be \"second_piola\", \"kirchhoff\", \"cauchy\", \"jaumann\" or \
+                 \"green_naghdi\""
             )));
         }
     })
@@ -290,8 +291,8 @@ impl Material {
     ///     "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
     /// tangent: False for the stress alone.
     ///
-    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12. Other
-    /// arguments and errors as of `energy`.
+    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12.
+    /// Other arguments and errors as of `energy`.
     #[pyo3(signature = (
         F, measure, /, *, tangent = true, trailing = false, out = None, status = None, threads = None
     ))]

@@ -27,8 +27,8 @@ impl Material {
     /// controls: what the machine sets, of shape (n,): the stretch, the shear, or the ratio of volumes J.
     /// incompressible: whether the specimen keeps its volume; otherwise its free sides carry no stress.
     ///
-    /// Returns a `Curve`: control and stress, Pa, of shape (n,), and principal stretches, of shape (n, 3). Stress
-    /// and stretches are NaN where the curve has no point, and `reasons` says why.
+    /// Returns a `Curve`: control and stress, Pa, of shape (n,), and principal stretches, of shape (n, 3).
+    /// Stress and stretches are NaN where the curve has no point, and `reasons` says why.
     #[pyo3(signature = (mode, controls, /, *, incompressible = false))]
     fn curve<'py>(
         &self,
@@ -38,7 +38,7 @@ impl Material {
         incompressible: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (mode, controls) = (self::mode(mode)?, numbers(py, "controls", controls)?);
-        let specimen = self.spec.specimen().map_err(of_material)?;
+        let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
         let stress: Vec<f64> =
             points.iter().map(|point| point.as_ref().map_or(f64::NAN, |point| point.stress)).collect();
@@ -85,7 +85,7 @@ impl Material {
         seed: u64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let data = measurements(py, data)?;
-        let candidate = self.spec.candidate().map_err(of_material)?;
+        let candidate = self.uniform()?.candidate().map_err(of_material)?;
         let settings = FitSettings::default()
             .with_volume(volume(incompressible))
             .with_difference(if relative { Difference::Relative } else { Difference::Absolute })
@@ -126,7 +126,7 @@ impl Material {
         largest: f64,
         resolution: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let specimen = self.spec.specimen().map_err(of_material)?;
+        let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
         let report =
             py.detach(|| survey(&*specimen, &settings)).map_err(|error| value_error(error.to_string()))?;
@@ -148,12 +148,13 @@ impl Material {
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
     }
 
-    /// Checks the rules that every material must keep: derivatives, isotropy, accuracy where stretches are equal,
-    /// and more.
+    /// Checks the rules that every material must keep: derivatives, isotropy, accuracy where stretches are
+    /// equal, and more.
     ///
     /// Returns a list of (rule, number of comparisons, worst difference as a share of its tolerance). Raises
     /// ContractError with what is broken.
     fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
+        self.uniform()?;
         let material = self.interpreted()?;
         let report = py.detach(|| check(&material, &Settings::default()));
         let report = report.map_err(|violations| ContractError::new_err(violations.to_string()))?;
@@ -165,13 +166,13 @@ impl Material {
 
     /// Derivatives of the first Piola stress by the parameters, Pa for a unit of the parameter.
     ///
-    ///     stress_by_parameters(F, /, *, trailing=False)
+    ///     stress_by_parameters(F, /)
     ///
     /// F: float64, of shape (..., 3, 3), inside the domain, with J > 0.
     ///
-    /// Returns a dictionary from the names of the parameters to arrays of the shape of F; of a list, to an array
-    /// with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError for an
-    /// energy that does not know these derivatives.
+    /// Returns a dictionary from the names of the parameters to arrays of the shape of F; of a list, to an
+    /// array with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError for
+    /// an energy that does not know these derivatives.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,
@@ -182,7 +183,7 @@ impl Material {
             return Err(type_error(format!("F is {}; it must be an array of float64", kind(F))));
         };
         let input = Input::new(F, Axes::Leading)?;
-        let candidate = self.spec.candidate().map_err(of_material)?;
+        let candidate = self.uniform()?.candidate().map_err(of_material)?;
         let lists = candidate.values();
         let count = lists.iter().map(Vec::len).sum::<usize>();
         let numbers = input.slice()?;
@@ -208,7 +209,7 @@ impl Material {
             let message = format!("point {point} (from 0) is outside the domain of the energy");
             return Err(DomainError::new_err((message, (point,), 1, 0)));
         }
-        let description = self.spec.description().map_err(of_material)?;
+        let description = self.uniform()?.description().map_err(of_material)?;
         let result = PyDict::new(py);
         let mut begin = 0;
         for (parameter, list) in description.parameters.iter().zip(&lists) {

@@ -30,9 +30,9 @@ use crate::errors::{MaterialError, of_material, of_parameters, of_text, type_err
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]
 pub(crate) struct Material {
-    pub(crate) spec: MaterialSpec,
+    spec: MaterialSpec,
     name: String,
-    pub(crate) inversion: Inversion,
+    inversion: Inversion,
     /// Values in the order of the declaration.
     values: Vec<(String, Vec<f64>)>,
     moduli: Moduli,
@@ -98,6 +98,18 @@ impl Material {
         Ok(Self { each: Some(each), ..self })
     }
 
+    /// What was specified, if it is the same at all points.
+    pub(crate) fn uniform(&self) -> PyResult<&MaterialSpec> {
+        match self.each() {
+            None => Ok(&self.spec),
+            Some(each) => Err(MaterialError::new_err(format!(
+                "{} has parameters for each of {} points; this needs one material for all",
+                self.name,
+                each.len()
+            ))),
+        }
+    }
+
     /// Materials for the elements of a body.
     pub(crate) fn elements(&self) -> PyResult<Box<dyn TileMaterial<f64>>> {
         match &self.each {
@@ -128,6 +140,7 @@ impl Material {
         Energy::from_rust(source).map_err(of_text)
     }
 
+    /// The material as a program.
     pub(crate) fn interpreted(&self) -> PyResult<Interpreted> {
         let values: Vec<&[f64]> = self.values.iter().map(|(_, values)| values.as_slice()).collect();
         self.declaration()?.material(&values, self.inversion).map_err(of_parameters)
@@ -229,7 +242,7 @@ impl Material {
     /// Raises MaterialError as Material.
     #[pyo3(signature = (**parameters))]
     fn changed(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        Self::from_keywords(py, self.spec.clone(), self.extend(), parameters)
+        Self::from_keywords(py, self.uniform()?.clone(), self.extend(), parameters)
     }
 
     /// The name in the catalogue, or of the declaration.
@@ -274,8 +287,7 @@ impl Material {
         self.each().map(<[_]>::len)
     }
 
-    /// Moduli at small strain: shear modulus, Pa; Lamé's first parameter, Pa; bulk modulus, Pa; Young's
-    /// modulus, Pa; Poisson's ratio.
+    /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, where parameters differ.
     #[getter]
     fn moduli<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let Moduli { mu, lambda } = self.moduli;
@@ -295,11 +307,8 @@ impl Material {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let this = slf.get();
-        if this.each.is_some() {
-            return Err(type_error("a material with parameters for each point cannot be pickled".to_owned()));
-        }
-        let text = serde_json::to_string(&this.spec).map_err(|error| type_error(error.to_string()))?;
+        let text =
+            serde_json::to_string(slf.get().uniform()?).map_err(|error| type_error(error.to_string()))?;
         Ok((slf.get_type().getattr("_from_text")?, (text,)))
     }
 

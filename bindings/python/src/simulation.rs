@@ -152,13 +152,14 @@ impl Simulation {
         to_dict(py, &self.with(py, |simulation| *simulation.settings()))
     }
 
-    /// Energies now, J, as a dictionary: elastic, kinetic, gravity, springs, forces, terms. An energy that is not
-    /// defined is None.
+    /// Energies now, J, as a dictionary: elastic, kinetic, gravity, springs, forces, terms. An energy that is
+    /// not defined is None.
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.with(py, step::Simulation::energies))
     }
 
-    /// Advances by a time, s, in one step, and gives its report as a dictionary: "newton", "min_det", "energies".
+    /// Advances by a time, s, in one step, and gives its report as a dictionary: "newton", "min_det" and
+    /// "energies".
     ///
     /// Raises StepError if there is no next state: then the state before is untouched, and a shorter step may
     /// succeed.

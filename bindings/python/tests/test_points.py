@@ -1,5 +1,6 @@
 """Energy, stress and tangent of arrays of points."""
 
+import pickle
 import threading
 
 import numpy as np
@@ -188,6 +189,9 @@ def test_parameters_may_differ_from_point_to_point(rng, F):
         assert close(graded.stress(columns, trailing=True, threads=threads), P.transpose(1, 2, 0))
     with pytest.raises(ValueError, match="parameters for"):
         graded.stress(F[:5])
+    for call in (graded.contract, graded.stability, lambda: graded.changed(mu=1.0), lambda: pickle.dumps(graded)):
+        with pytest.raises(piola.MaterialError, match="this needs one material for all"):
+            call()
     with pytest.raises(piola.MaterialError, match="values for 2 points, and `lambda` for 3"):
         piola.Material("neo_hookean", mu=np.ones(2), lambda_=np.ones(3))
     with pytest.raises(piola.MaterialError, match="point 1 .from 0.*mu"):
