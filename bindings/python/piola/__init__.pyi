@@ -1,5 +1,5 @@
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal, Optional, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,25 +30,41 @@ _Flags = Optional[NDArray[np.uint8]]
 _Measure = Literal["second_piola", "kirchhoff", "cauchy", "jaumann", "green_naghdi"]
 _Mode = Literal["uniaxial", "equibiaxial", "pure_shear", "simple_shear", "volumetric"]
 
+@final
 class Parameter:
-    name: str
-    doc: str
-    unit: Optional[str]
-    is_list: bool
-    typical: Optional[list[float]]
+    @property
+    def name(self) -> str: ...
+    @property
+    def doc(self) -> str: ...
+    @property
+    def unit(self) -> Optional[str]: ...
+    @property
+    def is_list(self) -> bool: ...
+    @property
+    def typical(self) -> Optional[list[float]]: ...
 
+@final
 class Description:
-    name: str
-    summary: str
-    formula: str
-    parameters: list[Parameter]
-    domain: str
-    admissible: list[str]
-    extends: bool
-    moduli: list[str]
+    @property
+    def name(self) -> str: ...
+    @property
+    def summary(self) -> str: ...
+    @property
+    def formula(self) -> str: ...
+    @property
+    def parameters(self) -> list[Parameter]: ...
+    @property
+    def domain(self) -> str: ...
+    @property
+    def admissible(self) -> list[str]: ...
+    @property
+    def extends(self) -> bool: ...
+    @property
+    def moduli(self) -> list[str]: ...
 
+@final
 class Material:
-    def __init__(self, name: str, /, *, extend: Optional[float] = None, **parameters: ArrayLike) -> None: ...
+    def __new__(cls, name: str, /, *, extend: Optional[float] = None, **parameters: ArrayLike) -> Material: ...
     @staticmethod
     def typical(name: str, /, *, extend: Optional[float] = None) -> Material: ...
     @staticmethod
@@ -136,16 +152,17 @@ class Material:
     def stability(self, *, smallest: float = 0.3, largest: float = 3.0, resolution: int = 41) -> Stability: ...
     def contract(self) -> list[tuple[str, int, float]]: ...
 
+@final
 class Body:
-    def __init__(
-        self,
+    def __new__(
+        cls,
         points: ArrayLike,
         tets: ArrayLike,
         material: Union[Material, Sequence[Material]],
         density: Union[float, Sequence[float]],
         *,
         parts: Optional[ArrayLike] = None,
-    ) -> None: ...
+    ) -> Body: ...
     @property
     def points(self) -> NDArray[np.float64]: ...
     @property
@@ -156,11 +173,12 @@ class Body:
         self, positions: ArrayLike, /, *, filter: _Filter = None
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]: ...
 
+@final
 class Simulation:
     positions: NDArray[np.float64]
     velocities: NDArray[np.float64]
     pins: Any
-    def __init__(self, body: Body, *, pins: Optional[ArrayLike] = None, **settings: Any) -> None: ...
+    def __new__(cls, body: Body, *, pins: Optional[ArrayLike] = None, **settings: Any) -> Simulation: ...
     @property
     def settings(self) -> dict[str, Any]: ...
     def set_settings(self, **settings: Any) -> None: ...
