@@ -1,4 +1,4 @@
-//! What arrays are taken, and where results go.
+//! Arrays that are taken, and those that results go to.
 //!
 //! Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch` takes:
 //! nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
@@ -230,7 +230,7 @@ fn no_numbers(name: &str, given: &Bound<'_, PyAny>) -> PyErr {
     type_error(format!("{name} is {}; it must be numbers", kind(given)))
 }
 
-/// What an object is, in words.
+/// The kind of an object, in words.
 pub(crate) fn kind(object: &Bound<'_, PyAny>) -> String {
     match object.cast::<PyUntypedArray>() {
         Ok(array) => format!("an array of {}", array.dtype()),

@@ -31,7 +31,7 @@ use crate::threads::on_threads;
 #[pyclass(frozen, module = "piola")]
 pub(crate) struct Body {
     pub(crate) body: system::Body,
-    /// What evaluations reuse.
+    /// Memory that evaluations reuse.
     memory: Mutex<Memory>,
     /// The index in `tets` of each element, which are sorted by part.
     order: Vec<usize>,

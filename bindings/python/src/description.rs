@@ -1,4 +1,4 @@
-//! What a declaration says of itself.
+//! Declarations in words.
 
 use piola::material::{self, Unit};
 use piola_materials::CATALOGUE;
@@ -13,7 +13,7 @@ use crate::errors::of_material;
 pub(crate) struct Parameter {
     /// Its name, the keyword of `Material` and `declare`.
     name: String,
-    /// What it is.
+    /// Its documentation.
     doc: String,
     /// Its unit: "Pa", "1/Pa", "1" for a number without unit, or None where the declaration states none.
     unit: Option<&'static str>,
@@ -35,7 +35,7 @@ impl Parameter {
 pub(crate) struct Description {
     /// The name.
     name: String,
-    /// What it is, in a sentence.
+    /// The first sentence of its documentation.
     summary: String,
     /// The energy density as a formula.
     formula: String,

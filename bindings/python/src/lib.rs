@@ -6,11 +6,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `material` | materials, by name or declared |
-//! | `description` | what a declaration says of itself |
+//! | `description` | declarations in words |
 //! | `evaluate` | energy, stress and tangent of many points |
 //! | `quantity` | which of these, in which precision |
 //! | `columns` | points along trailing axes |
-//! | `arrays` | what arrays are taken, and where results go |
+//! | `arrays` | arrays that are taken, and those that results go to |
 //! | `laboratory` | curves, fits, stability, contract |
 //! | `body` | bodies of tetrahedra |
 //! | `simulation` | bodies in motion |

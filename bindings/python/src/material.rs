@@ -37,7 +37,7 @@ pub(crate) struct Material {
     values: Vec<(String, Vec<f64>)>,
     moduli: Moduli,
     pub(crate) double: Box<dyn TileMaterial<f64>>,
-    /// The same in single precision, made when it is wanted first.
+    /// Its program for single precision, made when it is wanted first.
     single: OnceLock<Interpreted>,
     /// A material for each point, if they differ.
     each: Option<PerElement<Interpreted>>,
@@ -98,7 +98,7 @@ impl Material {
         Ok(Self { each: Some(each), ..self })
     }
 
-    /// What was specified, if it is the same at all points.
+    /// The specification, if it is the same at all points.
     pub(crate) fn uniform(&self) -> PyResult<&MaterialSpec> {
         match self.each() {
             None => Ok(&self.spec),
@@ -251,7 +251,7 @@ impl Material {
         &self.name
     }
 
-    /// What the declaration says of the energy.
+    /// The energy in words.
     #[getter]
     fn description(&self) -> PyResult<Description> {
         Ok(Description::new(&self.name, self.spec.description().map_err(of_material)?))

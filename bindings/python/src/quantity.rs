@@ -1,4 +1,4 @@
-//! What is computed of a point, in f64 or f32.
+//! Quantities that are computed of points, in f64 or f32.
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
@@ -33,7 +33,7 @@ impl Number for f32 {
     }
 }
 
-/// What is computed of each point.
+/// A quantity that is computed of each point.
 #[derive(Clone, Copy)]
 pub(crate) enum Quantity {
     Energy,
