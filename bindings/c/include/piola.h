@@ -122,8 +122,8 @@ typedef enum piola_status {
 
 // The form of a tangent or a stiffness.
 typedef enum piola_form {
-    // All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F;
-    // 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
+    // All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of
+    // F; 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
     PIOLA_FORM_FULL = 0,
     // The entries on and above the diagonal, row by row: 45, or 78.
     PIOLA_FORM_PACKED = 1,
@@ -142,8 +142,8 @@ typedef enum piola_measure {
     PIOLA_MEASURE_KIRCHHOFF = 1,
     // The Cauchy stress and the spatial tangent of its Truesdell rate.
     PIOLA_MEASURE_CAUCHY = 2,
-    // The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume, which
-    // is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
+    // The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume,
+    // which is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
     PIOLA_MEASURE_JAUMANN = 3,
     // The Cauchy stress and the tangent of the Green-Naghdi rate of the Kirchhoff stress by deformed volume.
     PIOLA_MEASURE_GREEN_NAGHDI = 4,
@@ -186,19 +186,19 @@ typedef struct piola_csr piola_csr;
 // An elastic energy without values for its parameters. Immutable: threads may share it.
 typedef struct piola_energy piola_energy;
 
-// A material: an energy with values for its parameters, the same for all points, or some for each. Immutable:
-// threads may share it.
+// A material: an energy with values for its parameters, the same for all points, or some for each.
+// Immutable: threads may share it.
 typedef struct piola_material piola_material;
 
 // Memory to evaluate the energy of a body. Threads may share it: calls wait for each other.
 typedef struct piola_response piola_response;
 
-// A body with positions and velocities, which steps change. A call while another thread's is under way returns
-// PIOLA_CODE_BUSY.
+// A body with positions and velocities, which steps change. A call while another thread's is under way
+// returns PIOLA_CODE_BUSY.
 typedef struct piola_simulation piola_simulation;
 
-// The stiffness K of a body, N/m, where it was linearised last: zero before. Threads may share it: calls wait
-// for each other.
+// The stiffness K of a body, N/m, where it was linearised last: zero before. Threads may share it: calls
+// wait for each other.
 typedef struct piola_stiffness piola_stiffness;
 
 // What is known of a parameter.
@@ -243,7 +243,8 @@ typedef struct piola_parameter {
     const double *values;
     // Number of its values at a point: 1, or more for a list.
     size_t length;
-    // Distance from the values of a point to those of the next one; 0 where they are the same for all points.
+    // Distance from the values of a point to those of the next one; 0 where they are the same for all
+    // points.
     size_t stride;
 } piola_parameter;
 
@@ -261,8 +262,8 @@ typedef struct piola_options {
     // 1 to share the points among as many threads as there are processors, or as the environment variable
     // RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
     int32_t threads;
-    // 1 to write tangents past the caches, which is faster where they are larger than these, needs lines, and
-    // arrays aligned to 64 bytes; else 0.
+    // 1 to write tangents past the caches, which is faster where they are larger than these, needs lines,
+    // and arrays aligned to 64 bytes; else 0.
     int32_t streams;
     // Room for the status of each point, flags of `piola_status`; or null.
     uint8_t *statuses;
@@ -324,8 +325,8 @@ typedef struct piola_term {
                             const double *positions,
                             size_t nodes,
                             double *gradient);
-    // Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method converges
-    // where they are positive semidefinite, so that negative eigenvalues are best left out.
+    // Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method
+    // converges where they are positive semidefinite, so that negative eigenvalues are best left out.
     int32_t (*add_second_derivatives)(void *context,
                                       const double *positions,
                                       size_t nodes,
@@ -421,8 +422,8 @@ void piola_energy_free(struct piola_energy *energy);
 // Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 // some.
 //
-// Values for each point, and single precision, have energies of the catalogue interpreted, with the same bits
-// and nearly as fast: they are compiled at the first use, within milliseconds to seconds.
+// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
+// bits and nearly as fast: they are compiled at the first use, within milliseconds to seconds.
 //
 // Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 // them, and the point.
@@ -442,7 +443,8 @@ enum piola_code piola_material_moduli(const struct piola_material *material,
 // Frees a material, or does nothing with null. Bodies made of it stay.
 void piola_material_free(struct piola_material *material);
 
-// Energy densities, Pa, of deformation gradients F, nine numbers each, row by row: one number for each point.
+// Energy densities, Pa, of deformation gradients F, nine numbers each, row by row: one number for each
+// point.
 enum piola_code piola_energies(const struct piola_material *material,
                                const struct piola_options *options,
                                const double *F,
@@ -478,8 +480,8 @@ enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    size_t P_length,
                                    struct piola_survey *survey);
 
-// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or 30
-// numbers for each point.
+// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or
+// 30 numbers for each point.
 enum piola_code piola_tangents(const struct piola_material *material,
                                const struct piola_options *options,
                                int32_t form,
@@ -503,8 +505,8 @@ enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    size_t dP_dF_length,
                                    struct piola_survey *survey);
 
-// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with one
-// decomposition of each F.
+// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
+// one decomposition of each F.
 enum piola_code piola_energies_and_tangents(const struct piola_material *material,
                                             const struct piola_options *options,
                                             const double *F,
@@ -552,8 +554,8 @@ enum piola_code piola_products_f32(const struct piola_material *material,
                                    size_t dP_length);
 
 // Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
-// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be null,
-// with a length of 0.
+// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
+// null, with a length of 0.
 //
 // A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
 enum piola_code piola_stresses_in(const struct piola_material *material,
@@ -595,8 +597,8 @@ enum piola_code piola_rest_shapes(const double *positions,
                                   size_t rest_length);
 
 // Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and stiffnesses, N/m,
-// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten numbers
-// each as of `piola_rest_shapes`.
+// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
+// numbers each as of `piola_rest_shapes`.
 //
 // Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
 // stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
@@ -629,11 +631,11 @@ enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
                                       size_t stiffnesses_length,
                                       struct piola_survey *survey);
 
-// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for each, m:
-// F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
+// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for
+// each, m: F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
 //
-// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is for
-// tetrahedra with edges of length 1 along the axes.
+// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
+// for tetrahedra with edges of length 1 along the axes.
 //
 // Errors: PIOLA_CODE_VALUE for nodes that do not exist.
 enum piola_code piola_stiffnesses_at(const struct piola_material *material,
@@ -672,11 +674,11 @@ enum piola_code piola_stiffnesses_at_f32(const struct piola_material *material,
 // be whole or one of its triangles, and so that of compressed columns as well.
 //
 // `corners` has four nodes, from 0, for each tetrahedron; `unknowns` the first of the three successive
-// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node n
-// has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
+// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node
+// n has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
 //
-// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE for
-// nodes that do not exist.
+// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE
+// for nodes that do not exist.
 enum piola_code piola_csr_new_i32(size_t nodes,
                                   const size_t *corners,
                                   size_t corners_length,
@@ -700,9 +702,9 @@ enum piola_code piola_csr_new_i64(size_t nodes,
                                   size_t columns_length,
                                   struct piola_csr **csr);
 
-// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this layout,
-// one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the
-// order of the tetrahedra, on the thread of the caller.
+// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this
+// layout, one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are
+// taken in the order of the tetrahedra, on the thread of the caller.
 enum piola_code piola_csr_add(const struct piola_csr *csr,
                               int32_t layout,
                               const double *stiffnesses,
@@ -721,14 +723,15 @@ enum piola_code piola_csr_add_f32(const struct piola_csr *csr,
 // Frees what `piola_csr_new_i32` has made, or does nothing with null.
 void piola_csr_free(struct piola_csr *csr);
 
-// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes each,
-// from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
+// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
+// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
 //
-// `part_of` has for each tetrahedron the part that it belongs to, from 0; it may be null, with a length of 0,
-// where there is one part. The body keeps its materials, whose handles may be freed.
+// `part_of` has for each tetrahedron the part that it belongs to, from 0; it may be null, with a length of
+// 0, where there is one part. The body keeps its materials, whose handles may be freed.
 //
-// Errors: PIOLA_CODE_BODY for what makes no body: nodes without tetrahedron, volumes and densities that are not
-// positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from 1.
+// Errors: PIOLA_CODE_BODY for what makes no body: nodes without tetrahedron, volumes and densities that are
+// not positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from
+// 1.
 enum piola_code piola_body_new(const double *positions,
                                size_t positions_length,
                                const size_t *corners,
@@ -797,17 +800,18 @@ void piola_stiffness_free(struct piola_stiffness *stiffness);
 
 // Makes a simulation of a body at rest, with the nodes `pins` held, from 0 and in any order.
 //
-// `settings` is a text in JSON, null for the defaults; keys that are left out have theirs:
+// `settings` is a text in JSON, null for the defaults. Keys that are left out have the first of their
+// values:
 //
-// | key | values, the default first |
-// |---|---|
-// | `gravity` | `[0, 0, 0]`, m/s² |
-// | `damping` | `"none"`, `{"mass": {"rate": α}}` in 1/s, `{"stiffness": {"time": β}}` in s |
-// | `integrator` | `"implicit_euler"`, `"bdf2"`, `"sdirk2"`, `"sdirk3"`, `"implicit_midpoint"`, `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}` |
-// | `newton` | `{"tolerance": 1e-6, "max_iterations": 50, "error_share": 0, "filtering": "on_demand", "start": "position", "linear": "automatic"}` |
-// | – `filtering` | `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`, `{"trust_region": {"tolerance": 0.01}}` |
-// | – `start` | `"position"`, `"velocity"`, `"acceleration"` |
-// | – `linear` | `"automatic"`, `"cholesky"`, and others: see `LinearSolver` in the documentation of the crate `piola` |
+// - `gravity`: `[0, 0, 0]`, m/s²;
+// - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`, `{"stiffness": {"time": s}}`;
+// - `integrator`: `"implicit_euler"`, `"bdf2"`, `"sdirk2"`, `"sdirk3"`, `"implicit_midpoint"`,
+//   `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
+// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
+//   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
+//     `{"trust_region": {"tolerance": 0.01}}`,
+//   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
+//   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
 //
 // Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.
 enum piola_code piola_simulation_new(const struct piola_body *body,
@@ -826,8 +830,8 @@ enum piola_code piola_simulation_read(const struct piola_simulation *simulation,
                                       double *numbers,
                                       size_t numbers_length);
 
-// Writes vectors of the nodes, one of `piola_quantity`, all of which must be finite. The body may be deformed,
-// collapsed or inverted in any way.
+// Writes vectors of the nodes, one of `piola_quantity`, all of which must be finite. The body may be
+// deformed, collapsed or inverted in any way.
 enum piola_code piola_simulation_write(const struct piola_simulation *simulation,
                                        int32_t quantity,
                                        const double *numbers,
@@ -859,9 +863,9 @@ enum piola_code piola_simulation_set_terms(const struct piola_simulation *simula
 // Advances by `dt`, s; the report may go to null. Shared among threads, with the same bits for any number of
 // them.
 //
-// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a shorter
-// step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it was the last
-// one of the step, for the energy in the report.
+// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a
+// shorter step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it
+// was the last one of the step, for the energy in the report.
 enum piola_code piola_simulation_step(const struct piola_simulation *simulation,
                                       double dt,
                                       struct piola_step_report *report);
