@@ -1,0 +1,895 @@
+/*
+ * piola: invertible isotropic hyperelasticity. This file is made from the sources of the crate piola-c.
+ *
+ * F is a deformation gradient, 3x3 and dimensionless, its nine numbers row by row: entry (i, j) at 3i+j. P is
+ * the first Piola-Kirchhoff stress. Lengths are in m, masses in kg, times in s, stresses, moduli and energy
+ * densities in Pa. Nodes, tetrahedra, rows and columns are counted from 0.
+ *
+ * Functions return PIOLA_CODE_OK, which is 0, or the kind of what went wrong; piola_error_message says it in
+ * words. What they write means nothing then, unless it is said here. No exception leaves them.
+ *
+ * Arrays come with their lengths, in numbers, which are checked. Arrays that are written must not overlap
+ * others of the same call. An array of length 0 may be null.
+ *
+ * Handles are made by functions called ..._new, _named or _declared, which set them to null where they fail,
+ * and freed by ..._free. Calls from several threads at a time are allowed, with the same handle too, but for
+ * freeing it.
+ *
+ * Texts are UTF-8 and end with a NUL.
+ */
+
+
+#ifndef PIOLA_H
+#define PIOLA_H
+
+#include <stddef.h>
+#include <stdint.h>
+/* In the place of a node's first unknown, for piola_csr_new_i32: it has none, as pinned nodes. */
+#define PIOLA_NO_UNKNOWN SIZE_MAX
+
+
+// What a function returns: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+typedef enum piola_code {
+    // Nothing went wrong.
+    PIOLA_CODE_OK = 0,
+    // A pointer is null or not aligned, or an array that is written overlaps another one.
+    PIOLA_CODE_POINTER = 1,
+    // The lengths of arrays do not fit together.
+    PIOLA_CODE_LENGTH = 2,
+    // A text is not UTF-8.
+    PIOLA_CODE_TEXT = 3,
+    // An option, a setting or an entry of an array is none of those that are allowed.
+    PIOLA_CODE_VALUE = 4,
+    // There is no energy of this name, or it has not these parameters, or not these values of them.
+    PIOLA_CODE_MATERIAL = 5,
+    // A text declares no energy; the message shows each mistake at its place.
+    PIOLA_CODE_ENERGY = 6,
+    // Nodes, tetrahedra, parts and densities make no body.
+    PIOLA_CODE_BODY = 7,
+    // A sparse matrix cannot take the stiffnesses of these tetrahedra.
+    PIOLA_CODE_MATRIX = 8,
+    // A step finds no admissible next state. The state before is untouched.
+    PIOLA_CODE_STEP = 9,
+    // A function of the caller's own has returned a value other than 0.
+    PIOLA_CODE_CALLBACK = 10,
+    // Another call uses this handle. Nothing has been done.
+    PIOLA_CODE_BUSY = 11,
+    // A mistake in piola itself. A handle that was being changed cannot be used any more, but freed.
+    PIOLA_CODE_PANIC = 12,
+} piola_code;
+
+// The notation of a declaration.
+typedef enum piola_notation {
+    // The Rust function that `#[piola::material]` takes, such as
+    // `fn Rubber([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu / 2.0 * (I1 - 3.0) - mu * J.ln() }`.
+    PIOLA_NOTATION_RUST = 0,
+    // A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names that mean nothing
+    // else are its parameters, in the order in which they occur.
+    PIOLA_NOTATION_FORMULA = 1,
+} piola_notation;
+
+// The unit of a parameter's values.
+typedef enum piola_parameter_unit {
+    // Not stated.
+    PIOLA_PARAMETER_UNIT_UNKNOWN = 0,
+    // A number without unit.
+    PIOLA_PARAMETER_UNIT_DIMENSIONLESS = 1,
+    // Pa.
+    PIOLA_PARAMETER_UNIT_PASCAL = 2,
+    // 1/Pa.
+    PIOLA_PARAMETER_UNIT_PER_PASCAL = 3,
+} piola_parameter_unit;
+
+// Treatment of the negative eigenvalues of dP/dF.
+typedef enum piola_filter {
+    // They stay: the exact derivative of the stress.
+    PIOLA_FILTER_NONE = 0,
+    // They become zero.
+    PIOLA_FILTER_CLAMP = 1,
+    // They become positive.
+    PIOLA_FILTER_ABSOLUTE = 2,
+} piola_filter;
+
+// The order of the components of many points in an array, N of each point.
+typedef enum piola_layout {
+    // Point by point: component k of point p at p N + k.
+    PIOLA_LAYOUT_POINTS = 0,
+    // In lines of L points, 8 in double precision and 16 in single precision: component k of point p at
+    // (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up
+    // with identities.
+    PIOLA_LAYOUT_LINES = 1,
+} piola_layout;
+
+// The instructions to compute with.
+typedef enum piola_instructions {
+    // The best that the processor has.
+    PIOLA_INSTRUCTIONS_BEST = 0,
+    // Those that every processor has.
+    PIOLA_INSTRUCTIONS_PORTABLE = 1,
+} piola_instructions;
+
+// Flags of the status of a point.
+typedef enum piola_status {
+    // The deformation is outside the domain of the energy, and the results mean nothing.
+    PIOLA_STATUS_REFUSED = 1,
+    // The tangent is at a pole, and has a bounded value in place of an infinite one.
+    PIOLA_STATUS_BOUNDED = 2,
+    // The deformation gradient or a result is infinite or NaN, or nearly so: the results mean nothing.
+    PIOLA_STATUS_NONFINITE = 4,
+    // The filter has changed the tangent.
+    PIOLA_STATUS_FILTERED = 8,
+} piola_status;
+
+// The form of a tangent or a stiffness.
+typedef enum piola_form {
+    // All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of
+    // F; 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
+    PIOLA_FORM_FULL = 0,
+    // The entries on and above the diagonal, row by row: 45, or 78.
+    PIOLA_FORM_PACKED = 1,
+    // 30 factors of dP/dF, which `piola_products` takes.
+    PIOLA_FORM_FACTORED = 2,
+} piola_form;
+
+// A measure of stress with the tangent that belongs to it.
+//
+// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which take strains
+// with doubled shears.
+typedef enum piola_measure {
+    // The second Piola-Kirchhoff stress S and dS/dE.
+    PIOLA_MEASURE_SECOND_PIOLA = 0,
+    // The Kirchhoff stress and the tangent of its Lie derivative.
+    PIOLA_MEASURE_KIRCHHOFF = 1,
+    // The Cauchy stress and the spatial tangent of its Truesdell rate.
+    PIOLA_MEASURE_CAUCHY = 2,
+    // The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume,
+    // which is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
+    PIOLA_MEASURE_JAUMANN = 3,
+    // The Cauchy stress and the tangent of the Green-Naghdi rate of the Kirchhoff stress by deformed volume.
+    PIOLA_MEASURE_GREEN_NAGHDI = 4,
+} piola_measure;
+
+// Vectors of the nodes of a simulation, three numbers each.
+typedef enum piola_quantity {
+    // Positions, m. Pins hold their nodes where positions are written.
+    PIOLA_QUANTITY_POSITIONS = 0,
+    // Velocities, m/s.
+    PIOLA_QUANTITY_VELOCITIES = 1,
+    // Accelerations at the end of the last step, m/s².
+    PIOLA_QUANTITY_ACCELERATIONS = 2,
+    // Given forces, N, which keep their size and direction. None, where an array of length 0 is written.
+    PIOLA_QUANTITY_FORCES = 3,
+    // Forces of the pins, N: three numbers for each pinned node, in ascending order. To be read only.
+    PIOLA_QUANTITY_REACTIONS = 4,
+} piola_quantity;
+
+// Why the iteration of a step has ended.
+typedef enum piola_convergence {
+    // The gradient, or what was left to go, fell below the tolerance.
+    PIOLA_CONVERGENCE_TOLERANCE = 0,
+    // All further gain is below rounding.
+    PIOLA_CONVERGENCE_ROUNDING = 1,
+    // The limit of iterations is reached.
+    PIOLA_CONVERGENCE_LIMIT = 2,
+} piola_convergence;
+
+// Second derivatives of a term, valid during the call that it was handed to.
+typedef struct piola_blocks piola_blocks;
+
+// An elastic body at rest. Immutable: threads may share it.
+typedef struct piola_body piola_body;
+
+// The places of the stiffnesses of tetrahedra in a sparse matrix of compressed rows. Immutable: threads may
+// share it.
+typedef struct piola_csr piola_csr;
+
+// An elastic energy without values for its parameters. Immutable: threads may share it.
+typedef struct piola_energy piola_energy;
+
+// A material: an energy with values for its parameters, the same for all points, or some for each.
+// Immutable: threads may share it.
+typedef struct piola_material piola_material;
+
+// Memory to evaluate the energy of a body. Threads may share it: calls wait for each other.
+typedef struct piola_response piola_response;
+
+// A body with positions and velocities, which steps change. A call while another thread's is under way
+// returns PIOLA_CODE_BUSY.
+typedef struct piola_simulation piola_simulation;
+
+// The stiffness K of a body, N/m, where it was linearised last: zero before. Threads may share it: calls
+// wait for each other.
+typedef struct piola_stiffness piola_stiffness;
+
+// What is known of a parameter.
+typedef struct piola_parameter_description {
+    // Its name.
+    const char *name;
+    // Its documentation, units included.
+    const char *documentation;
+    // The unit of its values, one of `piola_parameter_unit`.
+    int32_t unit;
+    // 1 if it takes a list of values, such as one for each term of a sum; 0 if it takes one.
+    int32_t is_list;
+    // Values of some real material; null if none are known.
+    const double *typical;
+    // Number of typical values.
+    size_t typical_length;
+} piola_parameter_description;
+
+// What is known of an energy.
+typedef struct piola_energy_description {
+    // The name by which it is chosen.
+    const char *name;
+    // What it is, in a sentence or two.
+    const char *summary;
+    // The energy density as a formula in one line.
+    const char *formula;
+    // Where it is defined, such as `J > 0`; empty if everywhere.
+    const char *domain;
+    // 1 if it can be continued beyond its domain, for inverted elements; 0 if not.
+    int32_t extends;
+    // The parameters.
+    const struct piola_parameter_description *parameters;
+    // Number of parameters.
+    size_t parameter_count;
+} piola_energy_description;
+
+// Values of a parameter.
+typedef struct piola_parameter {
+    // Name of the parameter.
+    const char *name;
+    // Its values, in SI units.
+    const double *values;
+    // Number of its values at a point: 1, or more for a list.
+    size_t length;
+    // Distance from the values of a point to those of the next one; 0 where they are the same for all
+    // points.
+    size_t stride;
+} piola_parameter;
+
+// How a batch computes. `piola_options options = {sizeof options};` has the defaults, as null has.
+typedef struct piola_options {
+    // `sizeof(piola_options)`, by which the library knows the fields of the header that a program was
+    // compiled with.
+    size_t size;
+    // One of `piola_filter`. Stresses in other measures have tangents without a filter.
+    int32_t filter;
+    // One of `piola_layout`, of all arrays of a call but positions, tetrahedra and statuses.
+    int32_t layout;
+    // One of `piola_instructions`.
+    int32_t instructions;
+    // 1 to share the points among as many threads as there are processors, or as the environment variable
+    // RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
+    int32_t threads;
+    // 1 to write tangents past the caches, which is faster where they are larger than these, needs lines,
+    // and arrays aligned to 64 bytes; else 0.
+    int32_t streams;
+    // Room for the status of each point, flags of `piola_status`; or null.
+    uint8_t *statuses;
+    // Number of statuses: that of the points, or 0.
+    size_t statuses_length;
+} piola_options;
+
+// Counts of the statuses of many points. A point that cannot be computed is no error of a call: look here.
+typedef struct piola_survey {
+    // Number of points outside the domain of the energy.
+    size_t refused;
+    // Number of points at a pole of the tangent.
+    size_t bounded;
+    // Number of points with an infinite or NaN deformation or result.
+    size_t nonfinite;
+    // Number of points where the filter has changed the tangent.
+    size_t filtered;
+    // Index of the first point whose results mean nothing, refused or nonfinite; SIZE_MAX if there is none.
+    size_t first;
+} piola_survey;
+
+// The material and the density of a part of a body.
+typedef struct piola_part {
+    // The material.
+    const struct piola_material *material;
+    // Mass density at rest, kg/m³.
+    double density;
+} piola_part;
+
+// A spring of rest length zero from a point of a body to a point in space.
+typedef struct piola_spring {
+    // Nodes whose positions make the point of the body.
+    size_t nodes[4];
+    // Their weights: 1, 0, 0, 0 for the first node itself.
+    double weights[4];
+    // The point in space, m. Between two steps in which the spring at this place of the array has the same
+    // nodes and weights it moves evenly.
+    double target[3];
+    // Stiffness k, N/m: the energy is k/2 times the distance squared.
+    double stiffness;
+} piola_spring;
+
+// A potential energy of the positions of all nodes, which a simulation adds to that of deformation.
+//
+// Its functions get `context` and the positions of the `nodes` nodes, three numbers each, m; the same
+// positions must give the same bits. They return 0, or another number, which ends the step with
+// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, though not that
+// which called the library, and must not call functions with the handle of the simulation.
+typedef struct piola_term {
+    // What the functions get as their first argument. It must live as long as the simulation has this term.
+    void *context;
+    // Writes the energy, J; infinity outside of its domain, to where no step will go.
+    int32_t (*energy)(void *context,
+                      const double *positions,
+                      size_t nodes,
+                      double *energy);
+    // Adds the gradient of the energy, N, to three numbers for each node.
+    int32_t (*add_gradient)(void *context,
+                            const double *positions,
+                            size_t nodes,
+                            double *gradient);
+    // Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method
+    // converges where they are positive semidefinite, so that negative eigenvalues are best left out.
+    int32_t (*add_second_derivatives)(void *context,
+                                      const double *positions,
+                                      size_t nodes,
+                                      struct piola_blocks *blocks);
+    // Writes the largest share of a displacement, three numbers for each node, with which a line search may
+    // begin, above 0 and at most 1: for barriers that a long step could jump over. May be null: 1.
+    int32_t (*longest_step)(void *context,
+                            const double *positions,
+                            const double *displacement,
+                            size_t nodes,
+                            double *share);
+} piola_term;
+
+// Report of a step.
+typedef struct piola_step_report {
+    // One of `piola_convergence`.
+    int32_t convergence;
+    // Number of iterations of Newton's method.
+    size_t iterations;
+    // Number of iterations of the linear solver.
+    size_t linear_iterations;
+    // Number of trials that left the domain of a material or a term.
+    size_t refused_trials;
+    // Norm of the gradient over the free nodes before the first iteration, N.
+    double first_residual;
+    // Norm of the gradient evaluated last, N.
+    double residual;
+    // Smallest det F of a tetrahedron after the step.
+    double min_det;
+    // Energy of deformation, J.
+    double elastic;
+    // Energy of motion, J.
+    double kinetic;
+    // Energy in the field of gravity, J: 0 at rest.
+    double gravity;
+    // Energy of the springs, J.
+    double springs;
+    // Energy in the field of given forces, J: 0 at rest.
+    double forces;
+    // Energy of the terms, J.
+    double terms;
+} piola_step_report;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The message of the last call of this thread that did not return 0: UTF-8, one or several lines; empty
+// before the first. Valid until the next such call of this thread. Never null.
+const char *piola_error_message(void);
+
+// The version of the library, such as "0.1.0".
+const char *piola_version(void);
+
+// The names of the energies of the catalogue, one after the other.
+//
+// Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and
+// returns PIOLA_CODE_VALUE. Names are valid for ever.
+enum piola_code piola_catalogue_name(size_t index,
+                                     const char **name);
+
+// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
+//
+// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message has those that are.
+enum piola_code piola_energy_named(const char *name,
+                                   struct piola_energy **energy);
+
+// An energy that a text declares, in one of the notations of `piola_notation`. It is compiled here, within
+// milliseconds to seconds, and computes what the same declaration compiled by Rust does, to the last bit.
+//
+// Errors: PIOLA_CODE_ENERGY for mistakes, all of which the message tells, each with the line that it is in.
+enum piola_code piola_energy_declared(const char *text,
+                                      int32_t notation,
+                                      struct piola_energy **energy);
+
+// The description of an energy, valid as long as its handle.
+enum piola_code piola_energy_describe(const struct piola_energy *energy,
+                                      const struct piola_energy_description **description);
+
+// Frees an energy, or does nothing with null. Materials made of it stay.
+void piola_energy_free(struct piola_energy *energy);
+
+// Makes a material of an energy and values for all of its parameters, in any order.
+//
+// `points` is 0 for one material that serves any number of points. Otherwise it serves just so many, and
+// parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`. In
+// a body, points are the tetrahedra of a part, in their order.
+//
+// `extension` says what happens outside the domain of the energy, such as to inverted elements. Between 0
+// and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are
+// refused. Negative: 0.1 where the energy can be continued, else 0.
+//
+// Parameters of a declared energy that are not given have the typical values of the declaration, if it has
+// some.
+//
+// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
+// bits and nearly as fast: they are compiled at the first use, within milliseconds to seconds.
+//
+// Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
+// them, and the point.
+enum piola_code piola_material_new(const struct piola_energy *energy,
+                                   const struct piola_parameter *parameters,
+                                   size_t parameter_count,
+                                   double extension,
+                                   size_t points,
+                                   struct piola_material **material);
+
+// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each may go to null. A material with values for each
+// point has those of its first.
+enum piola_code piola_material_moduli(const struct piola_material *material,
+                                      double *mu,
+                                      double *lambda);
+
+// Frees a material, or does nothing with null. Bodies made of it stay.
+void piola_material_free(struct piola_material *material);
+
+// Energy densities, Pa, of deformation gradients F, nine numbers each, row by row: one number for each
+// point.
+enum piola_code piola_energies(const struct piola_material *material,
+                               const struct piola_options *options,
+                               const double *F,
+                               size_t F_length,
+                               double *energies,
+                               size_t energies_length,
+                               struct piola_survey *survey);
+
+// As `piola_energies`, in single precision.
+enum piola_code piola_energies_f32(const struct piola_material *material,
+                                   const struct piola_options *options,
+                                   const float *F,
+                                   size_t F_length,
+                                   float *energies,
+                                   size_t energies_length,
+                                   struct piola_survey *survey);
+
+// First Piola stresses P, Pa: nine numbers for each F, row by row.
+enum piola_code piola_stresses(const struct piola_material *material,
+                               const struct piola_options *options,
+                               const double *F,
+                               size_t F_length,
+                               double *P,
+                               size_t P_length,
+                               struct piola_survey *survey);
+
+// As `piola_stresses`, in single precision.
+enum piola_code piola_stresses_f32(const struct piola_material *material,
+                                   const struct piola_options *options,
+                                   const float *F,
+                                   size_t F_length,
+                                   float *P,
+                                   size_t P_length,
+                                   struct piola_survey *survey);
+
+// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or
+// 30 numbers for each point.
+enum piola_code piola_tangents(const struct piola_material *material,
+                               const struct piola_options *options,
+                               int32_t form,
+                               const double *F,
+                               size_t F_length,
+                               double *P,
+                               size_t P_length,
+                               double *dP_dF,
+                               size_t dP_dF_length,
+                               struct piola_survey *survey);
+
+// As `piola_tangents`, in single precision.
+enum piola_code piola_tangents_f32(const struct piola_material *material,
+                                   const struct piola_options *options,
+                                   int32_t form,
+                                   const float *F,
+                                   size_t F_length,
+                                   float *P,
+                                   size_t P_length,
+                                   float *dP_dF,
+                                   size_t dP_dF_length,
+                                   struct piola_survey *survey);
+
+// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
+// one decomposition of each F.
+enum piola_code piola_energies_and_tangents(const struct piola_material *material,
+                                            const struct piola_options *options,
+                                            const double *F,
+                                            size_t F_length,
+                                            double *energies,
+                                            size_t energies_length,
+                                            double *P,
+                                            size_t P_length,
+                                            double *dP_dF,
+                                            size_t dP_dF_length,
+                                            struct piola_survey *survey);
+
+// As `piola_energies_and_tangents`, in single precision.
+enum piola_code piola_energies_and_tangents_f32(const struct piola_material *material,
+                                                const struct piola_options *options,
+                                                const float *F,
+                                                size_t F_length,
+                                                float *energies,
+                                                size_t energies_length,
+                                                float *P,
+                                                size_t P_length,
+                                                float *dP_dF,
+                                                size_t dP_dF_length,
+                                                struct piola_survey *survey);
+
+// Products dP = (dP/dF) dF, Pa, nine numbers for each point, from the 30 factors that `piola_tangents` has
+// written. The material does not matter, unless it is one of a given number of points.
+enum piola_code piola_products(const struct piola_material *material,
+                               const struct piola_options *options,
+                               const double *factors,
+                               size_t factors_length,
+                               const double *dF,
+                               size_t dF_length,
+                               double *dP,
+                               size_t dP_length);
+
+// As `piola_products`, in single precision.
+enum piola_code piola_products_f32(const struct piola_material *material,
+                                   const struct piola_options *options,
+                                   const float *factors,
+                                   size_t factors_length,
+                                   const float *dF,
+                                   size_t dF_length,
+                                   float *dP,
+                                   size_t dP_length);
+
+// Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
+// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
+// null, with a length of 0.
+//
+// A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
+enum piola_code piola_stresses_in(const struct piola_material *material,
+                                  const struct piola_options *options,
+                                  int32_t measure,
+                                  const double *F,
+                                  size_t F_length,
+                                  double *stresses,
+                                  size_t stresses_length,
+                                  double *tangents,
+                                  size_t tangents_length,
+                                  struct piola_survey *survey);
+
+// As `piola_stresses_in`, in single precision.
+enum piola_code piola_stresses_in_f32(const struct piola_material *material,
+                                      const struct piola_options *options,
+                                      int32_t measure,
+                                      const float *F,
+                                      size_t F_length,
+                                      float *stresses,
+                                      size_t stresses_length,
+                                      float *tangents,
+                                      size_t tangents_length,
+                                      struct piola_survey *survey);
+
+// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³,
+// which `piola_stiffnesses` takes. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
+//
+// `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
+// det Dm > 0.
+//
+// Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
+// positive beyond rounding; tetrahedra are numbered from 1 in the message.
+enum piola_code piola_rest_shapes(const double *positions,
+                                  size_t positions_length,
+                                  const size_t *corners,
+                                  size_t corners_length,
+                                  double *rest,
+                                  size_t rest_length);
+
+// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and stiffnesses, N/m,
+// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
+// numbers each as of `piola_rest_shapes`.
+//
+// Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
+// stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+//
+// The filter acts on dP/dF and is pulled back to the nodes.
+enum piola_code piola_stiffnesses(const struct piola_material *material,
+                                  const struct piola_options *options,
+                                  int32_t form,
+                                  const double *F,
+                                  size_t F_length,
+                                  const double *rest,
+                                  size_t rest_length,
+                                  double *gradients,
+                                  size_t gradients_length,
+                                  double *stiffnesses,
+                                  size_t stiffnesses_length,
+                                  struct piola_survey *survey);
+
+// As `piola_stiffnesses`, in single precision.
+enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
+                                      const struct piola_options *options,
+                                      int32_t form,
+                                      const float *F,
+                                      size_t F_length,
+                                      const float *rest,
+                                      size_t rest_length,
+                                      float *gradients,
+                                      size_t gradients_length,
+                                      float *stiffnesses,
+                                      size_t stiffnesses_length,
+                                      struct piola_survey *survey);
+
+// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for
+// each, m: F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
+//
+// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
+// for tetrahedra with edges of length 1 along the axes.
+//
+// Errors: PIOLA_CODE_VALUE for nodes that do not exist.
+enum piola_code piola_stiffnesses_at(const struct piola_material *material,
+                                     const struct piola_options *options,
+                                     int32_t form,
+                                     const double *positions,
+                                     size_t positions_length,
+                                     const size_t *corners,
+                                     size_t corners_length,
+                                     const double *rest,
+                                     size_t rest_length,
+                                     double *gradients,
+                                     size_t gradients_length,
+                                     double *stiffnesses,
+                                     size_t stiffnesses_length,
+                                     struct piola_survey *survey);
+
+// As `piola_stiffnesses_at`, in single precision.
+enum piola_code piola_stiffnesses_at_f32(const struct piola_material *material,
+                                         const struct piola_options *options,
+                                         int32_t form,
+                                         const float *positions,
+                                         size_t positions_length,
+                                         const size_t *corners,
+                                         size_t corners_length,
+                                         const float *rest,
+                                         size_t rest_length,
+                                         float *gradients,
+                                         size_t gradients_length,
+                                         float *stiffnesses,
+                                         size_t stiffnesses_length,
+                                         struct piola_survey *survey);
+
+// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
+// `columns[row_starts[r]]` to `columns[row_starts[r + 1] - 1]`, in any order, counted from 0. The matrix may
+// be whole or one of its triangles, and so that of compressed columns as well.
+//
+// `corners` has four nodes, from 0, for each tetrahedron; `unknowns` the first of the three successive
+// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node
+// n has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
+//
+// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE
+// for nodes that do not exist.
+enum piola_code piola_csr_new_i32(size_t nodes,
+                                  const size_t *corners,
+                                  size_t corners_length,
+                                  const size_t *unknowns,
+                                  size_t unknowns_length,
+                                  const int32_t *row_starts,
+                                  size_t row_starts_length,
+                                  const int32_t *columns,
+                                  size_t columns_length,
+                                  struct piola_csr **csr);
+
+// As `piola_csr_new_i32`, for a matrix with indices of 64 bits.
+enum piola_code piola_csr_new_i64(size_t nodes,
+                                  const size_t *corners,
+                                  size_t corners_length,
+                                  const size_t *unknowns,
+                                  size_t unknowns_length,
+                                  const int64_t *row_starts,
+                                  size_t row_starts_length,
+                                  const int64_t *columns,
+                                  size_t columns_length,
+                                  struct piola_csr **csr);
+
+// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this
+// layout, one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are
+// taken in the order of the tetrahedra, on the thread of the caller.
+enum piola_code piola_csr_add(const struct piola_csr *csr,
+                              int32_t layout,
+                              const double *stiffnesses,
+                              size_t stiffnesses_length,
+                              double *values,
+                              size_t values_length);
+
+// As `piola_csr_add`, in single precision.
+enum piola_code piola_csr_add_f32(const struct piola_csr *csr,
+                                  int32_t layout,
+                                  const float *stiffnesses,
+                                  size_t stiffnesses_length,
+                                  float *values,
+                                  size_t values_length);
+
+// Frees what `piola_csr_new_i32` has made, or does nothing with null.
+void piola_csr_free(struct piola_csr *csr);
+
+// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
+// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
+//
+// `part_of` has for each tetrahedron the part that it belongs to, from 0; it may be null, with a length of
+// 0, where there is one part. The body keeps its materials, whose handles may be freed.
+//
+// Errors: PIOLA_CODE_BODY for what makes no body: nodes without tetrahedron, volumes and densities that are
+// not positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from
+// 1.
+enum piola_code piola_body_new(const double *positions,
+                               size_t positions_length,
+                               const size_t *corners,
+                               size_t corners_length,
+                               const size_t *part_of,
+                               size_t part_of_length,
+                               const struct piola_part *parts,
+                               size_t parts_length,
+                               struct piola_body **body);
+
+// Lumped masses of the nodes, kg, one number each.
+enum piola_code piola_body_masses(const struct piola_body *body,
+                                  double *masses,
+                                  size_t masses_length);
+
+// Frees a body, or does nothing with null. Simulations of it stay.
+void piola_body_free(struct piola_body *body);
+
+// Makes the memory to evaluate the energy of a body, which it keeps.
+enum piola_code piola_response_new(const struct piola_body *body,
+                                   struct piola_response **response);
+
+// Energy of deformation, J, with the nodes at `positions`, three numbers each, m, and its gradient, N, three
+// numbers for each node: **forces are minus this**. Where the length of `gradient` is 0, the energy alone.
+//
+// The survey, which may go to null, counts tetrahedra; energy and gradient mean something where none is
+// refused or nonfinite. Shared among threads.
+enum piola_code piola_response_evaluate(const struct piola_response *response,
+                                        const double *positions,
+                                        size_t positions_length,
+                                        double *energy,
+                                        double *gradient,
+                                        size_t gradient_length,
+                                        struct piola_survey *survey);
+
+// Frees a response, or does nothing with null.
+void piola_response_free(struct piola_response *response);
+
+// Makes the stiffness of a body, which it keeps: about 400 bytes for each tetrahedron.
+enum piola_code piola_stiffness_new(const struct piola_body *body,
+                                    struct piola_stiffness **stiffness);
+
+// Takes the stiffness with the nodes at `positions`, three numbers each, m, and with the filter, one of
+// `piola_filter`, on dP/dF of each tetrahedron. The survey, which may go to null, counts these.
+enum piola_code piola_stiffness_linearise(const struct piola_stiffness *stiffness,
+                                          const double *positions,
+                                          size_t positions_length,
+                                          int32_t filter,
+                                          struct piola_survey *survey);
+
+// The product K x, N, for a displacement `x`, three numbers for each node, m. Shared among threads, with the
+// same bits for any number of them.
+enum piola_code piola_stiffness_multiply(const struct piola_stiffness *stiffness,
+                                         const double *x,
+                                         size_t x_length,
+                                         double *product,
+                                         size_t product_length);
+
+// The blocks on the diagonal of K, N/m, nine numbers for each node, which a preconditioner inverts.
+enum piola_code piola_stiffness_diagonal(const struct piola_stiffness *stiffness,
+                                         double *blocks,
+                                         size_t blocks_length);
+
+// Frees a stiffness, or does nothing with null.
+void piola_stiffness_free(struct piola_stiffness *stiffness);
+
+// Makes a simulation of a body at rest, with the nodes `pins` held, from 0 and in any order.
+//
+// `settings` is a text in JSON, null for the defaults. Keys that are left out have the first of their
+// values:
+//
+// - `gravity`: `[0, 0, 0]`, m/s²;
+// - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`, `{"stiffness": {"time": s}}`;
+// - `integrator`: `"implicit_euler"`, `"bdf2"`, `"sdirk2"`, `"sdirk3"`, `"implicit_midpoint"`,
+//   `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
+// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
+//   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
+//     `{"trust_region": {"tolerance": 0.01}}`,
+//   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
+//   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
+//
+// Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.
+enum piola_code piola_simulation_new(const struct piola_body *body,
+                                     const size_t *pins,
+                                     size_t pins_length,
+                                     const char *settings,
+                                     struct piola_simulation **simulation);
+
+// Replaces the settings from the next step on; those that are left out become the defaults.
+enum piola_code piola_simulation_set_settings(const struct piola_simulation *simulation,
+                                              const char *settings);
+
+// Reads vectors of the nodes, one of `piola_quantity`.
+enum piola_code piola_simulation_read(const struct piola_simulation *simulation,
+                                      int32_t quantity,
+                                      double *numbers,
+                                      size_t numbers_length);
+
+// Writes vectors of the nodes, one of `piola_quantity`, all of which must be finite. The body may be
+// deformed, collapsed or inverted in any way.
+enum piola_code piola_simulation_write(const struct piola_simulation *simulation,
+                                       int32_t quantity,
+                                       const double *numbers,
+                                       size_t numbers_length);
+
+// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
+enum piola_code piola_simulation_set_pins(const struct piola_simulation *simulation,
+                                          const size_t *pins,
+                                          size_t pins_length);
+
+// Prescribes where pinned nodes are after the next step and from then on: three numbers for each of `nodes`,
+// m. They move evenly through the step.
+enum piola_code piola_simulation_prescribe(const struct piola_simulation *simulation,
+                                           const size_t *nodes,
+                                           size_t nodes_length,
+                                           const double *positions,
+                                           size_t positions_length);
+
+// Replaces all springs.
+enum piola_code piola_simulation_set_springs(const struct piola_simulation *simulation,
+                                             const struct piola_spring *springs,
+                                             size_t springs_length);
+
+// Replaces all terms of the energy but deformation, gravity and springs.
+enum piola_code piola_simulation_set_terms(const struct piola_simulation *simulation,
+                                           const struct piola_term *terms,
+                                           size_t terms_length);
+
+// Advances by `dt`, s; the report may go to null. Shared among threads, with the same bits for any number of
+// them.
+//
+// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a
+// shorter step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it
+// was the last one of the step, for the energy in the report.
+enum piola_code piola_simulation_step(const struct piola_simulation *simulation,
+                                      double dt,
+                                      struct piola_step_report *report);
+
+// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, as far as the
+// settings allow. Then it is at rest. Otherwise as `piola_simulation_step`.
+enum piola_code piola_simulation_equilibrate(const struct piola_simulation *simulation,
+                                             struct piola_step_report *report);
+
+// Frees a simulation, or does nothing with null.
+void piola_simulation_free(struct piola_simulation *simulation);
+
+// Adds the block of second derivatives by the positions of two nodes, nine numbers row by row, N/m, and, for
+// two different nodes, its transpose as that of `column` and `row`: each pair of nodes comes once.
+//
+// The two need not share a tetrahedron. A pair that none and no earlier step has joined costs a new symbolic
+// analysis. A node that does not exist ends the step.
+enum piola_code piola_blocks_add(struct piola_blocks *blocks,
+                                 size_t row,
+                                 size_t column,
+                                 const double *entries);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* PIOLA_H */

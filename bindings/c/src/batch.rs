@@ -1,0 +1,395 @@
+//! Batches: many points at once, on the memory of the caller.
+
+use piola::batch::Batch;
+use piola::point::measures;
+
+use crate::error::{Code, Failure, guard};
+use crate::lent::{self, Arrays};
+use crate::material::{Material, Precision};
+use crate::options::{Options, Survey};
+
+/// The form of a tangent or a stiffness.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Form {
+    /// All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of
+    /// F; 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
+    Full = 0,
+    /// The entries on and above the diagonal, row by row: 45, or 78.
+    Packed = 1,
+    /// 30 factors of dP/dF, which `piola_products` takes.
+    Factored = 2,
+}
+
+/// A measure of stress with the tangent that belongs to it.
+///
+/// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which take strains
+/// with doubled shears.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Measure {
+    /// The second Piola-Kirchhoff stress S and dS/dE.
+    SecondPiola = 0,
+    /// The Kirchhoff stress and the tangent of its Lie derivative.
+    Kirchhoff = 1,
+    /// The Cauchy stress and the spatial tangent of its Truesdell rate.
+    Cauchy = 2,
+    /// The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume,
+    /// which is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
+    Jaumann = 3,
+    /// The Cauchy stress and the tangent of the Green-Naghdi rate of the Kirchhoff stress by deformed volume.
+    GreenNaghdi = 4,
+}
+
+/// Energy densities, Pa, of deformation gradients F, nine numbers each, row by row: one number for each
+/// point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energies(
+    material: *const Material,
+    options: *const Options,
+    F: *const f64,
+    F_length: usize,
+    energies: *mut f64,
+    energies_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [energies]| {
+            Ok(batch.energies(F, energies)?)
+        })
+    }
+}
+
+/// As `piola_energies`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energies_f32(
+    material: *const Material,
+    options: *const Options,
+    F: *const f32,
+    F_length: usize,
+    energies: *mut f32,
+    energies_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [energies]| {
+            Ok(batch.energies(F, energies)?)
+        })
+    }
+}
+
+/// First Piola stresses P, Pa: nine numbers for each F, row by row.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stresses(
+    material: *const Material,
+    options: *const Options,
+    F: *const f64,
+    F_length: usize,
+    P: *mut f64,
+    P_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
+}
+
+/// As `piola_stresses`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stresses_f32(
+    material: *const Material,
+    options: *const Options,
+    F: *const f32,
+    F_length: usize,
+    P: *mut f32,
+    P_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
+}
+
+/// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or
+/// 30 numbers for each point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_tangents(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    F: *const f64,
+    F_length: usize,
+    P: *mut f64,
+    P_length: usize,
+    dP_dF: *mut f64,
+    dP_dF_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
+            tangents(&batch, form, F, P, dP_dF)
+        })
+    }
+}
+
+/// As `piola_tangents`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_tangents_f32(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    F: *const f32,
+    F_length: usize,
+    P: *mut f32,
+    P_length: usize,
+    dP_dF: *mut f32,
+    dP_dF_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
+            tangents(&batch, form, F, P, dP_dF)
+        })
+    }
+}
+
+/// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
+/// one decomposition of each F.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energies_and_tangents(
+    material: *const Material,
+    options: *const Options,
+    F: *const f64,
+    F_length: usize,
+    energies: *mut f64,
+    energies_length: usize,
+    P: *mut f64,
+    P_length: usize,
+    dP_dF: *mut f64,
+    dP_dF_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length)],
+        [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
+            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
+        })
+    }
+}
+
+/// As `piola_energies_and_tangents`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energies_and_tangents_f32(
+    material: *const Material,
+    options: *const Options,
+    F: *const f32,
+    F_length: usize,
+    energies: *mut f32,
+    energies_length: usize,
+    P: *mut f32,
+    P_length: usize,
+    dP_dF: *mut f32,
+    dP_dF_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length)],
+        [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
+            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
+        })
+    }
+}
+
+/// Products dP = (dP/dF) dF, Pa, nine numbers for each point, from the 30 factors that `piola_tangents` has
+/// written. The material does not matter, unless it is one of a given number of points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_products(
+    material: *const Material,
+    options: *const Options,
+    factors: *const f64,
+    factors_length: usize,
+    dF: *const f64,
+    dF_length: usize,
+    dP: *mut f64,
+    dP_length: usize,
+) -> Code {
+    let (inputs, outputs) =
+        ([("factors", factors, factors_length), ("dF", dF, dF_length)], [("dP", dP, dP_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, std::ptr::null_mut(), |batch, [factors, dF], [dP]| {
+            batch.products(factors, dF, dP)?;
+            Ok(piola::Survey::default())
+        })
+    }
+}
+
+/// As `piola_products`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_products_f32(
+    material: *const Material,
+    options: *const Options,
+    factors: *const f32,
+    factors_length: usize,
+    dF: *const f32,
+    dF_length: usize,
+    dP: *mut f32,
+    dP_length: usize,
+) -> Code {
+    let (inputs, outputs) =
+        ([("factors", factors, factors_length), ("dF", dF, dF_length)], [("dP", dP, dP_length)]);
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, std::ptr::null_mut(), |batch, [factors, dF], [dP]| {
+            batch.products(factors, dF, dP)?;
+            Ok(piola::Survey::default())
+        })
+    }
+}
+
+/// Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
+/// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
+/// null, with a length of 0.
+///
+/// A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stresses_in(
+    material: *const Material,
+    options: *const Options,
+    measure: i32,
+    F: *const f64,
+    F_length: usize,
+    stresses: *mut f64,
+    stresses_length: usize,
+    tangents: *mut f64,
+    tangents_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length)],
+        [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
+            in_measure(&batch, measure, F, stresses, tangents)
+        })
+    }
+}
+
+/// As `piola_stresses_in`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stresses_in_f32(
+    material: *const Material,
+    options: *const Options,
+    measure: i32,
+    F: *const f32,
+    F_length: usize,
+    stresses: *mut f32,
+    stresses_length: usize,
+    tangents: *mut f32,
+    tangents_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length)],
+        [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
+            in_measure(&batch, measure, F, stresses, tangents)
+        })
+    }
+}
+
+/// What a batch makes of arrays.
+///
+/// # Safety
+/// Pointers are null or point to what the header says, and arrays are as long as is said.
+pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
+    material: *const Material,
+    options: *const Options,
+    inputs: [(&'static str, *const E, usize); I],
+    outputs: [(&'static str, *mut E, usize); O],
+    survey: *mut Survey,
+    compute: impl FnOnce(Batch<'_, E>, [&[E]; I], [&mut [E]; O]) -> Result<piola::Survey, Failure>,
+) -> Code {
+    // SAFETY: that of this function.
+    guard(|| unsafe { call_with(Arrays::new(), material, options, inputs, outputs, survey, compute) })
+}
+
+/// As [`call`], with other arrays that have been lent already.
+///
+/// # Safety
+/// As of [`call`].
+pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
+    mut arrays: Arrays<'_>,
+    material: *const Material,
+    options: *const Options,
+    inputs: [(&'static str, *const E, usize); I],
+    outputs: [(&'static str, *mut E, usize); O],
+    survey: *mut Survey,
+    compute: impl FnOnce(Batch<'_, E>, [&[E]; I], [&mut [E]; O]) -> Result<piola::Survey, Failure>,
+) -> Result<(), Failure> {
+    let mut read: [&[E]; I] = [&[]; I];
+    let mut written: [&mut [E]; O] = std::array::from_fn(|_| &mut [][..]);
+    // SAFETY: that of this function.
+    unsafe {
+        let material = lent::value("material", material)?;
+        let batch = Options::read(options)?.batch(material, &mut arrays)?;
+        for (read, (name, data, length)) in read.iter_mut().zip(inputs) {
+            *read = arrays.input(name, data, length)?;
+        }
+        for (written, (name, data, length)) in written.iter_mut().zip(outputs) {
+            *written = arrays.output(name, data, length)?;
+        }
+        lent::report("survey", survey, compute(batch, read, written)?.into())
+    }
+}
+
+/// Stresses and tangents in a form.
+fn tangents<E: Precision>(
+    batch: &Batch<'_, E>,
+    form: i32,
+    F: &[E],
+    P: &mut [E],
+    dP_dF: &mut [E],
+) -> Result<piola::Survey, Failure> {
+    Ok(match lent::choice("form", form, [Form::Full, Form::Packed, Form::Factored])? {
+        Form::Full => batch.tangents(F, P, dP_dF),
+        Form::Packed => batch.packed_tangents(F, P, dP_dF),
+        Form::Factored => batch.factored_tangents(F, P, dP_dF),
+    }?)
+}
+
+/// Stresses in a measure, and tangents where there is room for them.
+fn in_measure<E: Precision>(
+    batch: &Batch<'_, E>,
+    measure: i32,
+    F: &[E],
+    stresses: &mut [E],
+    tangents: &mut [E],
+) -> Result<piola::Survey, Failure> {
+    let measure = lent::choice("measure", measure, measures::Measure::ALL)?;
+    Ok(match tangents {
+        [] => batch.measured_stresses(measure, F, stresses),
+        _ => batch.measured_tangents(measure, F, stresses, tangents),
+    }?)
+}

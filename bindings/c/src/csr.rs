@@ -1,0 +1,157 @@
+//! Assembly into a sparse matrix of the caller's own.
+
+use piola::batch::{Layout, Tetrahedra};
+use piola::system::CsrPlaces;
+
+use crate::error::{Code, Failure, guard};
+use crate::lent::{Arrays, Plain};
+use crate::{handle, lent};
+
+/// The places of the stiffnesses of tetrahedra in a sparse matrix of compressed rows. Immutable: threads may
+/// share it.
+pub struct Csr(CsrPlaces);
+
+/// In the place of a node's first unknown: it has none. PIOLA_NO_UNKNOWN of the header.
+pub(crate) const NO_UNKNOWN: usize = usize::MAX;
+
+/// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
+/// `columns[row_starts[r]]` to `columns[row_starts[r + 1] - 1]`, in any order, counted from 0. The matrix may
+/// be whole or one of its triangles, and so that of compressed columns as well.
+///
+/// `corners` has four nodes, from 0, for each tetrahedron; `unknowns` the first of the three successive
+/// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node
+/// n has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
+///
+/// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE
+/// for nodes that do not exist.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_new_i32(
+    nodes: usize,
+    corners: *const usize,
+    corners_length: usize,
+    unknowns: *const usize,
+    unknowns_length: usize,
+    row_starts: *const i32,
+    row_starts_length: usize,
+    columns: *const i32,
+    columns_length: usize,
+    csr: *mut *mut Csr,
+) -> Code {
+    let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
+    let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
+    // SAFETY: what the header asks of its caller.
+    unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
+}
+
+/// As `piola_csr_new_i32`, for a matrix with indices of 64 bits.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_new_i64(
+    nodes: usize,
+    corners: *const usize,
+    corners_length: usize,
+    unknowns: *const usize,
+    unknowns_length: usize,
+    row_starts: *const i64,
+    row_starts_length: usize,
+    columns: *const i64,
+    columns_length: usize,
+    csr: *mut *mut Csr,
+) -> Code {
+    let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
+    let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
+    // SAFETY: what the header asks of its caller.
+    unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
+}
+
+/// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this
+/// layout, one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are
+/// taken in the order of the tetrahedra, on the thread of the caller.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_add(
+    csr: *const Csr,
+    layout: i32,
+    stiffnesses: *const f64,
+    stiffnesses_length: usize,
+    values: *mut f64,
+    values_length: usize,
+) -> Code {
+    // SAFETY: what the header asks of its caller.
+    unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
+}
+
+/// As `piola_csr_add`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_add_f32(
+    csr: *const Csr,
+    layout: i32,
+    stiffnesses: *const f32,
+    stiffnesses_length: usize,
+    values: *mut f32,
+    values_length: usize,
+) -> Code {
+    // SAFETY: what the header asks of its caller.
+    unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
+}
+
+/// Frees what `piola_csr_new_i32` has made, or does nothing with null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
+    // SAFETY: a handle that is not used any more.
+    unsafe { handle::free(csr) }
+}
+
+/// # Safety
+/// Pointers are null or point to what the header says, and arrays are as long as is said.
+unsafe fn new<I: Plain + TryInto<usize>>(
+    nodes: usize,
+    corners: (*const usize, usize),
+    unknowns: (*const usize, usize),
+    row_starts: (*const I, usize),
+    columns: (*const I, usize),
+    csr: *mut *mut Csr,
+) -> Code {
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: that of this function.
+        unsafe {
+            let corners = lent::corners("corners", arrays.input("corners", corners.0, corners.1)?)?;
+            let unknowns = arrays.input("unknowns", unknowns.0, unknowns.1)?;
+            let row_starts = arrays.input("row_starts", row_starts.0, row_starts.1)?;
+            let columns = arrays.input("columns", columns.0, columns.1)?;
+            if !unknowns.is_empty() {
+                lent::demand_length("unknowns", unknowns.len(), 1, nodes)?;
+            }
+            handle::give("csr", csr, || {
+                let tetrahedra = Tetrahedra::new(nodes, corners)?;
+                let unknown = |node: usize| match unknowns.get(node) {
+                    Some(&unknown) => (unknown != NO_UNKNOWN).then_some(unknown),
+                    None => Some(node.saturating_mul(3)),
+                };
+                Ok(Csr(CsrPlaces::new(tetrahedra, unknown, row_starts, columns)?))
+            })
+        }
+    })
+}
+
+/// # Safety
+/// Pointers are null or point to what the header says, and arrays are as long as is said.
+unsafe fn add<E: Plain + piola::lanes::Scalar>(
+    csr: *const Csr,
+    layout: i32,
+    stiffnesses: (*const E, usize),
+    values: (*mut E, usize),
+) -> Code {
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: that of this function.
+        let (csr, stiffnesses, values) = unsafe {
+            (
+                lent::value("csr", csr)?,
+                arrays.input("stiffnesses", stiffnesses.0, stiffnesses.1)?,
+                arrays.output("values", values.0, values.1)?,
+            )
+        };
+        let layout = lent::choice("layout", layout, [Layout::Points, Layout::Lines])?;
+        csr.0.add(stiffnesses, layout, values).map_err(Failure::from)
+    })
+}

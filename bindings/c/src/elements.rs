@@ -1,0 +1,240 @@
+//! Linear tetrahedra: shapes at rest, gradients of their energies and stiffnesses.
+
+use piola::batch::{Batch, REST, Tetrahedra};
+use piola::mesh::TetMesh;
+
+use crate::batch::{Form, call, call_with};
+use crate::error::{Code, Failure, guard};
+use crate::lent::{self, Arrays};
+use crate::material::{Material, Precision};
+use crate::options::{Options, Survey};
+
+/// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³,
+/// which `piola_stiffnesses` takes. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
+///
+/// `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
+/// det Dm > 0.
+///
+/// Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
+/// positive beyond rounding; tetrahedra are numbered from 1 in the message.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_rest_shapes(
+    positions: *const f64,
+    positions_length: usize,
+    corners: *const usize,
+    corners_length: usize,
+    rest: *mut f64,
+    rest_length: usize,
+) -> Code {
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: arrays as long as is said.
+        let (positions, corners, rest) = unsafe {
+            (
+                arrays.input("positions", positions, positions_length)?,
+                arrays.input("corners", corners, corners_length)?,
+                arrays.output("rest", rest, rest_length)?,
+            )
+        };
+        let (positions, corners) =
+            (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
+        lent::demand_length("rest", rest.len(), REST, corners.len())?;
+        let shapes = TetMesh::new(positions.to_vec(), corners.to_vec()).rest_shapes()?;
+        for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut::<REST>().0) {
+            rest[..9].copy_from_slice(shape.inverse.as_flattened());
+            rest[9] = shape.volume;
+        }
+        Ok(())
+    })
+}
+
+/// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and stiffnesses, N/m,
+/// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
+/// numbers each as of `piola_rest_shapes`.
+///
+/// Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
+/// stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+///
+/// The filter acts on dP/dF and is pulled back to the nodes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stiffnesses(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    F: *const f64,
+    F_length: usize,
+    rest: *const f64,
+    rest_length: usize,
+    gradients: *mut f64,
+    gradients_length: usize,
+    stiffnesses: *mut f64,
+    stiffnesses_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length), ("rest", rest, rest_length)],
+        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
+            stiffnesses_of(&batch, form, F, rest, gradients, stiffnesses)
+        })
+    }
+}
+
+/// As `piola_stiffnesses`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stiffnesses_f32(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    F: *const f32,
+    F_length: usize,
+    rest: *const f32,
+    rest_length: usize,
+    gradients: *mut f32,
+    gradients_length: usize,
+    stiffnesses: *mut f32,
+    stiffnesses_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("F", F, F_length), ("rest", rest, rest_length)],
+        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
+    );
+    // SAFETY: what the header asks of its caller.
+    unsafe {
+        call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
+            stiffnesses_of(&batch, form, F, rest, gradients, stiffnesses)
+        })
+    }
+}
+
+/// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for
+/// each, m: F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
+///
+/// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
+/// for tetrahedra with edges of length 1 along the axes.
+///
+/// Errors: PIOLA_CODE_VALUE for nodes that do not exist.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stiffnesses_at(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    positions: *const f64,
+    positions_length: usize,
+    corners: *const usize,
+    corners_length: usize,
+    rest: *const f64,
+    rest_length: usize,
+    gradients: *mut f64,
+    gradients_length: usize,
+    stiffnesses: *mut f64,
+    stiffnesses_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("positions", positions, positions_length), ("rest", rest, rest_length)],
+        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
+    );
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: what the header asks of its caller.
+        unsafe {
+            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
+            call_with(
+                arrays,
+                material,
+                options,
+                inputs,
+                outputs,
+                survey,
+                |batch, [positions, rest], [gradients, stiffnesses]| {
+                    stiffnesses_at(&batch, form, corners, positions, rest, gradients, stiffnesses)
+                },
+            )
+        }
+    })
+}
+
+/// As `piola_stiffnesses_at`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_stiffnesses_at_f32(
+    material: *const Material,
+    options: *const Options,
+    form: i32,
+    positions: *const f32,
+    positions_length: usize,
+    corners: *const usize,
+    corners_length: usize,
+    rest: *const f32,
+    rest_length: usize,
+    gradients: *mut f32,
+    gradients_length: usize,
+    stiffnesses: *mut f32,
+    stiffnesses_length: usize,
+    survey: *mut Survey,
+) -> Code {
+    let (inputs, outputs) = (
+        [("positions", positions, positions_length), ("rest", rest, rest_length)],
+        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
+    );
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: what the header asks of its caller.
+        unsafe {
+            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
+            call_with(
+                arrays,
+                material,
+                options,
+                inputs,
+                outputs,
+                survey,
+                |batch, [positions, rest], [gradients, stiffnesses]| {
+                    stiffnesses_at(&batch, form, corners, positions, rest, gradients, stiffnesses)
+                },
+            )
+        }
+    })
+}
+
+/// Gradients and stiffnesses in a form.
+fn stiffnesses_of<E: Precision>(
+    batch: &Batch<'_, E>,
+    form: i32,
+    F: &[E],
+    rest: &[E],
+    gradients: &mut [E],
+    stiffnesses: &mut [E],
+) -> Result<piola::Survey, Failure> {
+    Ok(match is_packed(form)? {
+        false => batch.stiffnesses(F, rest, gradients, stiffnesses),
+        true => batch.packed_stiffnesses(F, rest, gradients, stiffnesses),
+    }?)
+}
+
+/// Gradients and stiffnesses in a form, with the nodes at positions.
+fn stiffnesses_at<E: Precision>(
+    batch: &Batch<'_, E>,
+    form: i32,
+    corners: &[[usize; 4]],
+    positions: &[E],
+    rest: &[E],
+    gradients: &mut [E],
+    stiffnesses: &mut [E],
+) -> Result<piola::Survey, Failure> {
+    let positions = lent::vectors("positions", positions)?;
+    let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
+    Ok(match is_packed(form)? {
+        false => batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses),
+        true => batch.packed_stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses),
+    }?)
+}
+
+fn is_packed(form: i32) -> Result<bool, Failure> {
+    let form = lent::choice("form", form, [Form::Full, Form::Packed])?;
+    Ok(matches!(form, Form::Packed))
+}

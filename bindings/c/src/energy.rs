@@ -1,0 +1,262 @@
+//! Energies: of the catalogue, or declared in a text.
+
+use std::ffi::{CString, c_char};
+use std::sync::{Arc, OnceLock};
+
+use piola::interpreter::Interpreted;
+use piola::material::{Description, Unit};
+use piola_materials::CATALOGUE;
+use piola_scenes::material::MaterialSpec;
+
+use crate::error::{Code, Failure, c_string, guard};
+use crate::{handle, lent};
+
+/// An elastic energy without values for its parameters. Immutable: threads may share it.
+pub struct Energy {
+    pub(crate) source: Arc<Source>,
+    description: Texts,
+}
+
+/// What materials are made of.
+pub(crate) struct Source {
+    /// The energy without values.
+    pub(crate) spec: MaterialSpec,
+    /// The declaration, of an energy of the catalogue.
+    text: &'static str,
+    /// The same without values but typical ones, to be interpreted.
+    declared: OnceLock<MaterialSpec>,
+}
+
+impl Source {
+    /// A material that is interpreted, for what no compiled one serves.
+    pub(crate) fn interpreted(
+        &self,
+        with_values: impl FnOnce(&MaterialSpec) -> MaterialSpec,
+    ) -> Result<Interpreted, Failure> {
+        let declared = match self.declared.get() {
+            Some(declared) => declared,
+            None => {
+                let energy = match self.spec.energy() {
+                    Some(energy) => energy.clone(),
+                    None => piola_declare::Energy::from_rust(self.text)?,
+                };
+                self.declared.get_or_init(|| MaterialSpec::declared(energy))
+            }
+        };
+        let material = with_values(declared).interpreted()?;
+        material.ok_or_else(|| Failure::new(Code::Panic, "an energy that was declared is not interpreted"))
+    }
+}
+
+/// The notation of a declaration.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Notation {
+    /// The Rust function that `#[piola::material]` takes, such as
+    /// `fn Rubber([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu / 2.0 * (I1 - 3.0) - mu * J.ln() }`.
+    Rust = 0,
+    /// A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names that mean nothing
+    /// else are its parameters, in the order in which they occur.
+    Formula = 1,
+}
+
+/// The unit of a parameter's values.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum ParameterUnit {
+    /// Not stated.
+    Unknown = 0,
+    /// A number without unit.
+    Dimensionless = 1,
+    /// Pa.
+    Pascal = 2,
+    /// 1/Pa.
+    PerPascal = 3,
+}
+
+/// What is known of a parameter.
+#[repr(C)]
+pub struct ParameterDescription {
+    /// Its name.
+    pub name: *const c_char,
+    /// Its documentation, units included.
+    pub documentation: *const c_char,
+    /// The unit of its values, one of `piola_parameter_unit`.
+    pub unit: i32,
+    /// 1 if it takes a list of values, such as one for each term of a sum; 0 if it takes one.
+    pub is_list: i32,
+    /// Values of some real material; null if none are known.
+    pub typical: *const f64,
+    /// Number of typical values.
+    pub typical_length: usize,
+}
+
+/// What is known of an energy.
+#[repr(C)]
+pub struct EnergyDescription {
+    /// The name by which it is chosen.
+    pub name: *const c_char,
+    /// What it is, in a sentence or two.
+    pub summary: *const c_char,
+    /// The energy density as a formula in one line.
+    pub formula: *const c_char,
+    /// Where it is defined, such as `J > 0`; empty if everywhere.
+    pub domain: *const c_char,
+    /// 1 if it can be continued beyond its domain, for inverted elements; 0 if not.
+    pub extends: i32,
+    /// The parameters.
+    pub parameters: *const ParameterDescription,
+    /// Number of parameters.
+    pub parameter_count: usize,
+}
+
+/// Memory behind a description.
+struct Texts {
+    description: EnergyDescription,
+    _texts: Vec<CString>,
+    _typical: Vec<Vec<f64>>,
+    _parameters: Vec<ParameterDescription>,
+}
+
+// SAFETY: its pointers are into memory that it owns and never changes.
+unsafe impl Send for Texts {}
+// SAFETY: as above.
+unsafe impl Sync for Texts {}
+
+impl Texts {
+    fn new(name: &str, description: &Description) -> Self {
+        let mut texts = Vec::new();
+        let mut keep = |text: &str| {
+            let text = c_string(text);
+            // What a CString points to stays where it is when the CString moves.
+            let pointer = text.as_ptr();
+            texts.push(text);
+            pointer
+        };
+        let typical: Vec<Vec<f64>> = match &description.typical {
+            Some(typical) => typical.values.iter().map(|values| values.to_vec()).collect(),
+            None => vec![Vec::new(); description.parameters.len()],
+        };
+        let parameters: Vec<_> = description
+            .parameters
+            .iter()
+            .zip(&typical)
+            .map(|(parameter, typical)| ParameterDescription {
+                name: keep(&parameter.name),
+                documentation: keep(&parameter.doc),
+                unit: match parameter.unit {
+                    Some(Unit::Dimensionless) => ParameterUnit::Dimensionless,
+                    Some(Unit::Pascal) => ParameterUnit::Pascal,
+                    Some(Unit::PerPascal) => ParameterUnit::PerPascal,
+                    _ => ParameterUnit::Unknown,
+                } as i32,
+                is_list: parameter.is_list().into(),
+                typical: if typical.is_empty() { std::ptr::null() } else { typical.as_ptr() },
+                typical_length: typical.len(),
+            })
+            .collect();
+        let description = EnergyDescription {
+            name: keep(name),
+            summary: keep(&description.summary),
+            formula: keep(&description.formula),
+            domain: keep(&description.domain),
+            extends: description.extends.into(),
+            parameters: parameters.as_ptr(),
+            parameter_count: parameters.len(),
+        };
+        Self { description, _texts: texts, _typical: typical, _parameters: parameters }
+    }
+}
+
+/// The names of the energies of the catalogue, one after the other.
+///
+/// Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and
+/// returns PIOLA_CODE_VALUE. Names are valid for ever.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_catalogue_name(index: usize, name: *mut *const c_char) -> Code {
+    static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
+    guard(|| {
+        let names = NAMES.get_or_init(|| CATALOGUE.iter().map(|entry| c_string(entry.name)).collect());
+        let found = names.get(index).map_or(std::ptr::null(), |name| name.as_ptr());
+        // SAFETY: there is room for a pointer.
+        unsafe { lent::report("name", name, found) }?;
+        if found.is_null() {
+            let count = names.len();
+            let message = format_args!("there is no energy {index} (from 0) in a catalogue of {count}");
+            return Err(Failure::new(Code::Value, message));
+        }
+        Ok(())
+    })
+}
+
+/// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
+///
+/// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message has those that are.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *mut Energy) -> Code {
+    guard(|| {
+        // SAFETY: a text, and room for a handle.
+        unsafe {
+            let name = lent::text("name", name)?;
+            handle::give("energy", energy, || {
+                let spec = MaterialSpec::new(name);
+                let description = spec.description()?;
+                let entry = CATALOGUE.iter().find(|entry| std::ptr::eq(&entry.description, description));
+                let (name, text) = entry.map_or((name, ""), |entry| (entry.name, entry.source));
+                let description = Texts::new(name, description);
+                Ok(Energy { source: Arc::new(Source { spec, text, declared: OnceLock::new() }), description })
+            })
+        }
+    })
+}
+
+/// An energy that a text declares, in one of the notations of `piola_notation`. It is compiled here, within
+/// milliseconds to seconds, and computes what the same declaration compiled by Rust does, to the last bit.
+///
+/// Errors: PIOLA_CODE_ENERGY for mistakes, all of which the message tells, each with the line that it is in.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energy_declared(
+    text: *const c_char,
+    notation: i32,
+    energy: *mut *mut Energy,
+) -> Code {
+    guard(|| {
+        let notation = lent::choice("notation", notation, [Notation::Rust, Notation::Formula])?;
+        // SAFETY: a text, and room for a handle.
+        unsafe {
+            let text = lent::text("text", text)?;
+            handle::give("energy", energy, || {
+                let declared = match notation {
+                    Notation::Rust => piola_declare::Energy::from_rust(text),
+                    Notation::Formula => piola_declare::Energy::from_formula(text),
+                }?;
+                let description = Texts::new(&declared.description().name, declared.description());
+                let spec = MaterialSpec::declared(declared);
+                let source = Source { spec, text: "", declared: OnceLock::new() };
+                Ok(Energy { source: Arc::new(source), description })
+            })
+        }
+    })
+}
+
+/// The description of an energy, valid as long as its handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energy_describe(
+    energy: *const Energy,
+    description: *mut *const EnergyDescription,
+) -> Code {
+    guard(|| {
+        // SAFETY: a handle, and room for a pointer.
+        unsafe {
+            let found = &lent::value("energy", energy)?.description.description;
+            lent::report("description", description, found)
+        }
+    })
+}
+
+/// Frees an energy, or does nothing with null. Materials made of it stay.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_energy_free(energy: *mut Energy) {
+    // SAFETY: a handle that is not used any more.
+    unsafe { handle::free(energy) }
+}

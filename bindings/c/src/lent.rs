@@ -1,0 +1,290 @@
+//! What callers lend: arrays and texts, checked as far as C lets them be.
+
+use std::ffi::{CStr, c_char};
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use piola::batch::LengthError;
+
+use crate::error::{Code, Failure};
+
+/// Types for which every pattern of bits is a value.
+///
+/// # Safety
+/// Says just that.
+pub(crate) unsafe trait Plain: Copy {}
+
+macro_rules! plain {
+    ($($Type:ty),*) => {$(
+        // SAFETY: a number, or a struct of numbers and raw pointers, has no invalid patterns.
+        unsafe impl $crate::lent::Plain for $Type {}
+    )*};
+}
+pub(crate) use plain;
+plain!(f64, f32, u8, i32, i64, usize);
+
+/// The arrays of a call, at most six: none that is written overlaps another one.
+pub(crate) struct Arrays<'call> {
+    ranges: [Range<usize>; 6],
+    /// How many of the ranges are written, from the first on, and how many are read, from the last on.
+    written: usize,
+    read: usize,
+    call: PhantomData<&'call mut ()>,
+}
+
+impl<'call> Arrays<'call> {
+    pub(crate) fn new() -> Self {
+        Self { ranges: [const { 0..0 }; 6], written: 0, read: 0, call: PhantomData }
+    }
+
+    /// An array to read. It may be null if it is empty.
+    ///
+    /// # Safety
+    /// `data` points to as many initialised values as `length` says, which nobody changes during the call.
+    pub(crate) unsafe fn input<T: Plain>(
+        &mut self,
+        name: &str,
+        data: *const T,
+        length: usize,
+    ) -> Result<&'call [T], Failure> {
+        let range = range(name, data, length)?;
+        let is_written = self.ranges[..self.written].iter().any(|other| overlap(other, &range));
+        self.read += 1;
+        let at = self.ranges.len() - self.read;
+        self.ranges[at] = range;
+        match (is_written, length) {
+            (true, _) => Err(overlaps(name)),
+            (false, 0) => Ok(&[]),
+            // SAFETY: the caller vouches for the values; `range` has seen that the pointer is aligned, not
+            // null, and that the array does not wrap around.
+            (false, _) => Ok(unsafe { std::slice::from_raw_parts(data, length) }),
+        }
+    }
+
+    /// An array to write. It may be null if it is empty.
+    ///
+    /// # Safety
+    /// `data` points to room for as many values as `length` says, which nobody else uses during the call.
+    pub(crate) unsafe fn output<T: Plain>(
+        &mut self,
+        name: &str,
+        data: *mut T,
+        length: usize,
+    ) -> Result<&'call mut [T], Failure> {
+        let range = range(name, data, length)?;
+        let (written, read) = (&self.ranges[..self.written], &self.ranges[self.ranges.len() - self.read..]);
+        let is_used = written.iter().chain(read).any(|other| overlap(other, &range));
+        self.ranges[self.written] = range;
+        self.written += 1;
+        match (is_used, length) {
+            (true, _) => Err(overlaps(name)),
+            (false, 0) => Ok(&mut []),
+            // SAFETY: as for an input; and no other array of the call has a byte of it.
+            (false, _) => Ok(unsafe { std::slice::from_raw_parts_mut(data, length) }),
+        }
+    }
+}
+
+/// The addresses of an array.
+fn range<T>(name: &str, data: *const T, length: usize) -> Result<Range<usize>, Failure> {
+    if length == 0 {
+        return Ok(0..0);
+    }
+    if data.is_null() {
+        return Err(null(name));
+    }
+    if !data.is_aligned() {
+        let alignment = align_of::<T>();
+        return Err(Failure::new(
+            Code::Pointer,
+            format_args!("`{name}` is not aligned to {alignment} bytes"),
+        ));
+    }
+    let size = length.checked_mul(size_of::<T>()).filter(|&size| size <= isize::MAX as usize);
+    match size.and_then(|size| data.addr().checked_add(size)) {
+        Some(end) => Ok(data.addr()..end),
+        None => Err(Failure::new(
+            Code::Length,
+            format_args!("`{name}` has {length} entries, more than memory can hold"),
+        )),
+    }
+}
+
+fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
+    one.start < other.end && other.start < one.end
+}
+
+fn overlaps(name: &str) -> Failure {
+    Failure::new(Code::Pointer, format_args!("`{name}` overlaps another array of the call"))
+}
+
+fn null(name: &str) -> Failure {
+    Failure::new(Code::Pointer, format_args!("`{name}` is null"))
+}
+
+/// A text.
+///
+/// # Safety
+/// `text` is null, or ends with a NUL and is not changed during the call.
+pub(crate) unsafe fn text<'call>(name: &str, text: *const c_char) -> Result<&'call str, Failure> {
+    if text.is_null() {
+        return Err(null(name));
+    }
+    // SAFETY: the caller vouches for the NUL.
+    let text = unsafe { CStr::from_ptr(text) };
+    text.to_str().map_err(|error| Failure::new(Code::Text, format_args!("`{name}` is not UTF-8: {error}")))
+}
+
+/// A value behind a pointer; `None` behind a null pointer.
+///
+/// # Safety
+/// `value` is null, or points to a value that nobody changes during the call.
+pub(crate) unsafe fn optional<'call, T>(name: &str, value: *const T) -> Result<Option<&'call T>, Failure> {
+    if !value.is_null() {
+        range(name, value, 1)?;
+    }
+    // SAFETY: aligned, and the caller vouches for the value.
+    Ok(unsafe { value.as_ref() })
+}
+
+/// A value behind a pointer.
+///
+/// # Safety
+/// As of [`optional`].
+pub(crate) unsafe fn value<'call, T>(name: &str, value: *const T) -> Result<&'call T, Failure> {
+    // SAFETY: that of this function.
+    unsafe { optional(name, value) }?.ok_or_else(|| null(name))
+}
+
+/// A value behind a pointer, to be changed.
+///
+/// # Safety
+/// `value` is null, or points to a value that nobody else uses during the call.
+pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'call mut T, Failure> {
+    if !value.is_null() {
+        range(name, value, 1)?;
+    }
+    // SAFETY: aligned, and the caller vouches for the value.
+    unsafe { value.as_mut() }.ok_or_else(|| null(name))
+}
+
+/// Writes to where a caller wants a result, unless that is nowhere.
+///
+/// # Safety
+/// `to` is null, or there is room for a value, which nobody else uses during the call.
+pub(crate) unsafe fn report<T>(name: &str, to: *mut T, result: T) -> Result<(), Failure> {
+    if !to.is_null() {
+        range(name, to, 1)?;
+        // SAFETY: aligned, and the caller vouches for the room; what was there is no value to be dropped.
+        unsafe { to.write(result) };
+    }
+    Ok(())
+}
+
+/// Three numbers for each node.
+pub(crate) fn vectors<'a, E>(slice: &'static str, numbers: &'a [E]) -> Result<&'a [[E; 3]], Failure> {
+    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
+    Ok(numbers.as_chunks().0)
+}
+
+/// Three numbers for each node, to be written.
+pub(crate) fn vectors_mut<'a, E>(
+    slice: &'static str,
+    numbers: &'a mut [E],
+) -> Result<&'a mut [[E; 3]], Failure> {
+    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
+    Ok(numbers.as_chunks_mut().0)
+}
+
+/// Four nodes for each tetrahedron.
+pub(crate) fn corners<'a>(slice: &'static str, nodes: &'a [usize]) -> Result<&'a [[usize; 4]], Failure> {
+    demand_length(slice, nodes.len(), 4, nodes.len() / 4)?;
+    Ok(nodes.as_chunks().0)
+}
+
+/// Checks that an array has so many components of each point.
+pub(crate) fn demand_length(
+    slice: &'static str,
+    found: usize,
+    components: usize,
+    points: usize,
+) -> Result<(), LengthError> {
+    if Some(found) == points.checked_mul(components) {
+        return Ok(());
+    }
+    Err(LengthError { slice, found, components, points, group: 1 })
+}
+
+/// The value that a number of C stands for.
+pub(crate) fn choice<T: Copy, const N: usize>(name: &str, number: i32, values: [T; N]) -> Result<T, Failure> {
+    usize::try_from(number).ok().and_then(|at| values.get(at)).copied().ok_or_else(|| {
+        Failure::new(Code::Value, format_args!("`{name}` is {number}; it must be one of 0 to {}", N - 1))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a call makes of two arrays in one memory of ten numbers.
+    #[track_caller]
+    fn check(read: Range<usize>, written: Range<usize>, expected: Result<(), &str>) {
+        let mut memory = [0.0; 10];
+        let start = memory.as_mut_ptr();
+        for input_first in [true, false] {
+            let mut arrays = Arrays::new();
+            let result = (|| {
+                let [read_from, write_to] = [read.start, written.start].map(|at| start.wrapping_add(at));
+                // SAFETY: ranges of at most ten numbers, whose slices are not used.
+                unsafe {
+                    if input_first {
+                        arrays.input("F", read_from, read.len())?;
+                        arrays.output("P", write_to, written.len())?;
+                    } else {
+                        arrays.output("P", write_to, written.len())?;
+                        arrays.input("F", read_from, read.len())?;
+                    }
+                }
+                Ok(())
+            })();
+            let message = result.map_err(|failure: Failure| (failure.code, failure.message));
+            let name = if input_first { "P" } else { "F" };
+            let expected = expected.map_err(|text| (Code::Pointer, text.replace('_', name)));
+            assert_eq!(message, expected);
+        }
+    }
+
+    #[test]
+    fn what_is_written_overlaps_nothing() {
+        check(0..5, 5..10, Ok(()));
+        check(5..10, 0..5, Ok(()));
+        check(3..3, 0..10, Ok(()));
+        check(0..5, 4..10, Err("`_` overlaps another array of the call"));
+        check(0..10, 9..10, Err("`_` overlaps another array of the call"));
+        check(3..4, 0..10, Err("`_` overlaps another array of the call"));
+    }
+
+    #[test]
+    fn null_odd_and_endless_arrays_are_errors() {
+        let mut arrays = Arrays::new();
+        let numbers = [0.0_f64; 2];
+        let odd = numbers.as_ptr().wrapping_byte_add(4);
+        // SAFETY: none of these is read.
+        let failures = unsafe {
+            [
+                arrays.input::<f64>("F", std::ptr::null(), 9),
+                arrays.input("F", odd, 1),
+                arrays.input("F", numbers.as_ptr(), usize::MAX / 4),
+            ]
+        };
+        let messages = failures.map(|failure| failure.err().map(|failure| (failure.code, failure.message)));
+        let expected = [
+            (Code::Pointer, "`F` is null".to_owned()),
+            (Code::Pointer, "`F` is not aligned to 8 bytes".to_owned()),
+            (Code::Length, format!("`F` has {} entries, more than memory can hold", usize::MAX / 4)),
+        ];
+        assert_eq!(messages, expected.map(Some));
+        // SAFETY: an empty array.
+        assert_eq!(unsafe { arrays.input::<f64>("F", std::ptr::null(), 0) }.ok(), Some(&[][..]));
+    }
+}

@@ -1,0 +1,35 @@
+//! piola for programs in C: the functions that `include/piola.h` declares, which is made from this crate.
+//!
+//! A function checks what it is lent, calls piola, and returns a [`Code`](error::Code); what went wrong is
+//! told by [`piola_error_message`](error::piola_error_message). Nothing unwinds into a caller, and nothing is
+//! computed here: no mathematics belongs into this crate.
+//!
+//! **Unsafe code** is what a border is made of. That of arrays and texts is in `lent`, that of handles in
+//! `handle`; functions have one block each, whose reason is what their documentation asks of the caller.
+
+#![deny(unsafe_op_in_unsafe_fn)]
+#![allow(non_snake_case)] // F, P, dP_dF as in the literature, and `F_length` beside them
+#![allow(clippy::too_many_arguments)] // an array takes two arguments in C
+#![allow(clippy::missing_safety_doc)] // said once for all functions, at the head of the header
+
+// In the order in which the header has them.
+pub mod error;
+
+pub mod energy;
+pub mod material;
+pub mod options;
+
+pub mod batch;
+pub mod elements;
+
+pub mod csr;
+
+pub mod body;
+pub mod response;
+pub mod stiffness;
+
+pub mod simulation;
+pub mod term;
+
+mod handle;
+mod lent;

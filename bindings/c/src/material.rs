@@ -1,0 +1,259 @@
+//! Materials: energies with values for their parameters.
+
+use std::ffi::c_char;
+use std::sync::{Arc, OnceLock};
+
+use piola::Inversion;
+use piola::batch::{Stages, TileMaterial};
+use piola::interpreter::Interpreted;
+use piola::material::{Moduli, PerElement, Text};
+use piola_scenes::material::{MaterialInfo, MaterialSpec, Parameters};
+
+use crate::energy::{Energy, Source};
+use crate::error::{Code, Failure, guard};
+use crate::lent::{Arrays, Plain, plain};
+use crate::{handle, lent};
+
+/// A material: an energy with values for its parameters, the same for all points, or some for each.
+/// Immutable: threads may share it.
+pub struct Material {
+    moduli: Moduli,
+    kind: Kind,
+}
+
+/// Values of a parameter.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Parameter {
+    /// Name of the parameter.
+    pub name: *const c_char,
+    /// Its values, in SI units.
+    pub values: *const f64,
+    /// Number of its values at a point: 1, or more for a list.
+    pub length: usize,
+    /// Distance from the values of a point to those of the next one; 0 where they are the same for all
+    /// points.
+    pub stride: usize,
+}
+plain!(Parameter);
+
+/// Makes a material of an energy and values for all of its parameters, in any order.
+///
+/// `points` is 0 for one material that serves any number of points. Otherwise it serves just so many, and
+/// parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`. In
+/// a body, points are the tetrahedra of a part, in their order.
+///
+/// `extension` says what happens outside the domain of the energy, such as to inverted elements. Between 0
+/// and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are
+/// refused. Negative: 0.1 where the energy can be continued, else 0.
+///
+/// Parameters of a declared energy that are not given have the typical values of the declaration, if it has
+/// some.
+///
+/// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
+/// bits and nearly as fast: they are compiled at the first use, within milliseconds to seconds.
+///
+/// Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
+/// them, and the point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_material_new(
+    energy: *const Energy,
+    parameters: *const Parameter,
+    parameter_count: usize,
+    extension: f64,
+    points: usize,
+    material: *mut *mut Material,
+) -> Code {
+    guard(|| {
+        let mut arrays = Arrays::new();
+        // SAFETY: a handle, an array, and room for a handle.
+        unsafe {
+            let energy = lent::value("energy", energy)?;
+            let parameters = arrays.input("parameters", parameters, parameter_count)?;
+            let given = |parameter| Given::new(parameter, points);
+            let given = parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
+            handle::give("material", material, || Material::new(&energy.source, &given, extension, points))
+        }
+    })
+}
+
+/// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each may go to null. A material with values for each
+/// point has those of its first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_material_moduli(
+    material: *const Material,
+    mu: *mut f64,
+    lambda: *mut f64,
+) -> Code {
+    guard(|| {
+        // SAFETY: a handle, and room for numbers.
+        unsafe {
+            let moduli = lent::value("material", material)?.moduli;
+            lent::report("mu", mu, moduli.mu)?;
+            lent::report("lambda", lambda, moduli.lambda)
+        }
+    })
+}
+
+/// Frees a material, or does nothing with null. Bodies made of it stay.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_material_free(material: *mut Material) {
+    // SAFETY: a handle that is not used any more.
+    unsafe { handle::free(material) }
+}
+
+/// A parameter as given, its lengths checked.
+struct Given<'a> {
+    name: &'a str,
+    values: &'a [f64],
+    length: usize,
+    stride: usize,
+}
+
+impl<'a> Given<'a> {
+    /// # Safety
+    /// The parameter points to a text, and to as many values as its points need.
+    unsafe fn new(parameter: &Parameter, points: usize) -> Result<Self, Failure> {
+        let &Parameter { name, values, length, stride } = parameter;
+        // SAFETY: that of this function.
+        let name = unsafe { lent::text("parameters[].name", name) }?;
+        if stride != 0 && (stride < length || points == 0) {
+            let message = format!(
+                "`{name}` has a stride of {stride}; it must be 0, or, in a material for a given number of points, at \
+                 least the number of its values, {length}"
+            );
+            return Err(Failure::new(Code::Length, message));
+        }
+        let all = points.saturating_sub(1).saturating_mul(stride).saturating_add(length);
+        // SAFETY: as before.
+        let values = unsafe { Arrays::new().input(name, values, all) }?;
+        Ok(Self { name, values, length, stride })
+    }
+
+    fn at(&self, point: usize) -> &[f64] {
+        &self.values[point * self.stride..][..self.length]
+    }
+}
+
+fn with_extension(spec: MaterialSpec, extension: f64) -> MaterialSpec {
+    match extension {
+        0.0 => spec.with_inversion(Inversion::Refuse),
+        epsilon if epsilon < 0.0 => spec,
+        epsilon => spec.with_inversion(Inversion::Extend { epsilon }),
+    }
+}
+
+/// The specification with the values of a point.
+fn at(spec: MaterialSpec, given: &[Given<'_>], point: usize) -> MaterialSpec {
+    given.iter().fold(spec, |spec, given| spec.with_parameter(given.name, given.at(point)))
+}
+
+/// The materials of all points.
+fn varied(
+    points: usize,
+    material: impl Fn(usize) -> Result<Interpreted, Failure>,
+) -> Result<PerElement<Interpreted>, Failure> {
+    let material = |point| material(point).map_err(|failure| of_point(failure, point, points));
+    Ok(PerElement::new((0..points).map(material).collect::<Result<_, _>>()?)?)
+}
+
+/// The failure of a point, where there are several.
+fn of_point(failure: Failure, point: usize, points: usize) -> Failure {
+    match points {
+        0 => failure,
+        _ => Failure { message: format!("point {point} (from 0): {}", failure.message), ..failure },
+    }
+}
+
+/// How a material is computed.
+enum Kind {
+    /// The same at all points: in double precision as compiled with the library.
+    Uniform {
+        spec: MaterialSpec,
+        elements: Box<dyn TileMaterial<f64>>,
+        values: Values,
+        interpreted: OnceLock<Interpreted>,
+    },
+    /// One for each point.
+    Varied(PerElement<Interpreted>),
+}
+
+/// What a material is made of.
+struct Values {
+    source: Arc<Source>,
+    parameters: Parameters,
+    extension: f64,
+}
+
+impl Material {
+    fn new(
+        source: &Arc<Source>,
+        given: &[Given<'_>],
+        extension: f64,
+        points: usize,
+    ) -> Result<Self, Failure> {
+        let with_values =
+            |spec: &MaterialSpec, point| at(with_extension(spec.clone(), extension), given, point);
+        // Names and missing values are judged here: what is interpreted has typical ones.
+        let spec = with_values(&source.spec, 0);
+        let info = spec.build().map_err(|error| of_point(error.into(), 0, points))?;
+        let MaterialInfo { parameters, elements, moduli, .. } = info;
+        let kind = if points == 0 {
+            let values = Values { source: source.clone(), parameters, extension };
+            Kind::Uniform { spec, elements, values, interpreted: OnceLock::new() }
+        } else {
+            let material = |point| source.interpreted(|spec| with_values(spec, point));
+            Kind::Varied(varied(points, material)?)
+        };
+        Ok(Self { moduli, kind })
+    }
+
+    /// The material for a part of a body.
+    pub(crate) fn for_body(&self) -> Result<Box<dyn TileMaterial<f64>>, Failure> {
+        Ok(match &self.kind {
+            Kind::Uniform { spec, .. } => spec.build()?.elements,
+            Kind::Varied(materials) => Box::new(materials.clone()),
+        })
+    }
+}
+
+impl Values {
+    fn interpreted(&self) -> Result<Interpreted, Failure> {
+        self.source.interpreted(|spec| {
+            let with_value = |spec: MaterialSpec, (name, values): (&Text, &Vec<f64>)| {
+                spec.with_parameter(name, values.as_slice())
+            };
+            self.parameters.iter().fold(with_extension(spec.clone(), self.extension), with_value)
+        })
+    }
+}
+
+/// Numbers of the two precisions.
+pub(crate) trait Precision: Stages + Plain {
+    /// The material of a batch.
+    fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure>;
+}
+
+impl Precision for f64 {
+    fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure> {
+        Ok(match &material.kind {
+            Kind::Uniform { elements, .. } => &**elements,
+            Kind::Varied(materials) => materials,
+        })
+    }
+}
+
+impl Precision for f32 {
+    fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure> {
+        Ok(match &material.kind {
+            Kind::Uniform { values, interpreted, .. } => match interpreted.get() {
+                Some(material) => material,
+                None => {
+                    let material = values.interpreted()?;
+                    interpreted.get_or_init(|| material)
+                }
+            },
+            Kind::Varied(materials) => materials,
+        })
+    }
+}

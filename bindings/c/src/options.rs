@@ -1,0 +1,178 @@
+//! How batches compute, and what they report.
+
+use piola::batch::{Batch, Layout};
+use piola::lanes::Backend;
+use piola::{StatusCell, Survey as PointSurvey};
+
+use crate::error::{Code, Failure};
+use crate::lent::{self, Arrays};
+use crate::material::{Material, Precision};
+
+/// Treatment of the negative eigenvalues of dP/dF.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Filter {
+    /// They stay: the exact derivative of the stress.
+    None = 0,
+    /// They become zero.
+    Clamp = 1,
+    /// They become positive.
+    Absolute = 2,
+}
+
+/// The order of the components of many points in an array, N of each point.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum PointLayout {
+    /// Point by point: component k of point p at p N + k.
+    Points = 0,
+    /// In lines of L points, 8 in double precision and 16 in single precision: component k of point p at
+    /// (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up
+    /// with identities.
+    Lines = 1,
+}
+
+/// The instructions to compute with.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Instructions {
+    /// The best that the processor has.
+    Best = 0,
+    /// Those that every processor has.
+    Portable = 1,
+}
+
+/// How a batch computes. `piola_options options = {sizeof options};` has the defaults, as null has.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Options {
+    /// `sizeof(piola_options)`, by which the library knows the fields of the header that a program was
+    /// compiled with.
+    pub size: usize,
+    /// One of `piola_filter`. Stresses in other measures have tangents without a filter.
+    pub filter: i32,
+    /// One of `piola_layout`, of all arrays of a call but positions, tetrahedra and statuses.
+    pub layout: i32,
+    /// One of `piola_instructions`.
+    pub instructions: i32,
+    /// 1 to share the points among as many threads as there are processors, or as the environment variable
+    /// RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
+    pub threads: i32,
+    /// 1 to write tangents past the caches, which is faster where they are larger than these, needs lines,
+    /// and arrays aligned to 64 bytes; else 0.
+    pub streams: i32,
+    /// Room for the status of each point, flags of `piola_status`; or null.
+    pub statuses: *mut u8,
+    /// Number of statuses: that of the points, or 0.
+    pub statuses_length: usize,
+}
+
+/// Flags of the status of a point.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum StatusFlag {
+    /// The deformation is outside the domain of the energy, and the results mean nothing.
+    Refused = 1,
+    /// The tangent is at a pole, and has a bounded value in place of an infinite one.
+    Bounded = 2,
+    /// The deformation gradient or a result is infinite or NaN, or nearly so: the results mean nothing.
+    Nonfinite = 4,
+    /// The filter has changed the tangent.
+    Filtered = 8,
+}
+
+/// Counts of the statuses of many points. A point that cannot be computed is no error of a call: look here.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct Survey {
+    /// Number of points outside the domain of the energy.
+    pub refused: usize,
+    /// Number of points at a pole of the tangent.
+    pub bounded: usize,
+    /// Number of points with an infinite or NaN deformation or result.
+    pub nonfinite: usize,
+    /// Number of points where the filter has changed the tangent.
+    pub filtered: usize,
+    /// Index of the first point whose results mean nothing, refused or nonfinite; SIZE_MAX if there is none.
+    pub first: usize,
+}
+
+impl From<PointSurvey> for Survey {
+    fn from(survey: PointSurvey) -> Self {
+        let PointSurvey { refused, bounded, nonfinite, filtered, first } = survey;
+        Self { refused, bounded, nonfinite, filtered, first: first.unwrap_or(usize::MAX) }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            size: size_of::<Self>(),
+            filter: Filter::None as i32,
+            layout: PointLayout::Points as i32,
+            instructions: Instructions::Best as i32,
+            threads: 0,
+            streams: 0,
+            statuses: std::ptr::null_mut(),
+            statuses_length: 0,
+        }
+    }
+}
+
+impl Options {
+    /// The options behind a pointer, or the defaults.
+    ///
+    /// # Safety
+    /// `options` is null, or points to as many bytes as its first field says.
+    pub(crate) unsafe fn read(options: *const Self) -> Result<Self, Failure> {
+        // SAFETY: that of this function; a size is all that is read.
+        let Some(&size) = (unsafe { lent::optional("options", options.cast::<usize>()) })? else {
+            return Ok(Self::default());
+        };
+        let expected = size_of::<Self>();
+        if size != expected {
+            let message = format!("`options->size` is {size}; it must be sizeof(piola_options), {expected}");
+            return Err(Failure::new(Code::Value, message));
+        }
+        // SAFETY: the caller vouches for the bytes, which are numbers and a pointer.
+        Ok(*unsafe { lent::value("options", options) }?)
+    }
+
+    pub(crate) fn filter(&self) -> Result<piola::point::Filter, Failure> {
+        filter("options->filter", self.filter)
+    }
+
+    /// The batch of a material.
+    ///
+    /// # Safety
+    /// `statuses` has the length that is said.
+    pub(crate) unsafe fn batch<'call, E: Precision>(
+        &self,
+        material: &'call Material,
+        arrays: &mut Arrays<'call>,
+    ) -> Result<Batch<'call, E>, Failure> {
+        let layout = lent::choice("options->layout", self.layout, [Layout::Points, Layout::Lines])?;
+        let instructions = [Backend::best as fn() -> Backend, Backend::portable];
+        let instructions = lent::choice("options->instructions", self.instructions, instructions)?;
+        let threads = lent::choice("options->threads", self.threads, [false, true])?;
+        let streams = lent::choice("options->streams", self.streams, [false, true])?;
+        // SAFETY: that of this function.
+        let statuses = unsafe { arrays.output("options->statuses", self.statuses, self.statuses_length) }?;
+        let statuses: *const [u8] = statuses;
+        // SAFETY: a cell is one byte, and nobody else uses these during the call.
+        let statuses = unsafe { &*(statuses as *const [StatusCell]) };
+        Ok(Batch::new(E::tiles(material)?)
+            .with_filter(self.filter()?)
+            .with_layout(layout)
+            .with_backend(instructions())
+            .with_threads(threads)
+            .with_streams(streams)
+            .with_statuses(statuses))
+    }
+}
+
+/// The filter that a number of C stands for.
+pub(crate) fn filter(name: &str, number: i32) -> Result<piola::point::Filter, Failure> {
+    use piola::point::Filter::{Absolute, Clamp, None};
+    lent::choice(name, number, [None, Clamp, Absolute])
+}

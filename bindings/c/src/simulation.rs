@@ -1,0 +1,411 @@
+//! Bodies in motion.
+
+use std::ffi::c_char;
+use std::sync::{Arc, Mutex};
+
+use piola::mesh::Anchor;
+use piola::step::{Convergence as Reason, Simulation as Stepped, SimulationSettings, StepError};
+use piola::system::Pins;
+
+use crate::body::Body;
+use crate::error::{Code, Failure, guard};
+use crate::lent::{Arrays, plain};
+use crate::term::{Callbacks, Term};
+use crate::{handle, lent};
+
+/// A body with positions and velocities, which steps change. A call while another thread's is under way
+/// returns PIOLA_CODE_BUSY.
+pub struct Simulation(Mutex<State>);
+
+struct State {
+    simulation: Stepped,
+    terms: Vec<Arc<Callbacks>>,
+}
+
+/// Vectors of the nodes of a simulation, three numbers each.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Quantity {
+    /// Positions, m. Pins hold their nodes where positions are written.
+    Positions = 0,
+    /// Velocities, m/s.
+    Velocities = 1,
+    /// Accelerations at the end of the last step, m/s².
+    Accelerations = 2,
+    /// Given forces, N, which keep their size and direction. None, where an array of length 0 is written.
+    Forces = 3,
+    /// Forces of the pins, N: three numbers for each pinned node, in ascending order. To be read only.
+    Reactions = 4,
+}
+
+/// A spring of rest length zero from a point of a body to a point in space.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Spring {
+    /// Nodes whose positions make the point of the body.
+    pub nodes: [usize; 4],
+    /// Their weights: 1, 0, 0, 0 for the first node itself.
+    pub weights: [f64; 4],
+    /// The point in space, m. Between two steps in which the spring at this place of the array has the same
+    /// nodes and weights it moves evenly.
+    pub target: [f64; 3],
+    /// Stiffness k, N/m: the energy is k/2 times the distance squared.
+    pub stiffness: f64,
+}
+plain!(Spring);
+
+/// Why the iteration of a step has ended.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub enum Convergence {
+    /// The gradient, or what was left to go, fell below the tolerance.
+    Tolerance = 0,
+    /// All further gain is below rounding.
+    Rounding = 1,
+    /// The limit of iterations is reached.
+    Limit = 2,
+}
+
+/// Report of a step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct StepReport {
+    /// One of `piola_convergence`.
+    pub convergence: i32,
+    /// Number of iterations of Newton's method.
+    pub iterations: usize,
+    /// Number of iterations of the linear solver.
+    pub linear_iterations: usize,
+    /// Number of trials that left the domain of a material or a term.
+    pub refused_trials: usize,
+    /// Norm of the gradient over the free nodes before the first iteration, N.
+    pub first_residual: f64,
+    /// Norm of the gradient evaluated last, N.
+    pub residual: f64,
+    /// Smallest det F of a tetrahedron after the step.
+    pub min_det: f64,
+    /// Energy of deformation, J.
+    pub elastic: f64,
+    /// Energy of motion, J.
+    pub kinetic: f64,
+    /// Energy in the field of gravity, J: 0 at rest.
+    pub gravity: f64,
+    /// Energy of the springs, J.
+    pub springs: f64,
+    /// Energy in the field of given forces, J: 0 at rest.
+    pub forces: f64,
+    /// Energy of the terms, J.
+    pub terms: f64,
+}
+
+impl From<piola::step::StepReport> for StepReport {
+    fn from(report: piola::step::StepReport) -> Self {
+        let piola::step::StepReport { newton, min_det, energies, .. } = report;
+        let convergence = match newton.convergence {
+            Reason::Tolerance => Convergence::Tolerance,
+            Reason::Rounding => Convergence::Rounding,
+            Reason::Limit => Convergence::Limit,
+        };
+        Self {
+            convergence: convergence as i32,
+            iterations: newton.iterations,
+            linear_iterations: newton.linear_iterations,
+            refused_trials: newton.refused_trials,
+            first_residual: newton.first_residual,
+            residual: newton.residual,
+            min_det,
+            elastic: energies.elastic,
+            kinetic: energies.kinetic,
+            gravity: energies.gravity,
+            springs: energies.springs,
+            forces: energies.forces,
+            terms: energies.terms,
+        }
+    }
+}
+
+/// Makes a simulation of a body at rest, with the nodes `pins` held, from 0 and in any order.
+///
+/// `settings` is a text in JSON, null for the defaults. Keys that are left out have the first of their
+/// values:
+///
+/// - `gravity`: `[0, 0, 0]`, m/s²;
+/// - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`, `{"stiffness": {"time": s}}`;
+/// - `integrator`: `"implicit_euler"`, `"bdf2"`, `"sdirk2"`, `"sdirk3"`, `"implicit_midpoint"`,
+///   `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
+/// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
+///   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
+///     `{"trust_region": {"tolerance": 0.01}}`,
+///   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
+///   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
+///
+/// Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_new(
+    body: *const Body,
+    pins: *const usize,
+    pins_length: usize,
+    settings: *const c_char,
+    simulation: *mut *mut Simulation,
+) -> Code {
+    guard(|| {
+        // SAFETY: handles, an array as long as is said, a text or null.
+        unsafe {
+            let body = lent::value("body", body)?;
+            let pins = Pins::at(Arrays::new().input("pins", pins, pins_length)?.iter().copied());
+            let settings = read_settings(settings)?;
+            handle::give("simulation", simulation, || {
+                let simulation = Stepped::new((*body.0).clone(), &pins, settings)?;
+                Ok(Simulation(Mutex::new(State { simulation, terms: Vec::new() })))
+            })
+        }
+    })
+}
+
+/// Replaces the settings from the next step on; those that are left out become the defaults.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_set_settings(
+    simulation: *const Simulation,
+    settings: *const c_char,
+) -> Code {
+    // SAFETY: a handle, and a text or null.
+    unsafe { change(simulation, |state| Ok(state.simulation.set_settings(read_settings(settings)?)?)) }
+}
+
+/// Reads vectors of the nodes, one of `piola_quantity`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_read(
+    simulation: *const Simulation,
+    quantity: i32,
+    numbers: *mut f64,
+    numbers_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, .. }| {
+            let numbers = Arrays::new().output("numbers", numbers, numbers_length)?;
+            let reactions;
+            let vectors = match quantity_of(quantity)? {
+                Quantity::Positions => simulation.positions(),
+                Quantity::Velocities => simulation.velocities(),
+                Quantity::Accelerations => simulation.accelerations(),
+                Quantity::Forces if simulation.forces().is_empty() => {
+                    lent::demand_length("numbers", numbers.len(), 3, simulation.positions().len())?;
+                    numbers.fill(0.0);
+                    return Ok(());
+                }
+                Quantity::Forces => simulation.forces(),
+                Quantity::Reactions => {
+                    reactions = simulation.reactions()?;
+                    &reactions
+                }
+            };
+            lent::demand_length("numbers", numbers.len(), 3, vectors.len())?;
+            numbers.copy_from_slice(vectors.as_flattened());
+            Ok(())
+        })
+    }
+}
+
+/// Writes vectors of the nodes, one of `piola_quantity`, all of which must be finite. The body may be
+/// deformed, collapsed or inverted in any way.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_write(
+    simulation: *const Simulation,
+    quantity: i32,
+    numbers: *const f64,
+    numbers_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, .. }| {
+            let numbers = Arrays::new().input("numbers", numbers, numbers_length)?;
+            let vectors = lent::vectors("numbers", numbers)?;
+            match quantity_of(quantity)? {
+                Quantity::Positions => simulation.set_positions(vectors)?,
+                Quantity::Velocities => simulation.set_velocities(vectors)?,
+                Quantity::Accelerations => simulation.set_accelerations(vectors)?,
+                Quantity::Forces => simulation.set_forces(vectors)?,
+                Quantity::Reactions => {
+                    return Err(Failure::new(
+                        Code::Value,
+                        "reactions follow from the state, and cannot be written",
+                    ));
+                }
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_set_pins(
+    simulation: *const Simulation,
+    pins: *const usize,
+    pins_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, .. }| {
+            let pins = Arrays::new().input("pins", pins, pins_length)?;
+            Ok(simulation.set_pins(&Pins::at(pins.iter().copied()))?)
+        })
+    }
+}
+
+/// Prescribes where pinned nodes are after the next step and from then on: three numbers for each of `nodes`,
+/// m. They move evenly through the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_prescribe(
+    simulation: *const Simulation,
+    nodes: *const usize,
+    nodes_length: usize,
+    positions: *const f64,
+    positions_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, .. }| {
+            let mut arrays = Arrays::new();
+            let nodes = arrays.input("nodes", nodes, nodes_length)?;
+            let positions = arrays.input("positions", positions, positions_length)?;
+            lent::demand_length("positions", positions.len(), 3, nodes.len())?;
+            let positions = lent::vectors("positions", positions)?;
+            Ok(nodes
+                .iter()
+                .zip(positions)
+                .try_for_each(|(&node, &position)| simulation.prescribe(node, position))?)
+        })
+    }
+}
+
+/// Replaces all springs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_set_springs(
+    simulation: *const Simulation,
+    springs: *const Spring,
+    springs_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, .. }| {
+            let springs = Arrays::new().input("springs", springs, springs_length)?;
+            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| piola::step::Spring {
+                anchor: Anchor { nodes, weights },
+                target,
+                stiffness,
+            };
+            Ok(simulation.set_springs(&springs.iter().map(spring).collect::<Vec<_>>())?)
+        })
+    }
+}
+
+/// Replaces all terms of the energy but deformation, gravity and springs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_set_terms(
+    simulation: *const Simulation,
+    terms: *const Term,
+    terms_length: usize,
+) -> Code {
+    // SAFETY: a handle, and arrays as long as is said.
+    unsafe {
+        change(simulation, |State { simulation, terms: kept }| {
+            let terms = Arrays::new().input("terms", terms, terms_length)?;
+            let terms = terms
+                .iter()
+                .map(|&term| Callbacks::new(term).map(Arc::new))
+                .collect::<Result<Vec<_>, _>>()?;
+            simulation
+                .set_terms(terms.iter().map(|term| term.clone() as Arc<dyn piola::step::Term>).collect());
+            *kept = terms;
+            Ok(())
+        })
+    }
+}
+
+/// Advances by `dt`, s; the report may go to null. Shared among threads, with the same bits for any number of
+/// them.
+///
+/// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a
+/// shorter step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it
+/// was the last one of the step, for the energy in the report.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_step(
+    simulation: *const Simulation,
+    dt: f64,
+    report: *mut StepReport,
+) -> Code {
+    // SAFETY: a handle, and room for a report or null.
+    unsafe { advance(simulation, report, |simulation| simulation.step(dt)) }
+}
+
+/// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, as far as the
+/// settings allow. Then it is at rest. Otherwise as `piola_simulation_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_equilibrate(
+    simulation: *const Simulation,
+    report: *mut StepReport,
+) -> Code {
+    // SAFETY: a handle, and room for a report or null.
+    unsafe { advance(simulation, report, Stepped::equilibrate) }
+}
+
+/// Frees a simulation, or does nothing with null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_simulation_free(simulation: *mut Simulation) {
+    // SAFETY: a handle that is not used any more.
+    unsafe { handle::free(simulation) }
+}
+
+/// Does something with a simulation that no other call uses.
+///
+/// # Safety
+/// `simulation` is null or a handle.
+unsafe fn change(
+    simulation: *const Simulation,
+    change: impl FnOnce(&mut State) -> Result<(), Failure>,
+) -> Code {
+    guard(|| {
+        // SAFETY: that of this function.
+        let simulation = unsafe { lent::value("simulation", simulation) }?;
+        change(&mut *handle::enter(&simulation.0)?)
+    })
+}
+
+/// # Safety
+/// `simulation` is null or a handle; `report` is null, or there is room for one.
+unsafe fn advance(
+    simulation: *const Simulation,
+    report: *mut StepReport,
+    advance: impl FnOnce(&mut Stepped) -> Result<piola::step::StepReport, StepError>,
+) -> Code {
+    // SAFETY: that of this function.
+    unsafe {
+        change(simulation, |State { simulation, terms }| {
+            let result = advance(simulation);
+            for (index, term) in terms.iter().enumerate() {
+                if let Some(returned) = term.take_returned() {
+                    let message = format_args!("a function of term {index} (from 0) has returned {returned}");
+                    return Err(Failure::new(Code::Callback, message));
+                }
+            }
+            lent::report("report", report, result?.into())
+        })
+    }
+}
+
+fn quantity_of(quantity: i32) -> Result<Quantity, Failure> {
+    use Quantity::{Accelerations, Forces, Positions, Reactions, Velocities};
+    lent::choice("quantity", quantity, [Positions, Velocities, Accelerations, Forces, Reactions])
+}
+
+/// # Safety
+/// `settings` is null or a text.
+unsafe fn read_settings(settings: *const c_char) -> Result<SimulationSettings, Failure> {
+    if settings.is_null() {
+        return Ok(SimulationSettings::default());
+    }
+    // SAFETY: that of this function.
+    Ok(serde_json::from_str(unsafe { lent::text("settings", settings) }?)?)
+}

@@ -1,0 +1,178 @@
+//! Terms of the energy that the caller computes, such as contact.
+
+use std::ffi::c_void;
+use std::sync::atomic::{AtomicI32, Ordering};
+
+use piola::step::NodeBlocks;
+
+use crate::error::{Code, Failure, guard};
+use crate::lent::{self, Arrays, plain};
+
+/// A potential energy of the positions of all nodes, which a simulation adds to that of deformation.
+///
+/// Its functions get `context` and the positions of the `nodes` nodes, three numbers each, m; the same
+/// positions must give the same bits. They return 0, or another number, which ends the step with
+/// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, though not that
+/// which called the library, and must not call functions with the handle of the simulation.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Term {
+    /// What the functions get as their first argument. It must live as long as the simulation has this term.
+    pub context: *mut c_void,
+    /// Writes the energy, J; infinity outside of its domain, to where no step will go.
+    pub energy: Option<
+        unsafe extern "C" fn(
+            context: *mut c_void,
+            positions: *const f64,
+            nodes: usize,
+            energy: *mut f64,
+        ) -> i32,
+    >,
+    /// Adds the gradient of the energy, N, to three numbers for each node.
+    pub add_gradient: Option<
+        unsafe extern "C" fn(
+            context: *mut c_void,
+            positions: *const f64,
+            nodes: usize,
+            gradient: *mut f64,
+        ) -> i32,
+    >,
+    /// Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method
+    /// converges where they are positive semidefinite, so that negative eigenvalues are best left out.
+    pub add_second_derivatives: Option<
+        unsafe extern "C" fn(
+            context: *mut c_void,
+            positions: *const f64,
+            nodes: usize,
+            blocks: *mut Blocks<'_>,
+        ) -> i32,
+    >,
+    /// Writes the largest share of a displacement, three numbers for each node, with which a line search may
+    /// begin, above 0 and at most 1: for barriers that a long step could jump over. May be null: 1.
+    pub longest_step: Option<
+        unsafe extern "C" fn(
+            context: *mut c_void,
+            positions: *const f64,
+            displacement: *const f64,
+            nodes: usize,
+            share: *mut f64,
+        ) -> i32,
+    >,
+}
+plain!(Term);
+
+/// Second derivatives of a term, valid during the call that it was handed to.
+pub struct Blocks<'a>(&'a mut NodeBlocks);
+
+/// Adds the block of second derivatives by the positions of two nodes, nine numbers row by row, N/m, and, for
+/// two different nodes, its transpose as that of `column` and `row`: each pair of nodes comes once.
+///
+/// The two need not share a tetrahedron. A pair that none and no earlier step has joined costs a new symbolic
+/// analysis. A node that does not exist ends the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_blocks_add(
+    blocks: *mut Blocks<'_>,
+    row: usize,
+    column: usize,
+    entries: *const f64,
+) -> Code {
+    guard(|| {
+        // SAFETY: what a term is handed, which no other thread has, and nine numbers.
+        unsafe {
+            let entries = Arrays::new().input("entries", entries, 9)?;
+            let entries = std::array::from_fn(|a| std::array::from_fn(|c| entries[3 * a + c]));
+            lent::value_mut("blocks", blocks)?.0.add(row, column, entries);
+        }
+        Ok(())
+    })
+}
+
+/// Functions with four arguments, the last of which is where the result goes.
+type Function<T> = unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut T) -> i32;
+
+/// A term whose functions are the caller's.
+pub(crate) struct Callbacks {
+    term: Term,
+    energy: Function<f64>,
+    add_gradient: Function<f64>,
+    add_second_derivatives: unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut Blocks<'_>) -> i32,
+    /// What a function has returned, unless it was 0: nothing is called any more.
+    returned: AtomicI32,
+}
+
+// SAFETY: the functions may be called by another thread than that which has set them, one call at a time.
+unsafe impl Send for Callbacks {}
+// SAFETY: a simulation evaluates its terms one after the other.
+unsafe impl Sync for Callbacks {}
+
+impl Callbacks {
+    /// # Safety
+    /// The functions do what the documentation of [`Term`] says, as long as this value lives.
+    pub(crate) unsafe fn new(term: Term) -> Result<Self, Failure> {
+        let missing = |name: &str| Failure::new(Code::Pointer, format_args!("`terms[].{name}` is null"));
+        Ok(Self {
+            energy: term.energy.ok_or_else(|| missing("energy"))?,
+            add_gradient: term.add_gradient.ok_or_else(|| missing("add_gradient"))?,
+            add_second_derivatives: term
+                .add_second_derivatives
+                .ok_or_else(|| missing("add_second_derivatives"))?,
+            term,
+            returned: AtomicI32::new(0),
+        })
+    }
+
+    /// What a function of the term has returned since the last time, unless it was 0.
+    pub(crate) fn take_returned(&self) -> Option<i32> {
+        match self.returned.swap(0, Ordering::Relaxed) {
+            0 => None,
+            returned => Some(returned),
+        }
+    }
+
+    /// Whether a function returns 0, and none before has returned anything else.
+    fn succeeds(&self, call: impl FnOnce(*mut c_void) -> i32) -> bool {
+        if self.returned.load(Ordering::Relaxed) != 0 {
+            return false;
+        }
+        let returned = call(self.term.context);
+        self.returned.store(returned, Ordering::Relaxed);
+        returned == 0
+    }
+}
+
+impl piola::step::Term for Callbacks {
+    fn energy(&self, positions: &[[f64; 3]]) -> Option<f64> {
+        let mut energy = f64::NAN;
+        let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
+        // SAFETY: three numbers for each node, and room for one.
+        let succeeds = self.succeeds(|context| unsafe { (self.energy)(context, x, nodes, &mut energy) });
+        Some(energy).filter(|energy| succeeds && energy.is_finite())
+    }
+
+    /// Where the function fails, so does the step: it has no finite gradient.
+    fn add_gradient(&self, positions: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
+        let to = gradient.as_flattened_mut().as_mut_ptr();
+        // SAFETY: three numbers for each node, twice.
+        if !self.succeeds(|context| unsafe { (self.add_gradient)(context, x, nodes, to) }) {
+            gradient.fill([f64::NAN; 3]);
+        }
+    }
+
+    /// Where the function fails, so does the step, whose next energy is none.
+    fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
+        let mut blocks = Blocks(blocks);
+        // SAFETY: three numbers for each node, and blocks that live during the call.
+        self.succeeds(|context| unsafe { (self.add_second_derivatives)(context, x, nodes, &mut blocks) });
+    }
+
+    fn longest_step(&self, positions: &[[f64; 3]], displacement: &[[f64; 3]]) -> f64 {
+        let Some(longest_step) = self.term.longest_step else { return 1.0 };
+        let [x, d] = [positions, displacement].map(|vectors| vectors.as_flattened().as_ptr());
+        let (mut share, nodes) = (1.0, positions.len());
+        // SAFETY: three numbers for each node, twice, and room for one.
+        self.succeeds(|context| unsafe { longest_step(context, x, d, nodes, &mut share) });
+        if share > 0.0 && share <= 1.0 { share } else { 1.0 }
+    }
+}

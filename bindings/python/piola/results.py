@@ -1,0 +1,117 @@
+"""What the functions of the package return, where it is more than an array."""
+
+from __future__ import annotations
+
+import enum
+import json
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from piola import Material
+
+
+class Status(enum.IntFlag):
+    """Flags of a point, in the arrays of uint8 that `status=` takes."""
+
+    REFUSED = 1
+    """The deformation is outside the domain of the energy, and the results mean nothing."""
+    BOUNDED = 2
+    """The tangent is at a pole, and has a bounded value in place of an infinite one."""
+    NONFINITE = 4
+    """The deformation or a result is infinite or NaN, or nearly so, and the results mean nothing."""
+    FILTERED = 8
+    """The filter changed the tangent."""
+
+
+class Moduli(NamedTuple):
+    """Moduli at small strain."""
+
+    mu: float
+    """Shear modulus, Pa."""
+    lambda_: float
+    """Lamé's first parameter, Pa."""
+    bulk: float
+    """Bulk modulus, Pa."""
+    young: float
+    """Young's modulus, Pa."""
+    poisson: float
+    """Poisson's ratio."""
+
+
+class Curve(NamedTuple):
+    """A test curve."""
+
+    mode: str
+    """The test."""
+    control: np.ndarray
+    """What the machine sets, of shape (n,): stretch, shear or ratio of volumes."""
+    stress: np.ndarray
+    """What it reads, Pa, of shape (n,); NaN where there is no point."""
+    stretches: np.ndarray
+    """Principal stretches, of shape (n, 3)."""
+    reasons: list
+    """Why there is no point, or None, for each control."""
+
+
+class Fit(NamedTuple):
+    """Parameters that agree best with measurements."""
+
+    material: Material
+    """The material with them."""
+    errors: dict
+    """Standard error of each number, to first order; None where there is none."""
+    determination: dict
+    """R² of each mode, and of "all"."""
+    difference: float
+    """Root of the mean square of the differences that were made small: 0.05 is five percent."""
+    condition: float
+    """How many times worse the fit determines the parameters than the data determine the fit."""
+    ended: str
+    """Why the search ended."""
+    warnings: list
+    """Why other parameters might do as well, or better."""
+
+
+class Walk(NamedTuple):
+    """A path of stretches from rest, as far as it goes."""
+
+    path: str
+    """"uniaxial", "equibiaxial", "pure_shear", "confined" or "hydrostatic"."""
+    to: float
+    """The stretch that it was to be walked to."""
+    reached: float
+    """The stretch that was reached."""
+    lost: dict
+    """The stretch at which each criterion is lost first, or None."""
+
+
+class Stability(NamedTuple):
+    """Where a material keeps the inequalities of a stable solid."""
+
+    points: int
+    """Points of the box of stretches."""
+    admitted: int
+    """Points inside of the domain."""
+    kept: dict
+    """Points that keep "baker_ericksen", "hill" and "strong_ellipticity"."""
+    walks: list
+    """A `Walk` along each path, to either end of the range."""
+    report: str
+    """All of this in words."""
+
+    def __str__(self):
+        return self.report
+
+
+def to_json(settings):
+    """Settings as JSON, arrays of numpy as lists."""
+
+    def plain(value):
+        if hasattr(value, "tolist"):
+            return value.tolist()
+        kind = type(value).__name__
+        raise TypeError(f"a setting is of type {kind}; it must be a number, a string or a list of these")
+
+    return json.dumps(settings, default=plain)

@@ -1,0 +1,108 @@
+//! Declarations in words.
+
+use piola::material::{self, Unit};
+use piola_materials::CATALOGUE;
+use piola_scenes::material::MaterialSpec;
+use pyo3::prelude::*;
+
+use crate::errors::of_material;
+
+/// A parameter of an energy.
+#[pyclass(frozen, get_all, module = "piola")]
+#[derive(Clone)]
+pub(crate) struct Parameter {
+    /// Its name, the keyword of `Material` and `declare`.
+    name: String,
+    /// Its documentation.
+    doc: String,
+    /// Its unit: "Pa", "1/Pa", "1" for a number without unit, or None where the declaration states none.
+    unit: Option<&'static str>,
+    /// Whether it takes a sequence of numbers.
+    is_list: bool,
+    /// Its value in some real material, if the declaration has one.
+    typical: Option<Vec<f64>>,
+}
+
+#[pymethods]
+impl Parameter {
+    fn __repr__(&self) -> String {
+        format!("Parameter({:?}: {})", self.name, self.doc)
+    }
+}
+
+/// An energy in words.
+#[pyclass(frozen, get_all, module = "piola")]
+pub(crate) struct Description {
+    /// The name.
+    name: String,
+    /// The first sentence of its documentation.
+    summary: String,
+    /// The energy density as a formula.
+    formula: String,
+    /// The parameters in the order of the declaration.
+    parameters: Vec<Parameter>,
+    /// Where the energy is defined, such as "J > 0".
+    domain: String,
+    /// Conditions on the parameters.
+    admissible: Vec<String>,
+    /// Whether it can be continued beyond its domain, by `extend=`.
+    extends: bool,
+    /// Formulas of the shear modulus and of Lamé's first parameter at small strain.
+    moduli: [String; 2],
+}
+
+impl Description {
+    pub(crate) fn new(name: &str, description: &material::Description) -> Self {
+        let typical = |k: usize| {
+            description
+                .typical
+                .as_ref()
+                .and_then(|typical| typical.values.get(k))
+                .map(|values| values.to_vec())
+        };
+        let parameter = |(k, parameter): (usize, &material::Parameter)| Parameter {
+            name: parameter.name.to_string(),
+            doc: parameter.doc.to_string(),
+            unit: parameter.unit.and_then(|unit| match unit {
+                Unit::Pascal => Some("Pa"),
+                Unit::PerPascal => Some("1/Pa"),
+                Unit::Dimensionless => Some("1"),
+                _ => None,
+            }),
+            is_list: parameter.is_list(),
+            typical: typical(k),
+        };
+        Self {
+            name: name.to_owned(),
+            summary: description.summary.to_string(),
+            formula: description.formula.to_string(),
+            parameters: description.parameters.iter().enumerate().map(parameter).collect(),
+            domain: description.domain.to_string(),
+            admissible: description.admissible.iter().map(ToString::to_string).collect(),
+            extends: description.extends,
+            moduli: description.moduli.each_ref().map(ToString::to_string),
+        }
+    }
+}
+
+#[pymethods]
+impl Description {
+    fn __repr__(&self) -> String {
+        let names: Vec<_> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        format!("{}({}): {}", self.name, names.join(", "), self.formula)
+    }
+}
+
+/// The names of all energies of the catalogue.
+#[pyfunction]
+pub(crate) fn catalogue() -> Vec<&'static str> {
+    CATALOGUE.iter().map(|entry| entry.name).collect()
+}
+
+/// An energy of the catalogue in words. Raises MaterialError for a name that is not there.
+#[pyfunction]
+#[pyo3(signature = (name, /))]
+pub(crate) fn describe(name: &str) -> PyResult<Description> {
+    let spec = MaterialSpec::new(name);
+    Ok(Description::new(name, spec.description().map_err(of_material)?))
+}

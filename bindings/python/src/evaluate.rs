@@ -1,0 +1,329 @@
+//! Energy, stress and tangent of many points.
+
+#![expect(non_snake_case, reason = "F and P as in the literature")]
+
+use numpy::PyArrayDyn;
+use piola::batch::{Batch, TileMaterial};
+use piola::material::PerPoint;
+use piola::point::Filter;
+use piola::point::measures::Measure;
+use piola::{StatusCell, Survey};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::arrays::{Axes, Input, Output, kind, shape_text, statuses};
+use crate::columns::Columns;
+use crate::errors::{DomainError, type_error, value_error};
+use crate::material::Material;
+use crate::quantity::{Number, Quantity};
+use crate::threads::on_threads;
+
+/// Points from which on the threads of the pool share a call, unless the caller decides.
+const MANY: usize = 2048;
+
+/// How a caller wants points to be computed, by keywords that all methods share.
+struct Call<'a, 'py> {
+    filter: Filter,
+    axes: Axes,
+    /// Where each result goes.
+    out: Vec<Option<Bound<'py, PyAny>>>,
+    status: Option<&'a Bound<'py, PyAny>>,
+    threads: Option<bool>,
+}
+
+impl<'py> Call<'_, 'py> {
+    /// Computes a quantity of each F, and gives its results.
+    fn run(
+        &self,
+        material: &Material,
+        F: &Bound<'py, PyAny>,
+        quantity: Quantity,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        if let Ok(F) = F.cast::<PyArrayDyn<f64>>() {
+            self.run_in(material, F, quantity)
+        } else if let Ok(F) = F.cast::<PyArrayDyn<f32>>() {
+            self.run_in(material, F, quantity)
+        } else {
+            Err(type_error(format!("F is {}; it must be an array of float64 or float32", kind(F))))
+        }
+    }
+
+    fn run_in<E: Number>(
+        &self,
+        material: &Material,
+        F: &Bound<'py, PyArrayDyn<E>>,
+        quantity: Quantity,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let input = Input::new(F, self.axes)?;
+        let mut outputs = Vec::with_capacity(3);
+        for (k, components) in quantity.components().iter().enumerate() {
+            outputs.push(input.output(F.py(), components, self.out.get(k).and_then(Option::as_ref))?);
+        }
+        let mut status = self.status.map(|given| statuses(given, input.points())).transpose()?;
+        let survey = self.survey(material, &input, quantity, &mut outputs, status.as_mut())?;
+        if let (Some(first), None) = (survey.first, &status) {
+            return Err(outside(survey, first, input.points()));
+        }
+        Ok(outputs.into_iter().map(|output| output.finish().into_any()).collect())
+    }
+
+    /// Computes a quantity, and writes the status of each point.
+    fn survey<E: Number>(
+        &self,
+        material: &Material,
+        input: &Input<'py, E>,
+        quantity: Quantity,
+        outputs: &mut [Output<'py, E>],
+        status: Option<&mut Output<'py, u8>>,
+    ) -> PyResult<Survey> {
+        let (py, count) = (input.py(), input.points().iter().product());
+        let threads = self.threads.unwrap_or(count >= MANY);
+        let F = input.slice()?;
+        let mut results: Vec<_> = outputs.iter_mut().map(Output::slice).collect::<PyResult<_>>()?;
+        let cells: Vec<_> = status.iter().flat_map(|_| (0..count).map(|_| StatusCell::default())).collect();
+        let single;
+        let points: &dyn TileMaterial<E> = match material.each() {
+            None => E::material(material)?,
+            Some(each) => {
+                single = PerPoint::new(each).map_err(|error| value_error(error.to_string()))?;
+                if each.len() != count {
+                    let (points, materials) = (shape_text(input.points()), each.len());
+                    return Err(value_error(format!(
+                        "F has points of shape {points}, and the material parameters for {materials} points"
+                    )));
+                }
+                &single
+            }
+        };
+        let batch = Batch::new(points).with_filter(self.filter);
+        let axes = self.axes;
+        let compute = || match axes {
+            Axes::Leading => {
+                quantity.compute(&batch.with_threads(threads).with_statuses(&cells), F, &mut results)
+            }
+            Axes::Trailing => Columns { batch, quantity, F, cells: &cells, count, each: material.each() }
+                .compute(results, threads),
+        };
+        let survey = match (threads, count) {
+            (true, _) => py.detach(|| on_threads(compute))?,
+            // Shorter than to let others have the interpreter.
+            (false, ..=8) => compute(),
+            (false, _) => py.detach(compute),
+        };
+        if let Some(status) = status {
+            for (status, cell) in status.slice()?.iter_mut().zip(&cells) {
+                *status = flags(cell);
+            }
+        }
+        survey.map_err(|error| value_error(error.to_string()))
+    }
+}
+
+/// The bits of a status: those of `piola.Status`.
+fn flags(cell: &StatusCell) -> u8 {
+    let status = cell.get();
+    [status.refused, status.bounded, status.nonfinite, status.filtered]
+        .into_iter()
+        .enumerate()
+        .fold(0, |bits, (k, flag)| bits | u8::from(flag) << k)
+}
+
+/// The exception for points whose results mean nothing.
+fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
+    let mut rest = first;
+    let mut index: Vec<_> = points
+        .iter()
+        .rev()
+        .map(|&n| {
+            let k = rest % n;
+            rest /= n;
+            k
+        })
+        .collect();
+    index.reverse();
+    let Survey { refused, nonfinite, .. } = survey;
+    let message = format!(
+        "of {} points, {refused} are outside the domain of the energy, and {nonfinite} have an F or a result \
+         that is not finite; the first has the index {}",
+        points.iter().product::<usize>(),
+        shape_text(&index)
+    );
+    DomainError::new_err((message, index, refused, nonfinite))
+}
+
+pub(crate) fn filter(name: Option<&str>) -> PyResult<Filter> {
+    match name {
+        None => Ok(Filter::None),
+        Some("clamp") => Ok(Filter::Clamp),
+        Some("absolute") => Ok(Filter::Absolute),
+        Some(other) => {
+            Err(value_error(format!("filter is {other:?}; it must be \"clamp\", \"absolute\" or None")))
+        }
+    }
+}
+
+fn measure(name: &str) -> PyResult<Measure> {
+    Ok(match name {
+        "second_piola" => Measure::SecondPiola,
+        "kirchhoff" => Measure::Kirchhoff,
+        "cauchy" => Measure::Cauchy,
+        "jaumann" => Measure::Jaumann,
+        "green_naghdi" => Measure::GreenNaghdi,
+        other => {
+            return Err(value_error(format!(
+                "measure is {other:?}; it must be \"second_piola\", \"kirchhoff\", \"cauchy\", \"jaumann\" or \
+                 \"green_naghdi\""
+            )));
+        }
+    })
+}
+
+/// The arrays that a caller gives for several results.
+fn several<'py>(out: Option<&Bound<'py, PyAny>>, count: usize) -> PyResult<Vec<Option<Bound<'py, PyAny>>>> {
+    let Some(out) = out else { return Ok(Vec::new()) };
+    let tuple = out.cast::<PyTuple>();
+    let tuple =
+        tuple.map_err(|_| type_error(format!("out is {}; it must be a tuple of arrays", kind(out))))?;
+    let arrays: Vec<Option<Bound<'py, PyAny>>> = tuple.extract()?;
+    match arrays.len() == count {
+        true => Ok(arrays),
+        false => Err(value_error(format!("out has {} arrays; it must have {count}", arrays.len()))),
+    }
+}
+
+#[pymethods]
+impl Material {
+    /// Energy densities of deformation gradients, Pa.
+    ///
+    ///     energy(F, /, *, trailing=False, out=None, status=None, threads=None)
+    ///
+    /// F: float64 or float32, of shape (..., 3, 3), or (3, 3, ...) if trailing. Results have its type.
+    /// out: an array for the result, of shape (...), contiguous.
+    /// status: an array of uint8, of shape (...), for the flags of each point: see `Status`.
+    /// threads: whether several threads share the points; None for yes from 2048 points on.
+    ///
+    /// Raises DomainError if a point is outside the domain or not finite, unless `status` is given: then the
+    /// results of such points mean nothing. Raises ValueError for a wrong shape, TypeError for a wrong type.
+    #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
+    fn energy<'py>(
+        &self,
+        F: &Bound<'py, PyAny>,
+        trailing: bool,
+        out: Option<Bound<'py, PyAny>>,
+        status: Option<&Bound<'py, PyAny>>,
+        threads: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out: vec![out], status, threads };
+        one(call.run(self, F, Quantity::Energy)?)
+    }
+
+    /// First Piola stresses P = dψ/dF of deformation gradients, Pa, in the shape of F.
+    ///
+    ///     stress(F, /, *, trailing=False, out=None, status=None, threads=None)
+    ///
+    /// Arguments and errors as of `energy`.
+    #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
+    fn stress<'py>(
+        &self,
+        F: &Bound<'py, PyAny>,
+        trailing: bool,
+        out: Option<Bound<'py, PyAny>>,
+        status: Option<&Bound<'py, PyAny>>,
+        threads: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out: vec![out], status, threads };
+        one(call.run(self, F, Quantity::Stress)?)
+    }
+
+    /// First Piola stresses P and tangents dP/dF, Pa: entry (i, j, k, l) is dP_ij/dF_kl.
+    ///
+    ///     tangent(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
+    ///
+    /// filter: what becomes of negative eigenvalues of dP/dF: None leaves them, "clamp" makes them zero,
+    ///     "absolute" changes their sign.
+    /// out: a pair of arrays, or of None.
+    ///
+    /// Returns (P, dP_dF), of shapes (..., 3, 3) and (..., 3, 3, 3, 3), or (3, 3, ...) and (3, 3, 3, 3, ...).
+    /// Other arguments and errors as of `energy`.
+    #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn tangent<'py>(
+        &self,
+        py: Python<'py>,
+        F: &Bound<'py, PyAny>,
+        filter: Option<&str>,
+        trailing: bool,
+        out: Option<&Bound<'py, PyAny>>,
+        status: Option<&Bound<'py, PyAny>>,
+        threads: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (filter, out) = (self::filter(filter)?, several(out, 2)?);
+        let call = Call { filter, axes: Axes::new(trailing), out, status, threads };
+        tuple(py, call.run(self, F, Quantity::Tangent)?)
+    }
+
+    /// Energy, stress and tangent of one decomposition: (energy, P, dP_dF), as of `energy` and `tangent`.
+    ///
+    ///     evaluate(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
+    #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        F: &Bound<'py, PyAny>,
+        filter: Option<&str>,
+        trailing: bool,
+        out: Option<&Bound<'py, PyAny>>,
+        status: Option<&Bound<'py, PyAny>>,
+        threads: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (filter, out) = (self::filter(filter)?, several(out, 3)?);
+        let call = Call { filter, axes: Axes::new(trailing), out, status, threads };
+        tuple(py, call.run(self, F, Quantity::All)?)
+    }
+
+    /// Stresses in another measure with their tangents, Pa.
+    ///
+    ///     measured(F, measure, /, *, tangent=True, trailing=False, out=None, status=None, threads=None)
+    ///
+    /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent c),
+    ///     "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
+    /// tangent: False for the stress alone.
+    ///
+    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12.
+    /// Other arguments and errors as of `energy`.
+    #[pyo3(signature = (
+        F, measure, /, *, tangent = true, trailing = false, out = None, status = None, threads = None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn measured<'py>(
+        &self,
+        py: Python<'py>,
+        F: &Bound<'py, PyAny>,
+        measure: &str,
+        tangent: bool,
+        trailing: bool,
+        out: Option<Bound<'py, PyAny>>,
+        status: Option<&Bound<'py, PyAny>>,
+        threads: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (measure, filter, axes) = (self::measure(measure)?, Filter::None, Axes::new(trailing));
+        if tangent {
+            let call = Call { filter, axes, out: several(out.as_ref(), 2)?, status, threads };
+            tuple(py, call.run(self, F, Quantity::MeasuredTangent(measure))?)
+        } else {
+            let call = Call { filter, axes, out: vec![out], status, threads };
+            one(call.run(self, F, Quantity::MeasuredStress(measure))?)
+        }
+    }
+}
+
+/// The only one of the results.
+fn one(mut results: Vec<Bound<'_, PyAny>>) -> PyResult<Bound<'_, PyAny>> {
+    results.pop().ok_or_else(|| value_error("no result".to_owned()))
+}
+
+fn tuple<'py>(py: Python<'py>, results: Vec<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
+    PyTuple::new(py, results)?.into_bound_py_any(py)
+}

@@ -1,0 +1,274 @@
+//! A material on the bench: curves, fits to measurements, stability, and the contract of a declaration.
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
+use piola::contract::{Settings, check};
+use piola::point::{stress, svd};
+use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
+use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
+use piola_laboratory::stability::criteria::Criterion;
+use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::arrays::{Axes, Input, from_rows, kind, numbers, rows};
+use crate::errors::{ContractError, DomainError, FitError, of_material, type_error, value_error};
+use crate::material::Material;
+
+#[pymethods]
+impl Material {
+    /// A test curve: the stress that a testing machine reads from a homogeneous specimen.
+    ///
+    ///     curve(mode, controls, /, *, incompressible=False)
+    ///
+    /// mode: "uniaxial", "equibiaxial", "pure_shear", "simple_shear" or "volumetric".
+    /// controls: what the machine sets, of shape (n,): the stretch, the shear, or the ratio of volumes J.
+    /// incompressible: whether the specimen keeps its volume; otherwise its free sides carry no stress.
+    ///
+    /// Returns a `Curve`: control and stress, Pa, of shape (n,), and principal stretches, of shape (n, 3).
+    /// Stress and stretches are NaN where the curve has no point, and `reasons` says why.
+    #[pyo3(signature = (mode, controls, /, *, incompressible = false))]
+    fn curve<'py>(
+        &self,
+        py: Python<'py>,
+        mode: &str,
+        controls: &Bound<'py, PyAny>,
+        incompressible: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (mode, controls) = (self::mode(mode)?, numbers(py, "controls", controls)?);
+        let specimen = self.uniform()?.specimen().map_err(of_material)?;
+        let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
+        let stress: Vec<f64> =
+            points.iter().map(|point| point.as_ref().map_or(f64::NAN, |point| point.stress)).collect();
+        let stretches: Vec<[f64; 3]> = points
+            .iter()
+            .map(|point| point.as_ref().map_or([f64::NAN; 3], |point| point.stretches))
+            .collect();
+        let reasons: Vec<Option<String>> =
+            points.iter().map(|point| point.as_ref().err().map(ToString::to_string)).collect();
+        let arguments = (
+            mode.name(),
+            controls.into_pyarray(py),
+            stress.into_pyarray(py),
+            from_rows(py, &stretches)?,
+            reasons,
+        );
+        py.import("piola.results")?.call_method1("Curve", arguments)
+    }
+
+    /// The material with the parameters that agree best with measurements, sought from those it has.
+    ///
+    ///     fit(data, /, *, incompressible=True, relative=True, held=(), restarts=20, seed=1)
+    ///
+    /// data: a dictionary from modes, as of `curve`, to arrays of shape (n, 2): control and stress, Pa.
+    /// incompressible: whether the specimens keep their volume.
+    /// relative: whether differences are taken relative to each stress, or to the greatest.
+    /// held: names of parameters that keep their values, such as "kappa" or "alpha_1".
+    /// restarts: number of further starts, at random about the first.
+    /// seed: equal seeds give equal fits.
+    ///
+    /// Returns a `Fit`. Raises FitError if nothing can be fitted, MaterialError if the material cannot be.
+    #[pyo3(signature = (
+        data, /, *, incompressible = true, relative = true, held = Vec::new(), restarts = 20, seed = 1
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn fit<'py>(
+        &self,
+        py: Python<'py>,
+        data: &Bound<'py, PyDict>,
+        incompressible: bool,
+        relative: bool,
+        held: Vec<String>,
+        restarts: usize,
+        seed: u64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let data = measurements(py, data)?;
+        let candidate = self.uniform()?.candidate().map_err(of_material)?;
+        let settings = FitSettings::default()
+            .with_volume(volume(incompressible))
+            .with_difference(if relative { Difference::Relative } else { Difference::Absolute })
+            .with_held(held)
+            .with_restarts(restarts)
+            .with_seed(seed);
+        let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
+        let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
+            fit.map_err(|error| FitError::new_err(error.to_string()))?;
+        let errors = PyDict::new(py);
+        for number in &numbers {
+            errors.set_item(&number.name, number.error)?;
+        }
+        let determination = PyDict::new(py);
+        for (mode, value) in &agreement.modes {
+            determination.set_item(mode.name(), value)?;
+        }
+        determination.set_item("all", agreement.total)?;
+        let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
+        let material = Py::new(py, self.with_values(&values)?)?;
+        let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
+        py.import("piola.results")?.call_method1("Fit", arguments)
+    }
+
+    /// Where the material keeps the inequalities of a stable solid.
+    ///
+    ///     stability(*, smallest=0.3, largest=3.0, resolution=41)
+    ///
+    /// smallest, largest: the range of the principal stretches, in which 1 is.
+    /// resolution: number of stretches along each axis of the box that is looked at.
+    ///
+    /// Returns a `Stability`. Raises ValueError for a range that is none, or a material without shear modulus.
+    #[pyo3(signature = (*, smallest = 0.3, largest = 3.0, resolution = 41))]
+    fn stability<'py>(
+        &self,
+        py: Python<'py>,
+        smallest: f64,
+        largest: f64,
+        resolution: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let specimen = self.uniform()?.specimen().map_err(of_material)?;
+        let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
+        let report =
+            py.detach(|| survey(&*specimen, &settings)).map_err(|error| value_error(error.to_string()))?;
+        let text = report.to_string();
+        let Report { points, admitted, findings, walks, .. } = report;
+        let kept = PyDict::new(py);
+        for finding in &findings {
+            kept.set_item(criterion(finding.criterion), finding.kept)?;
+        }
+        let paths = PyList::empty(py);
+        for walk in &walks {
+            let lost = PyDict::new(py);
+            for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
+                lost.set_item(criterion(found), lost_at)?;
+            }
+            let arguments = (path(walk.path), walk.to, walk.reached, lost);
+            paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
+        }
+        py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
+    }
+
+    /// Checks the rules that every material must keep: derivatives, isotropy, accuracy where stretches are
+    /// equal, and more.
+    ///
+    /// Returns a list of (rule, number of comparisons, worst difference as a share of its tolerance). Raises
+    /// ContractError with what is broken.
+    fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
+        self.uniform()?;
+        let material = self.interpreted()?;
+        let report = py.detach(|| check(&material, &Settings::default()));
+        let report = report.map_err(|violations| ContractError::new_err(violations.to_string()))?;
+        let finding = |finding: &piola::contract::Finding| {
+            (finding.rule.to_string(), finding.comparisons, finding.worst)
+        };
+        Ok(report.findings.iter().map(finding).collect())
+    }
+
+    /// Derivatives of the first Piola stress by the parameters, Pa for a unit of the parameter.
+    ///
+    ///     stress_by_parameters(F, /)
+    ///
+    /// F: float64, of shape (..., 3, 3), inside the domain, with J > 0.
+    ///
+    /// Returns a dictionary from the names of the parameters to arrays of the shape of F; of a list, to an
+    /// array with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError for
+    /// an energy that does not know these derivatives.
+    #[pyo3(signature = (F, /))]
+    fn stress_by_parameters<'py>(
+        &self,
+        py: Python<'py>,
+        F: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let Ok(F) = F.cast::<PyArrayDyn<f64>>() else {
+            return Err(type_error(format!("F is {}; it must be an array of float64", kind(F))));
+        };
+        let input = Input::new(F, Axes::Leading)?;
+        let candidate = self.uniform()?.candidate().map_err(of_material)?;
+        let lists = candidate.values();
+        let count = lists.iter().map(Vec::len).sum::<usize>();
+        let numbers = input.slice()?;
+        let points = numbers.len() / 9;
+        let mut derivatives = vec![0.0; count * numbers.len()];
+        let outside = py.detach(|| {
+            (0..points).find(|&point| {
+                let entries = &numbers[9 * point..][..9];
+                let F: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entries[3 * i + j]));
+                let frames = svd(&F);
+                let by_parameters = match frames.stretches[2] > 0.0 && candidate.admits(frames.stretches) {
+                    true => candidate.gradient_by_parameters(frames.stretches),
+                    false => return true,
+                };
+                for (k, gradient) in by_parameters.into_iter().enumerate() {
+                    let derivative = stress(&frames, gradient);
+                    derivatives[(k * points + point) * 9..][..9].copy_from_slice(derivative.as_flattened());
+                }
+                false
+            })
+        });
+        if let Some(point) = outside {
+            let message = format!("point {point} (from 0) is outside the domain of the energy");
+            return Err(DomainError::new_err((message, (point,), 1, 0)));
+        }
+        let description = self.uniform()?.description().map_err(of_material)?;
+        let result = PyDict::new(py);
+        let mut begin = 0;
+        for (parameter, list) in description.parameters.iter().zip(&lists) {
+            let part =
+                derivatives[begin * numbers.len()..][..list.len() * numbers.len()].to_vec().into_pyarray(py);
+            begin += list.len();
+            let shape = [input.points(), &[3, 3]].concat();
+            let shape = if parameter.is_list() { [&[list.len()][..], &shape].concat() } else { shape };
+            result.set_item(&*parameter.name, part.reshape(shape)?)?;
+        }
+        Ok(result)
+    }
+}
+
+fn volume(incompressible: bool) -> Volume {
+    if incompressible { Volume::Kept } else { Volume::Free }
+}
+
+fn mode(name: &str) -> PyResult<Mode> {
+    name.parse().map_err(|error: piola_laboratory::curve::ModeError| value_error(error.to_string()))
+}
+
+fn measurements(py: Python<'_>, data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
+    let mut points = Vec::new();
+    for (name, readings) in data {
+        let name: String = name.extract()?;
+        let mode = mode(&name)?;
+        let readings: Vec<[f64; 2]> = rows(py, &name, &readings)?;
+        points.extend(readings.into_iter().map(|[control, stress]| Measured { mode, control, stress }));
+    }
+    Ok(Measurements { points })
+}
+
+fn criterion(criterion: Criterion) -> &'static str {
+    match criterion {
+        Criterion::BakerEricksen => "baker_ericksen",
+        Criterion::Hill => "hill",
+        Criterion::StrongEllipticity => "strong_ellipticity",
+    }
+}
+
+fn path(path: Path) -> &'static str {
+    match path {
+        Path::Uniaxial => "uniaxial",
+        Path::Equibiaxial => "equibiaxial",
+        Path::PureShear => "pure_shear",
+        Path::Confined => "confined",
+        Path::Hydrostatic => "hydrostatic",
+    }
+}
+
+/// Treloar's measurements of vulcanised rubber, 1944, as `Material.fit` takes them: control and stress, Pa.
+#[pyfunction]
+pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let data = Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?;
+    let result = PyDict::new(py);
+    for mode in data.modes() {
+        let readings: Vec<[f64; 2]> = data.of(mode).map(|point| [point.control, point.stress]).collect();
+        result.set_item(mode.name(), from_rows(py, &readings)?)?;
+    }
+    Ok(result)
+}

@@ -1,0 +1,85 @@
+//! Quantities that are computed of points, in f64 or f32.
+
+#![expect(non_snake_case, reason = "F and P as in the literature")]
+
+use numpy::Element;
+use piola::Survey;
+use piola::batch::{Batch, LengthError, Stages, TileMaterial};
+use piola::point::measures::Measure;
+use pyo3::PyResult;
+
+use crate::material::Material;
+
+/// A number of an array.
+pub(crate) trait Number: Stages + Element {
+    const ONE: Self;
+
+    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>>;
+}
+
+impl Number for f64 {
+    const ONE: Self = 1.0;
+
+    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
+        Ok(&*material.double)
+    }
+}
+
+impl Number for f32 {
+    const ONE: Self = 1.0;
+
+    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
+        material.single()
+    }
+}
+
+/// A quantity that is computed of each point.
+#[derive(Clone, Copy)]
+pub(crate) enum Quantity {
+    Energy,
+    Stress,
+    /// P and dP/dF.
+    Tangent,
+    /// ψ, P and dP/dF.
+    All,
+    MeasuredStress(Measure),
+    MeasuredTangent(Measure),
+}
+
+impl Quantity {
+    /// The shape of each result.
+    pub(crate) fn components(self) -> &'static [&'static [usize]] {
+        match self {
+            Self::Energy => &[&[]],
+            Self::Stress => &[&[3, 3]],
+            Self::Tangent => &[&[3, 3], &[3, 3, 3, 3]],
+            Self::All => &[&[], &[3, 3], &[3, 3, 3, 3]],
+            Self::MeasuredStress(_) => &[&[6]],
+            Self::MeasuredTangent(_) => &[&[6], &[6, 6]],
+        }
+    }
+
+    /// Numbers in a component.
+    pub(crate) fn numbers(self) -> impl Iterator<Item = usize> {
+        self.components().iter().map(|shape| shape.iter().product())
+    }
+
+    pub(crate) fn compute<E: Stages>(
+        self,
+        batch: &Batch<'_, E>,
+        F: &[E],
+        results: &mut [&mut [E]],
+    ) -> Result<Survey, LengthError> {
+        match (self, results) {
+            (Self::Energy, [energies]) => batch.energies(F, energies),
+            (Self::Stress, [P]) => batch.stresses(F, P),
+            (Self::Tangent, [P, dP_dF]) => batch.tangents(F, P, dP_dF),
+            (Self::All, [energies, P, dP_dF]) => batch.energies_and_tangents(F, energies, P, dP_dF),
+            (Self::MeasuredStress(measure), [stresses]) => batch.measured_stresses(measure, F, stresses),
+            (Self::MeasuredTangent(measure), [stresses, tangents]) => {
+                batch.measured_tangents(measure, F, stresses, tangents)
+            }
+            _ => unreachable!("a result for each of the components"),
+        }
+    }
+}

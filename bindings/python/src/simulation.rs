@@ -1,0 +1,181 @@
+//! Bodies in motion and at rest.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use piola::step::{self, SimulationSettings, StepError as Failed, StepReport};
+use piola::system::Pins;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{from_rows, indices, rows};
+use crate::body::Body;
+use crate::errors::{BodyError, StepError, of_body};
+use crate::settings::{from_keywords, to_dict};
+use crate::threads::on_threads;
+
+/// A body in motion, in implicit steps.
+///
+///     Simulation(body, *, pins=(), **settings)
+///
+/// pins: indices of nodes that are held.
+/// settings: `gravity=(0, -9.81, 0)`, m/s²; `integrator="implicit_euler"`, "bdf2", "sdirk2", "newmark", …;
+///     `damping={"mass": {"rate": 1.0}}` or `{"stiffness": {"time": 0.01}}`; `newton={"tolerance": 1e-6, …}`;
+///     `line_search={…}`: those of `SimulationSettings` in Rust, in its names.
+///
+/// Raises BodyError for pins and settings that are out of range.
+#[pyclass(frozen, module = "piola")]
+pub(crate) struct Simulation {
+    simulation: Mutex<step::Simulation>,
+}
+
+impl Simulation {
+    fn lock(&self) -> MutexGuard<'_, step::Simulation> {
+        self.simulation.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The simulation, waited for without the interpreter: its holder may be in a step.
+    fn with<T: Send>(&self, py: Python<'_>, act: impl FnOnce(&mut step::Simulation) -> T + Send) -> T {
+        py.detach(|| act(&mut self.lock()))
+    }
+
+    fn advance<'py>(
+        &self,
+        py: Python<'py>,
+        advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let report = py.detach(|| {
+            // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+            let simulation = &mut *self.lock();
+            on_threads(|| advance(simulation))
+        })?;
+        to_dict(py, &report.map_err(|error| StepError::new_err(error.to_string()))?)
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (body, *, pins = None, **settings))]
+    fn new(
+        py: Python<'_>,
+        body: &Body,
+        pins: Option<&Bound<'_, PyAny>>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let settings: SimulationSettings = from_keywords(py, settings)?;
+        let pins = self::pins(py, pins)?;
+        let body = body.body.clone();
+        let simulation = py.detach(|| on_threads(|| step::Simulation::new(body, &pins, settings)))?;
+        Ok(Self { simulation: Mutex::new(simulation.map_err(of_body)?) })
+    }
+
+    /// Positions of the nodes, m, of shape (n, 3): a copy. Set them to start from elsewhere, however deformed.
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        from_rows(py, &self.with(py, |simulation| simulation.positions().to_vec()))
+    }
+
+    #[setter]
+    fn set_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+        let x = rows(py, "positions", positions)?;
+        self.with(py, |simulation| simulation.set_positions(&x)).map_err(of_body)
+    }
+
+    /// Velocities of the nodes, m/s, of shape (n, 3): a copy. Set them to push the body.
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        from_rows(py, &self.with(py, |simulation| simulation.velocities().to_vec()))
+    }
+
+    #[setter]
+    fn set_velocities(&self, py: Python<'_>, velocities: &Bound<'_, PyAny>) -> PyResult<()> {
+        let v = rows(py, "velocities", velocities)?;
+        self.with(py, |simulation| simulation.set_velocities(&v)).map_err(of_body)
+    }
+
+    /// Indices of the pinned nodes, ascending. Set them to hold others, where they are.
+    #[getter]
+    fn pins(&self, py: Python<'_>) -> Vec<usize> {
+        self.with(py, |simulation| simulation.pinned().to_vec())
+    }
+
+    #[setter]
+    fn set_pins(&self, py: Python<'_>, pins: &Bound<'_, PyAny>) -> PyResult<()> {
+        let pins = self::pins(py, Some(pins))?;
+        self.with(py, |simulation| simulation.set_pins(&pins)).map_err(of_body)
+    }
+
+    /// Sets forces on the nodes, N, of shape (n, 3), that keep their sizes and directions.
+    #[pyo3(signature = (forces, /))]
+    fn set_forces(&self, py: Python<'_>, forces: &Bound<'_, PyAny>) -> PyResult<()> {
+        let forces = rows(py, "forces", forces)?;
+        self.with(py, |simulation| simulation.set_forces(&forces)).map_err(of_body)
+    }
+
+    /// Prescribes where pinned nodes will be after the next step, and from then on.
+    ///
+    ///     prescribe(nodes, positions, /)
+    ///
+    /// nodes: indices, of shape (k,). positions: m, of shape (k, 3).
+    #[pyo3(signature = (nodes, positions, /))]
+    fn prescribe(
+        &self,
+        py: Python<'_>,
+        nodes: &Bound<'_, PyAny>,
+        positions: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let nodes: Vec<[usize; 1]> = indices(py, "nodes", nodes)?;
+        let positions: Vec<[f64; 3]> = rows(py, "positions", positions)?;
+        if nodes.len() != positions.len() {
+            let (nodes, positions) = (nodes.len(), positions.len());
+            return Err(BodyError::new_err(format!("there are {nodes} nodes and {positions} positions")));
+        }
+        let prescribe = |simulation: &mut step::Simulation| {
+            nodes
+                .iter()
+                .zip(positions)
+                .try_for_each(|([node], position)| simulation.prescribe(*node, position))
+        };
+        self.with(py, prescribe).map_err(of_body)
+    }
+
+    /// Replaces the settings from the next step on: those that are not named get their defaults.
+    #[pyo3(signature = (**settings))]
+    fn set_settings(&self, py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        let settings = from_keywords(py, settings)?;
+        self.with(py, |simulation| simulation.set_settings(settings)).map_err(of_body)
+    }
+
+    /// The settings as a dictionary.
+    #[getter]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.with(py, |simulation| *simulation.settings()))
+    }
+
+    /// Energies now, J, as a dictionary: elastic, kinetic, gravity, springs, forces, terms. An energy that is
+    /// not defined is None.
+    fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_dict(py, &self.with(py, step::Simulation::energies))
+    }
+
+    /// Advances by a time, s, in one step, and gives its report as a dictionary: "newton", "min_det" and
+    /// "energies".
+    ///
+    /// Raises StepError if there is no next state: then the state before is untouched, and a shorter step may
+    /// succeed.
+    #[pyo3(signature = (dt, /))]
+    fn step<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyAny>> {
+        self.advance(py, |simulation| simulation.step(dt))
+    }
+
+    /// Moves the body to a minimum of its energy, without inertia and damping; the report and errors of `step`.
+    fn equilibrate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.advance(py, step::Simulation::equilibrate)
+    }
+}
+
+fn pins(py: Python<'_>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Pins> {
+    let Some(given) = given else { return Ok(Pins::none()) };
+    let nodes: Vec<[usize; 1]> = indices(py, "pins", given)?;
+    Ok(Pins::at(nodes.into_iter().flatten()))
+}

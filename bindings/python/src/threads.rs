@@ -1,0 +1,60 @@
+//! The threads that compute: a pool of their own, so that their number can be set, and a new one after a fork,
+//! which copies a process without its threads.
+
+use std::process;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::errors::value_error;
+
+/// The pool of a process, which its number tells from that of its parent.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// Computes on the threads of the pool.
+pub(crate) fn on_threads<T: Send>(compute: impl FnOnce() -> T + Send) -> PyResult<T> {
+    Ok(pool()?.install(compute))
+}
+
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut current = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*current {
+        Some((process, pool)) if *process == process::id() => Ok(pool.clone()),
+        _ => replace(&mut current, 0),
+    }
+}
+
+/// Puts a pool of `count` threads in the place of the one before; 0 for one on each core.
+fn replace(current: &mut Option<(u32, Arc<ThreadPool>)>, count: usize) -> PyResult<Arc<ThreadPool>> {
+    let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("piola-{k}")).build();
+    let pool = Arc::new(pool.map_err(|error| value_error(format!("cannot start threads: {error}")))?);
+    let before = current.replace((process::id(), pool.clone()));
+    if let Some((process, pool)) = before
+        && process != process::id()
+    {
+        // Its threads are those of the parent: nobody is there to be told to end.
+        std::mem::forget(pool);
+    }
+    Ok(pool)
+}
+
+/// Number of threads that share the points of a large call, and the elements of a body.
+#[pyfunction]
+pub(crate) fn num_threads() -> PyResult<usize> {
+    Ok(pool()?.current_num_threads())
+}
+
+/// Sets the number of threads: 0 for the variable `RAYON_NUM_THREADS`, or one on each core without it.
+///
+/// The results do not depend on it. Raises ValueError if so many cannot be started.
+#[pyfunction]
+#[pyo3(signature = (count, /))]
+pub(crate) fn set_num_threads(count: usize) -> PyResult<()> {
+    const MOST: usize = 4096;
+    if count > MOST {
+        return Err(value_error(format!("the number of threads is {count}; it must be at most {MOST}")));
+    }
+    let mut current = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    replace(&mut current, count).map(drop)
+}

@@ -1,0 +1,93 @@
+"""Curves, fits, stability and the contract."""
+
+import numpy as np
+import piola
+import pytest
+from conftest import LAMBDA, MU
+
+FORMULA = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2"
+
+
+@pytest.fixture
+def rubber():
+    return piola.Material("neo_hookean", mu=MU, lambda_=LAMBDA)
+
+
+def test_curves_are_those_on_paper(rubber):
+    stretch = np.linspace(0.5, 3, 11)
+    curve = rubber.curve("uniaxial", stretch, incompressible=True)
+    assert np.allclose(curve.stress, MU * (stretch - stretch**-2), rtol=1e-12, atol=1e-6)
+    assert np.allclose(curve.stretches.prod(axis=1), 1) and curve.reasons == [None] * 11
+    free = rubber.curve("uniaxial", stretch)
+    P = rubber.stress(np.einsum("ni,ij->nij", free.stretches, np.eye(3)))
+    assert np.allclose(P[:, 0, 0], free.stress) and np.abs(P[:, 1:]).max() < 1e-6 * MU
+    shear = rubber.curve("simple_shear", [0.0, 0.5])
+    assert np.allclose(shear.stress, [0, 0.5 * MU])
+
+
+def test_points_that_a_curve_lacks_are_nan_with_a_reason(rubber):
+    curve = rubber.curve("uniaxial", [1.0, -1.0, np.nan, np.inf])
+    assert list(np.isnan(curve.stress)) == [False, True, True, True]
+    assert "must be positive and finite" in curve.reasons[1]
+    with pytest.raises(ValueError, match="is no test"):
+        rubber.curve("torsion", [1.0])
+    with pytest.raises(TypeError, match="controls"):
+        rubber.curve("uniaxial", "abc")
+    with pytest.raises(ValueError, match="controls"):
+        rubber.curve("uniaxial", np.ones((2, 2)))
+
+
+def test_a_fit_finds_the_parameters_of_its_data():
+    stretch = np.linspace(1.1, 3, 20)
+    truth = piola.Material("yeoh", c1=2e5, c2=-2e3, c3=1e2, kappa=1e9)
+    modes = ("uniaxial", "equibiaxial")
+    data = {mode: np.c_[stretch, truth.curve(mode, stretch, incompressible=True).stress] for mode in modes}
+    start = piola.Material("yeoh", c1=1e5, c2=0.0, c3=0.0, kappa=1e9)
+    fit = start.fit(data, held=["kappa"], restarts=2)
+    for name in ("c1", "c2", "c3"):
+        assert fit.material.parameters[name] == pytest.approx(truth.parameters[name], rel=1e-6)
+    assert fit.determination["all"] > 1 - 1e-12 and fit.errors["kappa"] is None
+    assert fit == start.fit(data, held=["kappa"], restarts=2)._replace(material=fit.material)
+
+
+def test_treloar_is_fitted_and_warned_about():
+    data = piola.treloar()
+    assert data["uniaxial"].shape[1] == 2 and set(data) == {"uniaxial", "equibiaxial", "pure_shear"}
+    fit = piola.declare(FORMULA, mu=4e5, lambda_=1e7).fit(data, restarts=0)
+    assert 0.5 < fit.determination["all"] < 1 and any("lambda" in warning for warning in fit.warnings)
+
+
+def test_data_that_cannot_be_fitted_are_refused(rubber):
+    def message(error, call):
+        with pytest.raises(error) as caught:
+            call()
+        return str(caught.value)
+
+    data = {"uniaxial": [[1.5, 1e6], [2.0, 2e6], [3.0, 3e6]]}
+    assert "no parameter `kappa` to hold" in message(piola.FitError, lambda: rubber.fit(data, held=["kappa"]))
+    assert "(n, 2)" in message(ValueError, lambda: rubber.fit({"uniaxial": np.ones(3)}))
+    assert "cannot be fitted" in message(piola.FitError, lambda: rubber.fit({"uniaxial": [[np.nan, 1e6]]}))
+    assert "no point" in message(piola.FitError, lambda: rubber.fit({}))
+    assert "is no test" in message(ValueError, lambda: rubber.fit({"torsion": [[1.5, 1e6]]}))
+    assert "at most" in message(piola.FitError, lambda: rubber.fit(data, restarts=10**9))
+
+
+def test_stability_is_lost_where_it_is_on_paper():
+    solid = piola.Material("st_venant_kirchhoff", mu=1.0, lambda_=0.0)
+    found = solid.stability(resolution=11)
+    walk = next(walk for walk in found.walks if walk.path == "confined" and walk.to == 0.3)
+    assert walk.lost["strong_ellipticity"] == pytest.approx(2 - 2**0.5, abs=1e-8)
+    assert found.admitted == found.points > found.kept["strong_ellipticity"]
+    assert "strong ellipticity" in str(found)
+    with pytest.raises(ValueError, match="stretches are from"):
+        solid.stability(smallest=2.0)
+    with pytest.raises(ValueError, match="resolution"):
+        solid.stability(resolution=1)
+
+
+def test_the_contract_is_kept():
+    rules = piola.declare(FORMULA, mu=1e6, lambda_=5e6).contract()
+    assert {"rest", "isotropy", "quotients"} <= {rule for rule, _, _ in rules}
+    assert all(comparisons > 0 and 0 <= worst <= 1 for _, comparisons, worst in rules)
+    plain, extended = (piola.Material.typical("ogden", extend=extend).contract() for extend in (None, 0.1))
+    assert {rule for rule, _, _ in extended} - {rule for rule, _, _ in plain} == {"extension"}

@@ -1,0 +1,126 @@
+"""Materials by name and by text, and what they say when something is wrong."""
+
+import numpy as np
+import piola
+import pytest
+from conftest import close
+
+FORMULA = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2"
+
+
+def message(error, call):
+    with pytest.raises(error) as caught:
+        call()
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("name", piola.catalogue())
+def test_the_whole_catalogue_computes(name, F):
+    description = piola.describe(name)
+    material = piola.Material.typical(name)
+    assert material.parameters.keys() == {parameter.name for parameter in description.parameters}
+    assert material.name == name and description.formula and description.domain
+    F = np.eye(3) + 0.1 * (F[:20] - np.eye(3))
+    psi, P, A = material.evaluate(F)
+    step = 1e-5
+    for i, j in [(0, 0), (1, 2)]:
+        by = np.zeros((3, 3))
+        by[i, j] = step
+        slopes = (material.energy(F + by) - material.energy(F - by)) / (2 * step)
+        assert np.abs(slopes - P[:, i, j]).max() < 1e-7 * np.abs(A).max()
+        slopes = (material.stress(F + by) - material.stress(F - by)) / (2 * step)
+        assert np.abs(slopes - A[..., i, j]).max() < 1e-5 * np.abs(A).max()
+    single = material.tangent(F.astype(np.float32))[1]
+    assert np.abs(single - A).max() < 1e-4 * np.abs(A).max()
+
+
+def test_names_are_read_kindly():
+    parameters = {"mu": 1e6, "lambda": 5e6}
+    for name in ("neo_hookean", "Neo-Hookean", "NeoHookean", "neo hookean"):
+        assert piola.Material(name, **parameters).name == "neo_hookean"
+
+
+def test_parameters_are_kept_and_changed():
+    material = piola.Material("ogden", mu=[6e5, -1e4], alpha=np.array([1.3, -2.0]), kappa=2e7)
+    assert material.parameters == {"mu": [6e5, -1e4], "alpha": [1.3, -2.0], "kappa": 2e7}
+    assert material.changed(kappa=1e7).parameters["kappa"] == 1e7
+    assert repr(material) == "<piola.Material ogden(mu=[600000.0, -10000.0], alpha=[1.3, -2.0], kappa=20000000.0)>"
+    assert piola.Material("neo_hookean", mu=1, lambda_=np.float32(2)).parameters == {"mu": 1.0, "lambda": 2.0}
+
+
+def test_moduli_are_those_of_small_strain():
+    moduli = piola.Material("neo_hookean", mu=1e6, lambda_=4e6).moduli
+    assert (moduli.mu, moduli.lambda_) == (1e6, 4e6)
+    assert moduli.poisson == pytest.approx(0.4) and moduli.young == pytest.approx(2.8e6)
+    assert moduli.bulk == pytest.approx(4e6 + 2e6 / 3)
+    matched = piola.Material.matching("stable_neo_hookean", young=1e6, poisson=0.45).moduli
+    assert matched.young == pytest.approx(1e6) and matched.poisson == pytest.approx(0.45)
+
+
+def test_wrong_parameters_are_named_with_their_range():
+    new = piola.Material
+    assert "there is no material `neohooke`; choose one of" in message(piola.MaterialError, lambda: new("neohooke"))
+    assert message(piola.MaterialError, lambda: new("neo_hookean", mu=1.0)) == (
+        "neo_hookean needs a value for `lambda`"
+    )
+    assert message(piola.MaterialError, lambda: new("neo_hookean", mu=1.0, lamda=1.0)) == (
+        "neo_hookean has no parameter `lamda`; it has `mu`, `lambda`"
+    )
+    assert message(piola.MaterialError, lambda: new("neo_hookean", mu=-1.0, lambda_=1.0)) == (
+        "neo_hookean: `mu > 0` must hold, but mu = -1"
+    )
+    assert "`mu` is NaN" in message(ValueError, lambda: new("neo_hookean", mu=np.nan, lambda_=1.0))
+    assert "`lambda` is inf; it must be a finite number" in message(
+        ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=np.inf)
+    )
+    assert message(ValueError, lambda: new("ogden", mu=[1.0, 2.0], alpha=[1.0], kappa=1.0)) == (
+        "ogden: `alpha` must have 2 entries"
+    )
+    assert "`mu` is of type str" in message(TypeError, lambda: new("neo_hookean", mu="1", lambda_=1.0))
+    assert "`mu`" in message(TypeError, lambda: new("neo_hookean", mu=None, lambda_=1.0))
+    assert "mu is of type complex" in message(TypeError, lambda: new("neo_hookean", mu=1j, lambda_=1.0))
+    assert "0.1" not in message(ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=1.0, extend=2.0))
+    typical = piola.Material.typical("murnaghan").parameters
+    assert "use `extend=None`" in message(ValueError, lambda: new("murnaghan", extend=0.1, **typical))
+    with pytest.raises(TypeError):
+        new(3)
+    with pytest.raises(TypeError):
+        new()
+
+
+def test_a_declared_energy_is_that_of_the_catalogue(F):
+    declared = piola.declare(FORMULA, mu=1e6, lambda_=5e6)
+    compiled = piola.Material("neo_hookean", mu=1e6, lambda_=5e6)
+    for found, expected in zip(declared.evaluate(F), compiled.evaluate(F)):
+        assert np.array_equal(found, expected)
+    assert np.array_equal(declared.stress(F.astype(np.float32)), compiled.stress(F.astype(np.float32)))
+
+
+def test_a_declaration_in_rust_has_names_and_documentation():
+    material = piola.declare(
+        """
+        /// Springs.
+        #[material]
+        pub fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
+            mu / 2.0 * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
+        }
+        """,
+        mu=2.0,
+    )
+    assert material.name == "Springs" and material.description.parameters[0].unit == "Pa"
+    assert close(material.stress(np.diag([1.5, 1.0, 1.0])), np.diag([1.0, 0.0, 0.0]))
+
+
+def test_mistakes_of_a_text_are_told_at_their_places():
+    with pytest.raises(piola.DeclarationError) as caught:
+        piola.declare("mu/2*(I1 - 3", mu=1.0)
+    text, place = caught.value.mistakes[0]
+    assert place[:2] == (1, 6) and text in str(caught.value) and "^" in str(caught.value)
+    assert isinstance(caught.value, ValueError)
+    assert "stress" in message(piola.DeclarationError, lambda: piola.declare("C10*(I1 - 3)", C10=1.0))
+    freed = piola.declare("C10*(I1 - 3) + kappa/2*(J-1)^2", C10=1.0, kappa=10.0, free_rest=True)
+    assert np.abs(freed.stress(np.eye(3))).max() < 1e-12
+    assert "needs a value for `mu`" in message(piola.MaterialError, lambda: piola.declare(FORMULA, lambda_=1.0))
+    for text in ("", "(" * 100_000, "mu" * 50_000, "\0", "∫", "fn", "#[material] fn", "1/0", "J^J^J^J"):
+        with pytest.raises((piola.DeclarationError, piola.MaterialError)):
+            piola.declare(text, mu=1.0)

@@ -1,0 +1,273 @@
+"""Energy, stress and tangent of arrays of points."""
+
+import pickle
+import threading
+
+import numpy as np
+import piola
+import pytest
+from conftest import LAMBDA, MU, close, deformations, neo_hookean
+
+
+@pytest.fixture
+def rubber():
+    return piola.Material("neo_hookean", mu=MU, lambda_=LAMBDA)
+
+
+def test_values_are_those_on_paper(rubber, F):
+    psi, P, A = neo_hookean(F)
+    assert close(rubber.energy(F), psi) and close(rubber.stress(F), P)
+    for found, expected in zip(rubber.tangent(F), (P, A)):
+        assert close(found, expected)
+    for found, expected in zip(rubber.evaluate(F), (psi, P, A)):
+        assert close(found, expected)
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (7,), (2, 3), (2, 1, 4), (0,), (3, 0, 2)])
+def test_points_have_any_shape_on_either_side(rubber, rng, shape):
+    F = np.eye(3) + 0.2 * rng.uniform(-1, 1, (*shape, 3, 3))
+    trailing = np.ascontiguousarray(np.moveaxis(F, (-2, -1), (0, 1)))
+    psi, P, A = rubber.evaluate(F)
+    assert psi.shape == shape and P.shape == (*shape, 3, 3) and A.shape == (*shape, 3, 3, 3, 3)
+    psi_t, P_t, A_t = rubber.evaluate(trailing, trailing=True)
+    assert psi_t.shape == shape and P_t.shape == (3, 3, *shape) and A_t.shape == (3, 3, 3, 3, *shape)
+    assert np.array_equal(psi, psi_t)
+    assert np.array_equal(P, np.moveaxis(P_t, (0, 1), (-2, -1)))
+    assert np.array_equal(A, np.moveaxis(A_t, (0, 1, 2, 3), (-4, -3, -2, -1)))
+
+
+@pytest.mark.parametrize("count", [1, 7, 8, 9, 127, 128, 129, 1000, 5000])
+@pytest.mark.parametrize("threads", [False, True])
+def test_bits_do_not_depend_on_place_layout_or_threads(rubber, rng, count, threads):
+    F = np.eye(3) + 0.2 * rng.uniform(-1, 1, (count, 3, 3))
+    one_by_one = np.array([rubber.stress(F[k]) for k in range(0, count, max(1, count // 50))])
+    status = np.full(count, 99, np.uint8)
+    P, A = rubber.tangent(F, threads=threads, status=status)
+    assert np.array_equal(rubber.stress(F, threads=threads)[:: max(1, count // 50)], one_by_one)
+    columns = np.ascontiguousarray(F.transpose(1, 2, 0))
+    statuses = np.full(count, 99, np.uint8)
+    P_t, A_t = rubber.tangent(columns, trailing=True, threads=threads, status=statuses)
+    assert np.array_equal(P, P_t.transpose(2, 0, 1)) and np.array_equal(A, A_t.transpose(4, 0, 1, 2, 3))
+    assert not status.any() and not statuses.any()
+
+
+def test_single_precision_stays_so(rubber, F):
+    psi, P, A = rubber.evaluate(F.astype(np.float32))
+    assert psi.dtype == P.dtype == A.dtype == np.float32
+    for found, expected in zip((psi, P, A), neo_hookean(F.astype(np.float32).astype(float))):
+        assert close(found, expected, 1e-5)
+    P_t = rubber.stress(np.ascontiguousarray(F.astype(np.float32).transpose(1, 2, 0)), trailing=True)
+    assert np.array_equal(P, P_t.transpose(2, 0, 1))
+
+
+def test_arrays_need_not_be_contiguous(rubber, F):
+    P = rubber.stress(F)
+    assert np.array_equal(rubber.stress(np.asfortranarray(F)), P)
+    assert np.array_equal(rubber.stress(F[::2]), P[::2])
+    assert np.array_equal(rubber.stress(F.transpose(1, 2, 0), trailing=True), P.transpose(1, 2, 0))
+    assert np.array_equal(rubber.stress(np.broadcast_to(F[0], (4, 3, 3)))[3], P[0])
+
+
+def test_results_go_where_the_caller_wants(rubber, F):
+    P, A, psi = np.empty_like(F), np.empty((*F.shape, 3, 3)), np.empty(len(F))
+    assert rubber.stress(F, out=P) is P and close(P, neo_hookean(F)[1])
+    found = rubber.tangent(F, out=(P, A))
+    assert found[0] is P and found[1] is A and close(A, neo_hookean(F)[2])
+    assert rubber.tangent(F, out=(None, A))[1] is A
+    assert rubber.evaluate(F, out=(psi, P, A))[0] is psi and close(psi, neo_hookean(F)[0])
+
+
+def test_mistaken_arrays_are_refused(rubber, F):
+    def message(error, call):
+        with pytest.raises(error) as caught:
+            call()
+        return str(caught.value)
+
+    assert message(ValueError, lambda: rubber.stress(np.ones((4, 9)))) == (
+        "F has the shape (4, 9); it must be (..., 3, 3)"
+    )
+    assert "(3, 3, ...)" in message(ValueError, lambda: rubber.stress(F, trailing=True))
+    assert message(TypeError, lambda: rubber.stress(np.eye(3, dtype=int))) == (
+        "F is an array of int64; it must be an array of float64 or float32"
+    )
+    assert "of type list" in message(TypeError, lambda: rubber.stress([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]))
+    assert "float64 or float32" in message(TypeError, lambda: rubber.stress(F.astype(">f8")))
+    assert "float64 or float32" in message(TypeError, lambda: rubber.stress(F.astype(np.longdouble)))
+    assert "out has the shape (3,)" in message(ValueError, lambda: rubber.stress(F, out=np.empty(3)))
+    assert "of the numbers of F" in message(TypeError, lambda: rubber.stress(F, out=np.empty_like(F, np.float32)))
+    assert "contiguous" in message(ValueError, lambda: rubber.stress(F[:2], out=np.empty((2, 3, 6))[..., ::2]))
+    read_only = np.empty_like(F)
+    read_only.flags.writeable = False
+    assert "out cannot be written" in message(ValueError, lambda: rubber.stress(F, out=read_only))
+    assert "out cannot be written" in message(ValueError, lambda: rubber.stress(F, out=F))
+    assert "tuple of arrays" in message(TypeError, lambda: rubber.tangent(F, out=np.empty_like(F)))
+    assert "it must have 2" in message(ValueError, lambda: rubber.tangent(F, out=(None,)))
+    assert "uint8" in message(TypeError, lambda: rubber.stress(F, status=np.zeros(len(F))))
+    assert "status has the shape" in message(ValueError, lambda: rubber.stress(F, status=np.zeros(1, np.uint8)))
+    assert '"clamp"' in message(ValueError, lambda: rubber.tangent(F, filter="clip"))
+    assert '"cauchy"' in message(ValueError, lambda: rubber.measured(F, "biot"))
+
+
+def test_points_without_results_are_named(rubber, F):
+    bad = np.repeat(F[:1], 12, axis=0).reshape(3, 4, 3, 3)
+    bad[1, 2] = np.diag([1, 1, -1])
+    bad[2, 3, 0, 0] = np.nan
+    for arguments in ({}, {"threads": True}):
+        with pytest.raises(piola.DomainError) as caught:
+            rubber.stress(bad, **arguments)
+        assert caught.value.first == (1, 2) and caught.value.refused >= 1 and caught.value.nonfinite >= 1
+        assert "index (1, 2)" in str(caught.value)
+    with pytest.raises(ValueError):
+        rubber.tangent(np.ascontiguousarray(bad.transpose(2, 3, 0, 1)), trailing=True)
+    status = np.zeros((3, 4), np.uint8)
+    P = rubber.stress(bad, status=status)
+    assert piola.Status(int(status[1, 2])) & piola.Status.REFUSED
+    assert piola.Status(int(status[2, 3])) & piola.Status.NONFINITE
+    assert np.count_nonzero(status) == 2 and np.array_equal(P[0, 0], rubber.stress(F[0]))
+    statuses = np.zeros((3, 4), np.uint8)
+    rubber.tangent(np.ascontiguousarray(bad.transpose(2, 3, 0, 1)), trailing=True, status=statuses)
+    assert np.array_equal(status != 0, statuses != 0)
+
+
+def test_extended_materials_know_inverted_points(F):
+    rubber = piola.Material("neo_hookean", mu=MU, lambda_=LAMBDA, extend=0.1)
+    inverted = np.diag([1.0, 1.0, -0.5])
+    assert rubber.stress(inverted)[2, 2] < 0
+    assert np.isfinite(rubber.energy(np.zeros((3, 3))))
+
+
+def test_filters_leave_no_negative_eigenvalue(rubber):
+    pressed = np.diag([1.5, 0.5, 0.5])
+    status = np.zeros((), np.uint8)
+    for filter in ("clamp", "absolute"):
+        A = rubber.tangent(pressed, filter=filter, status=status)[1].reshape(9, 9)
+        assert np.linalg.eigvalsh(A).min() > -1e-9 * MU and int(status) == piola.Status.FILTERED
+    assert np.linalg.eigvalsh(rubber.tangent(pressed)[1].reshape(9, 9)).min() < -0.1 * MU
+
+
+def test_measures_are_pushed_forward(rubber, F):
+    P = rubber.stress(F)
+    J = np.linalg.det(F)[:, None, None]
+    cauchy = P @ F.transpose(0, 2, 1) / J
+    places = ([0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1])
+    for measure, tensor in [
+        ("cauchy", cauchy),
+        ("jaumann", cauchy),
+        ("kirchhoff", J * cauchy),
+        ("second_piola", np.linalg.solve(F, P)),
+    ]:
+        stress, tangent = rubber.measured(F, measure)
+        assert close(stress, tensor[:, places[0], places[1]]) and tangent.shape == (len(F), 6, 6)
+        assert close(tangent, tangent.transpose(0, 2, 1))
+        assert close(rubber.measured(F, measure, tangent=False), stress)
+
+
+def test_derivatives_by_parameters(rubber, F):
+    by = rubber.stress_by_parameters(F)
+    inverse = np.linalg.inv(F).transpose(0, 2, 1)
+    assert close(by["mu"], F - inverse)
+    assert close(by["lambda"], np.log(np.linalg.det(F))[:, None, None] * inverse)
+    ogden = piola.Material.typical("ogden")
+    by = ogden.stress_by_parameters(F)
+    assert by["mu"].shape == by["alpha"].shape == (3, *F.shape)
+    mu, step = ogden.parameters["mu"], 1e2
+    changed = [ogden.changed(mu=[mu[0] + sign * step, *mu[1:]]).stress(F) for sign in (1, -1)]
+    assert close((changed[0] - changed[1]) / (2 * step), by["mu"][0], 1e-7)
+    with pytest.raises(piola.DomainError):
+        rubber.stress_by_parameters(np.diag([1.0, 1.0, -1.0]))
+
+
+def test_parameters_may_differ_from_point_to_point(rng, F):
+    mu = MU * rng.uniform(0.5, 2, len(F))
+    declared = piola.declare("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2", mu=mu, lambda_=LAMBDA)
+    graded = piola.Material("neo_hookean", mu=mu, lambda_=LAMBDA)
+    assert graded.points == len(F) and np.array_equal(declared.stress(F), graded.stress(F))
+    P = np.array([neo_hookean(F[k], mu[k])[1] for k in range(len(F))])
+    assert close(graded.stress(F), P)
+    for threads in (False, True):
+        columns = np.ascontiguousarray(F.transpose(1, 2, 0))
+        assert close(graded.stress(columns, trailing=True, threads=threads), P.transpose(1, 2, 0))
+    with pytest.raises(ValueError, match="parameters for"):
+        graded.stress(F[:5])
+    for call in (graded.contract, graded.stability, lambda: graded.changed(mu=1.0), lambda: pickle.dumps(graded)):
+        with pytest.raises(piola.MaterialError, match="this needs one material for all"):
+            call()
+    with pytest.raises(piola.MaterialError, match="values for 2 points, and `lambda` for 3"):
+        piola.Material("neo_hookean", mu=np.ones(2), lambda_=np.ones(3))
+    with pytest.raises(piola.MaterialError, match="point 1 .from 0.*mu"):
+        piola.Material("neo_hookean", mu=np.array([1.0, -1.0]), lambda_=1.0)
+
+
+def test_threads_share_a_material(rubber, rng):
+    inputs = [deformations(rng, 20_000) for _ in range(8)]
+    results, errors = [None] * 8, []
+
+    def work(k):
+        try:
+            for _ in range(5):
+                results[k] = rubber.tangent(inputs[k], threads=bool(k % 2))
+        except Exception as error:
+            errors.append(error)
+
+    workers = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert not errors
+    for k in range(8):
+        assert np.array_equal(results[k][1], rubber.tangent(inputs[k])[1])
+
+
+def test_threads_cannot_write_to_one_array(rubber, rng):
+    F = np.repeat(deformations(rng, 10)[:1], 200_000, axis=0)
+    P, refused = np.empty_like(F), []
+
+    def work():
+        for _ in range(10):
+            try:
+                rubber.stress(F, out=P)
+            except ValueError as error:
+                refused.append(str(error))
+
+    workers = [threading.Thread(target=work) for _ in range(4)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert all("out cannot be written" in text for text in refused)
+    assert np.array_equal(P[-1], rubber.stress(F[0]))
+
+
+def test_others_run_meanwhile(rubber, rng):
+    """Python goes on counting while a call of another thread computes."""
+    F = np.repeat(deformations(rng, 10)[:1], 300_000, axis=0)
+    counts, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counts[0] += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = counts[0]
+    for _ in range(3):
+        rubber.tangent(F, threads=False)
+    after = counts[0]
+    done.set()
+    counter.join()
+    assert after - before > 1000
+
+
+def test_the_number_of_threads_can_be_set(rubber, rng):
+    F = deformations(rng, 5000)
+    before, expected = piola.num_threads(), rubber.stress(F)
+    try:
+        for count in (1, 3):
+            piola.set_num_threads(count)
+            assert piola.num_threads() == count
+            assert np.array_equal(rubber.stress(F, threads=True), expected)
+    finally:
+        piola.set_num_threads(before)
+    with pytest.raises(ValueError, match="number of threads"):
+        piola.set_num_threads(10**6)
