@@ -242,6 +242,31 @@ impl Curvature {
             (Self::Volume, Self::Volume) => Self::Volume,
         }
     }
+
+    /// Whether the terms of dP/dF are computed with all second derivatives. With I2 they have W11 and WJJ
+    /// without that, and WJJ alone without I2.
+    #[inline(always)]
+    pub(crate) fn has_all(self, has_second: bool) -> bool {
+        match self {
+            Self::Volume => false,
+            Self::Separate => !has_second,
+            Self::All => true,
+        }
+    }
+
+    /// Whether nothing reads derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, since it is zero
+    /// everywhere.
+    #[inline(always)]
+    pub(crate) fn leaves_out(self, k: usize, has_second: bool) -> bool {
+        let has_all = self.has_all(has_second);
+        match k {
+            1 => !has_second,
+            3 => !has_second && !has_all,
+            7 => !has_all,
+            4 | 6 | 8 => !has_second || !has_all,
+            _ => false,
+        }
+    }
 }
 
 /// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.

@@ -4,7 +4,6 @@ use super::tile::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
-use crate::point::invariants::tangent::vanishes;
 use crate::status::Status;
 
 /// The material of a batch's points: the same for all, or one for each.
@@ -212,10 +211,10 @@ tile_responses! {
     tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
     3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
-    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for those that [vanish](vanishes).
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what [`Curvature::leaves_out`].
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
     9 rows by |derivatives| derivatives, without row k if
-    vanishes(k, P::Material::HAS_SECOND_INVARIANT, P::Material::CURVATURE_BY_INVARIANTS);
+    P::Material::CURVATURE_BY_INVARIANTS.leaves_out(k, P::Material::HAS_SECOND_INVARIANT);
     finite where |at, _| anywhere(at);
 }
 

@@ -21,7 +21,7 @@ use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
 use crate::material::Curvature;
-use crate::point::invariants::tangent::{Terms, has_all};
+use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{invariants, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
@@ -423,7 +423,7 @@ where
     F: FormByInvariants<REST, N>,
 {
     let has_second = kernel.has_second_invariant;
-    match (has_second, has_all(has_second, kernel.curvature)) {
+    match (has_second, kernel.curvature.has_all(has_second)) {
         (true, true) => backend.run(ShapedByInvariants::<_, _, true, true, REST, N>(kernel, form)),
         (true, false) => backend.run(ShapedByInvariants::<_, _, true, false, REST, N>(kernel, form)),
         (false, true) => backend.run(ShapedByInvariants::<_, _, false, true, REST, N>(kernel, form)),

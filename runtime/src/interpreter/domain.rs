@@ -33,7 +33,7 @@ impl VolumeBound {
 
     /// Whether volumes are inside the domain.
     #[inline(always)]
-    pub(super) fn admits<R: Real>(self, [first, _, last]: [R; 3]) -> R::Mask {
+    pub(super) fn holds<R: Real>(self, [first, _, last]: [R; 3]) -> R::Mask {
         let zero = R::splat(0.0);
         match (self.volume, self.inversion) {
             _ if self.is_any() => R::Mask::splat(true),

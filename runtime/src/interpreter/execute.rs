@@ -102,7 +102,7 @@ pub(super) fn execute_alone<R: Real>(
     execute(program, context, &file);
 }
 
-/// What a tile of points asks of a program.
+/// Arguments of a program at the points of a tile, and room for its results.
 pub(super) struct Request<'a, E> {
     pub(super) count: usize,
     /// How far rows of arguments and of results are apart.
@@ -186,7 +186,7 @@ impl<E: Scalar> Tile<'_, '_, E> {
                 for group in 0..G {
                     let at = start + group * R::LANES;
                     let argument = |k: usize| R::load(&arguments[k * stride + at..]);
-                    let mut is_inside = volume.admits([argument(0), argument(1), argument(2)]);
+                    let mut is_inside = volume.holds([argument(0), argument(1), argument(2)]);
                     for &bound in &program.bounds {
                         is_inside = is_inside & R::splat(0.0).less(file.number(bound).get(group));
                     }

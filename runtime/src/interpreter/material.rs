@@ -8,7 +8,6 @@ use super::parameters::{ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
-use crate::point::invariants::tangent::vanishes;
 use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.
@@ -196,7 +195,7 @@ impl Interpreted {
 
     fn admits_alone<R: Real>(&self, is_by_invariants: bool, at: [R; 3]) -> R::Mask {
         let Some((bounds, calls)) = self.domain(is_by_invariants) else { return R::Mask::splat(false) };
-        let mut mask = self.volume(is_by_invariants).admits(at);
+        let mut mask = self.volume(is_by_invariants).holds(at);
         let context = self.context();
         let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
             let mut registers = Registers::take(program.sizes, 1);
@@ -379,7 +378,7 @@ impl Material for Interpreted {
         let unread = match response {
             ResponseKind::DerivativesByInvariants => {
                 let (has_second, curvature) = (first.has_second_invariant(), first.curvature_by_invariants());
-                (0..9).filter(|&k| vanishes(k, has_second, curvature)).fold(0, |bits, k| bits | 1 << k)
+                (0..9).filter(|&k| curvature.leaves_out(k, has_second)).fold(0, |bits, k| bits | 1 << k)
             }
             _ => 0,
         };

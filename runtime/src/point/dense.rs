@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::invariants::invariants;
-use super::invariants::tangent::{Entries, Terms, has_all};
+use super::invariants::tangent::{Entries, Terms};
 use super::{Filter, Matrix3, evaluate};
 use crate::lanes::{Mask, Real};
 use crate::material::Response;
@@ -60,7 +60,7 @@ pub fn evaluate_dense<R: Real>(
         return by_decomposition(material, F, filter);
     }
     let has_second = material.has_second_invariant();
-    let (served, mut dense) = match (has_second, has_all(has_second, material.curvature_by_invariants())) {
+    let (served, mut dense) = match (has_second, material.curvature_by_invariants().has_all(has_second)) {
         (true, true) => by_invariants::<R, true, true>(material, F),
         (true, false) => by_invariants::<R, true, false>(material, F),
         (false, true) => by_invariants::<R, false, true>(material, F),

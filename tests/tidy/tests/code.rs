@@ -8,12 +8,13 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Block, FnArg, ImplItem, Item, Pat, Signature, TraitItem};
 
-/// Vector instructions are unsafe, and at home in `lanes`, and so are the functions of PETSc, a library of C,
-/// at the border to it; there every block says why it is sound.
+/// Vector instructions are unsafe, and at home in `lanes`; so are the functions of PETSc, a library of C, at
+/// the border to it, and what programs in other languages lend; there every block says why it is sound.
 #[test]
 fn unsafe_code_stays_in_its_places_and_says_why() {
     let mut found = Vec::new();
-    let folders = members().into_iter().chain([PathBuf::from("distributed")]);
+    let outside = ["distributed", "bindings/c", "bindings/python"].map(PathBuf::from);
+    let folders = members().into_iter().chain(outside);
     for (path, text) in folders.flat_map(|folder| files(&folder)) {
         let lines: Vec<&str> = text.lines().collect();
         let tokens: TokenStream = match text.parse() {
@@ -22,7 +23,13 @@ fn unsafe_code_stays_in_its_places_and_says_why() {
         };
         for line in lines_of_word(tokens, "unsafe") {
             let is_at_home = path.components().any(|part| part.as_os_str() == "lanes")
+                || path.starts_with("bindings")
                 || path == Path::new("distributed/src/petsc.rs");
+            // What a function is for other languages says the documentation of their header.
+            let is_foreign = lines[line - 1].contains("unsafe extern \"C\" fn");
+            if is_foreign || lines[line - 1] == "#[unsafe(no_mangle)]" {
+                continue;
+            }
             let above = lines[line.saturating_sub(9)..line - 1].join("\n");
             let says_why = above.contains("SAFETY:") || above.contains("# Safety");
             if !is_at_home || !says_why {

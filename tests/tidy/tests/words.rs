@@ -83,7 +83,9 @@ fn nothing_is_left_undone() {
 fn sources() -> Vec<(PathBuf, String)> {
     let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
     found.extend(files(Path::new("fuzz/fuzz_targets")));
-    found.extend(files(Path::new("distributed")));
+    found.extend(
+        ["distributed", "bindings/c", "bindings/python"].iter().flat_map(|folder| files(Path::new(folder))),
+    );
     found.sort();
     found.dedup();
     // What the macro makes of a declaration is formatted by another program.

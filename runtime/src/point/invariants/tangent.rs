@@ -50,7 +50,6 @@ use super::super::matrix::{dot, three};
 use super::super::tangent::Assemble;
 use super::{cofactor, cross, square, stress_of_terms};
 use crate::lanes::Real;
-use crate::material::Curvature;
 
 /// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
 /// without `HAS_SECOND` or `HAS_ALL` as in [`Terms`].
@@ -194,29 +193,6 @@ pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool> {
     factors: [[R; 3]; 3],
     /// N and the largest entry of P: see [`bounds`].
     bounds: (R, R),
-}
-
-/// Whether an energy needs [`Terms`] with `HAS_ALL`.
-#[inline(always)]
-pub(crate) fn has_all(has_second: bool, curvature: Curvature) -> bool {
-    match curvature {
-        Curvature::Volume => false,
-        Curvature::Separate => !has_second,
-        Curvature::All => true,
-    }
-}
-
-/// Whether nothing reads derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, since it is zero everywhere.
-#[inline(always)]
-pub(crate) fn vanishes(k: usize, has_second: bool, curvature: Curvature) -> bool {
-    let has_all = has_all(has_second, curvature);
-    match k {
-        1 => !has_second,
-        3 => !has_second && !has_all,
-        7 => !has_all,
-        4 | 6 | 8 => !has_second || !has_all,
-        _ => false,
-    }
 }
 
 impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, HAS_ALL> {
