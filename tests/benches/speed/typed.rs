@@ -1,5 +1,7 @@
 //! Energies typed at run time beside compiled ones, the same declarations.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
+
 use std::hint::black_box;
 
 use piola::batch::Batch;
