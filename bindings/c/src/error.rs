@@ -13,7 +13,7 @@ use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, CsrError};
 use piola_declare::Mistakes;
 
-/// What a function returns: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+/// Result of a function: 0, or the kind of what went wrong. `piola_error_message` says it in words.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {

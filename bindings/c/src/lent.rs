@@ -86,6 +86,7 @@ impl<'call> Arrays<'call> {
 }
 
 /// The addresses of an array.
+#[inline]
 fn range<T>(name: &str, data: *const T, length: usize) -> Result<Range<usize>, Failure> {
     if length == 0 {
         return Ok(0..0);
@@ -110,14 +111,17 @@ fn range<T>(name: &str, data: *const T, length: usize) -> Result<Range<usize>, F
     }
 }
 
+#[inline]
 fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
     one.start < other.end && other.start < one.end
 }
 
+#[cold]
 fn overlaps(name: &str) -> Failure {
     Failure::new(Code::Pointer, format_args!("`{name}` overlaps another array of the call"))
 }
 
+#[cold]
 fn null(name: &str) -> Failure {
     Failure::new(Code::Pointer, format_args!("`{name}` is null"))
 }
