@@ -323,6 +323,7 @@ pub unsafe extern "C" fn piola_stresses_in_f32(
 ///
 /// # Safety
 /// Pointers are null or point to what the header says, and arrays are as long as is said.
+#[inline]
 pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
     material: *const Material,
     options: *const Options,
@@ -339,6 +340,7 @@ pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
 ///
 /// # Safety
 /// As of [`call`].
+#[inline]
 pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
     mut arrays: Arrays<'_>,
     material: *const Material,

@@ -108,6 +108,7 @@ impl From<PointSurvey> for Survey {
 ///
 /// # Safety
 /// `options` is null, or points to as many bytes as its first field says, and to as many statuses as it says.
+#[inline]
 pub(crate) unsafe fn batch<'call, E: Precision>(
     options: *const Options,
     material: &'call Material,
