@@ -262,6 +262,19 @@ void bodies() {
     std::vector<double> values(144, 1.0);
     piola::csr(4, corners, starts, columns).add(stiffnesses, piola::span<double>(values));
     for (std::size_t k = 0; k < 144; k++) CHECK(values[k] == 1.0 + stiffnesses[k]);
+    // In single precision: a hundred roundings of moduli of 4e6.
+    const std::vector<float> x_32(x.begin(), x.end()), rest_32(rest.begin(), rest.end()),
+        F_32(F.begin(), F.end());
+    std::vector<float> gradients_32(12), again_32(12), stiffnesses_32(144), values_32(144, 0.0f);
+    const piola::batch<float> single(rubber());
+    CHECK(single.stiffnesses(F_32, rest_32, again_32, stiffnesses_32).is_clean());
+    CHECK(single.stiffnesses_at(x_32, corners, rest_32, gradients_32, stiffnesses_32).is_clean());
+    piola::csr(4, corners, starts, columns).add(stiffnesses_32, piola::span<float>(values_32));
+    for (std::size_t k = 0; k < 144; k++) CHECK(std::fabs(values_32[k] - stiffnesses[k]) < 40.0);
+    for (std::size_t k = 0; k < 12; k++) {
+        CHECK(
+            std::fabs(gradients_32[k] - gradients[k]) < 40.0 && std::fabs(again_32[k] - gradients[k]) < 40.0);
+    }
     fails([&] { piola::csr(3, corners, starts, columns); }, PIOLA_CODE_VALUE, "names node 3");
 }
 

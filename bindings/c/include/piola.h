@@ -28,7 +28,7 @@
 #define PIOLA_NO_UNKNOWN SIZE_MAX
 
 
-// What a function returns: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+// Result of a function: 0, or the kind of what went wrong. `piola_error_message` says it in words.
 typedef enum piola_code {
     // Nothing went wrong.
     PIOLA_CODE_OK = 0,
@@ -201,7 +201,7 @@ typedef struct piola_simulation piola_simulation;
 // wait for each other.
 typedef struct piola_stiffness piola_stiffness;
 
-// What is known of a parameter.
+// Description of a parameter.
 typedef struct piola_parameter_description {
     // Its name.
     const char *name;
@@ -217,7 +217,7 @@ typedef struct piola_parameter_description {
     size_t typical_length;
 } piola_parameter_description;
 
-// What is known of an energy.
+// Description of an energy.
 typedef struct piola_energy_description {
     // The name by which it is chosen.
     const char *name;
@@ -422,8 +422,8 @@ void piola_energy_free(struct piola_energy *energy);
 // Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 // some.
 //
-// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
-// bits and nearly as fast: they are compiled at the first use, within milliseconds to seconds.
+// Values for each point, and single precision, have energies of the catalogue interpreted, with the same bits.
+// What does so is compiled at its first use, within milliseconds to seconds.
 //
 // Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 // them, and the point.
@@ -453,7 +453,7 @@ enum piola_code piola_energies(const struct piola_material *material,
                                size_t energies_length,
                                struct piola_survey *survey);
 
-// As `piola_energies`, in single precision.
+// `piola_energies` in single precision.
 enum piola_code piola_energies_f32(const struct piola_material *material,
                                    const struct piola_options *options,
                                    const float *F,
@@ -471,7 +471,7 @@ enum piola_code piola_stresses(const struct piola_material *material,
                                size_t P_length,
                                struct piola_survey *survey);
 
-// As `piola_stresses`, in single precision.
+// `piola_stresses` in single precision.
 enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    const struct piola_options *options,
                                    const float *F,
@@ -493,7 +493,7 @@ enum piola_code piola_tangents(const struct piola_material *material,
                                size_t dP_dF_length,
                                struct piola_survey *survey);
 
-// As `piola_tangents`, in single precision.
+// `piola_tangents` in single precision.
 enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    const struct piola_options *options,
                                    int32_t form,
@@ -519,7 +519,7 @@ enum piola_code piola_energies_and_tangents(const struct piola_material *materia
                                             size_t dP_dF_length,
                                             struct piola_survey *survey);
 
-// As `piola_energies_and_tangents`, in single precision.
+// `piola_energies_and_tangents` in single precision.
 enum piola_code piola_energies_and_tangents_f32(const struct piola_material *material,
                                                 const struct piola_options *options,
                                                 const float *F,
@@ -543,7 +543,7 @@ enum piola_code piola_products(const struct piola_material *material,
                                double *dP,
                                size_t dP_length);
 
-// As `piola_products`, in single precision.
+// `piola_products` in single precision.
 enum piola_code piola_products_f32(const struct piola_material *material,
                                    const struct piola_options *options,
                                    const float *factors,
@@ -569,7 +569,7 @@ enum piola_code piola_stresses_in(const struct piola_material *material,
                                   size_t tangents_length,
                                   struct piola_survey *survey);
 
-// As `piola_stresses_in`, in single precision.
+// `piola_stresses_in` in single precision.
 enum piola_code piola_stresses_in_f32(const struct piola_material *material,
                                       const struct piola_options *options,
                                       int32_t measure,
@@ -617,7 +617,7 @@ enum piola_code piola_stiffnesses(const struct piola_material *material,
                                   size_t stiffnesses_length,
                                   struct piola_survey *survey);
 
-// As `piola_stiffnesses`, in single precision.
+// `piola_stiffnesses` in single precision.
 enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
                                       const struct piola_options *options,
                                       int32_t form,
@@ -653,7 +653,7 @@ enum piola_code piola_stiffnesses_at(const struct piola_material *material,
                                      size_t stiffnesses_length,
                                      struct piola_survey *survey);
 
-// As `piola_stiffnesses_at`, in single precision.
+// `piola_stiffnesses_at` in single precision.
 enum piola_code piola_stiffnesses_at_f32(const struct piola_material *material,
                                          const struct piola_options *options,
                                          int32_t form,
@@ -690,7 +690,7 @@ enum piola_code piola_csr_new_i32(size_t nodes,
                                   size_t columns_length,
                                   struct piola_csr **csr);
 
-// As `piola_csr_new_i32`, for a matrix with indices of 64 bits.
+// `piola_csr_new_i32` for a matrix with indices of 64 bits.
 enum piola_code piola_csr_new_i64(size_t nodes,
                                   const size_t *corners,
                                   size_t corners_length,
@@ -712,7 +712,7 @@ enum piola_code piola_csr_add(const struct piola_csr *csr,
                               double *values,
                               size_t values_length);
 
-// As `piola_csr_add`, in single precision.
+// `piola_csr_add` in single precision.
 enum piola_code piola_csr_add_f32(const struct piola_csr *csr,
                                   int32_t layout,
                                   const float *stiffnesses,

@@ -6,7 +6,7 @@ use piola::point::measures;
 use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
-use crate::options::{Options, Survey};
+use crate::options::{self, Options, Survey};
 
 /// The form of a tangent or a stiffness.
 #[repr(C)]
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn piola_energies(
     }
 }
 
-/// As `piola_energies`, in single precision.
+/// `piola_energies` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energies_f32(
     material: *const Material,
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn piola_stresses(
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
-/// As `piola_stresses`, in single precision.
+/// `piola_stresses` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stresses_f32(
     material: *const Material,
@@ -138,7 +138,7 @@ pub unsafe extern "C" fn piola_tangents(
     }
 }
 
-/// As `piola_tangents`, in single precision.
+/// `piola_tangents` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_tangents_f32(
     material: *const Material,
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents(
     }
 }
 
-/// As `piola_energies_and_tangents`, in single precision.
+/// `piola_energies_and_tangents` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energies_and_tangents_f32(
     material: *const Material,
@@ -240,7 +240,7 @@ pub unsafe extern "C" fn piola_products(
     }
 }
 
-/// As `piola_products`, in single precision.
+/// `piola_products` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_products_f32(
     material: *const Material,
@@ -293,7 +293,7 @@ pub unsafe extern "C" fn piola_stresses_in(
     }
 }
 
-/// As `piola_stresses_in`, in single precision.
+/// `piola_stresses_in` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stresses_in_f32(
     material: *const Material,
@@ -323,6 +323,7 @@ pub unsafe extern "C" fn piola_stresses_in_f32(
 ///
 /// # Safety
 /// Pointers are null or point to what the header says, and arrays are as long as is said.
+#[inline]
 pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
     material: *const Material,
     options: *const Options,
@@ -339,6 +340,7 @@ pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
 ///
 /// # Safety
 /// As of [`call`].
+#[inline]
 pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
     mut arrays: Arrays<'_>,
     material: *const Material,
@@ -353,7 +355,7 @@ pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
     // SAFETY: that of this function.
     unsafe {
         let material = lent::value("material", material)?;
-        let batch = Options::read(options)?.batch(material, &mut arrays)?;
+        let batch = options::batch(options, material, &mut arrays)?;
         for (read, (name, data, length)) in read.iter_mut().zip(inputs) {
             *read = arrays.input(name, data, length)?;
         }

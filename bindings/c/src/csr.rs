@@ -43,7 +43,7 @@ pub unsafe extern "C" fn piola_csr_new_i32(
     unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
 }
 
-/// As `piola_csr_new_i32`, for a matrix with indices of 64 bits.
+/// `piola_csr_new_i32` for a matrix with indices of 64 bits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_csr_new_i64(
     nodes: usize,
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn piola_csr_add(
     unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
 }
 
-/// As `piola_csr_add`, in single precision.
+/// `piola_csr_add` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_csr_add_f32(
     csr: *const Csr,

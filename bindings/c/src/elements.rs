@@ -83,7 +83,7 @@ pub unsafe extern "C" fn piola_stiffnesses(
     }
 }
 
-/// As `piola_stiffnesses`, in single precision.
+/// `piola_stiffnesses` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stiffnesses_f32(
     material: *const Material,
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn piola_stiffnesses_at(
     })
 }
 
-/// As `piola_stiffnesses_at`, in single precision.
+/// `piola_stiffnesses_at` in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stiffnesses_at_f32(
     material: *const Material,

@@ -74,7 +74,7 @@ pub enum ParameterUnit {
     PerPascal = 3,
 }
 
-/// What is known of a parameter.
+/// Description of a parameter.
 #[repr(C)]
 pub struct ParameterDescription {
     /// Its name.
@@ -91,7 +91,7 @@ pub struct ParameterDescription {
     pub typical_length: usize,
 }
 
-/// What is known of an energy.
+/// Description of an energy.
 #[repr(C)]
 pub struct EnergyDescription {
     /// The name by which it is chosen.

@@ -13,7 +13,7 @@ use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, CsrError};
 use piola_declare::Mistakes;
 
-/// What a function returns: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+/// Result of a function: 0, or the kind of what went wrong. `piola_error_message` says it in words.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
@@ -110,12 +110,19 @@ pub extern "C" fn piola_version() -> *const c_char {
 /// The code of what is done, its message kept for the thread; panics end here.
 ///
 /// State that a panic leaves half changed is behind a lock, which is poisoned by it.
+#[inline]
 pub(crate) fn guard(body: impl FnOnce() -> Result<(), Failure>) -> Code {
     let failure = match catch_unwind(AssertUnwindSafe(body)) {
         Ok(Ok(())) => return Code::Ok,
         Ok(Err(failure)) => failure,
         Err(payload) => Failure::new(Code::Panic, format_args!("a mistake in piola: {}", text_of(&*payload))),
     };
+    keep(&failure)
+}
+
+/// Keeps the message of a failure for the thread.
+#[cold]
+fn keep(failure: &Failure) -> Code {
     let text = c_string(&failure.message);
     // There is nobody left to read it if this fails.
     let _ = MESSAGE.try_with(|message| message.replace(text));

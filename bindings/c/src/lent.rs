@@ -16,7 +16,7 @@ pub(crate) unsafe trait Plain: Copy {}
 
 macro_rules! plain {
     ($($Type:ty),*) => {$(
-        // SAFETY: a number, or a struct of numbers and raw pointers, has no invalid patterns.
+        // SAFETY: it is made of numbers, raw pointers and optional functions, of which every pattern is a value.
         unsafe impl $crate::lent::Plain for $Type {}
     )*};
 }
@@ -33,6 +33,7 @@ pub(crate) struct Arrays<'call> {
 }
 
 impl<'call> Arrays<'call> {
+    #[inline]
     pub(crate) fn new() -> Self {
         Self { ranges: [const { 0..0 }; 6], written: 0, read: 0, call: PhantomData }
     }
@@ -41,6 +42,7 @@ impl<'call> Arrays<'call> {
     ///
     /// # Safety
     /// `data` points to as many initialised values as `length` says, which nobody changes during the call.
+    #[inline]
     pub(crate) unsafe fn input<T: Plain>(
         &mut self,
         name: &str,
@@ -65,6 +67,7 @@ impl<'call> Arrays<'call> {
     ///
     /// # Safety
     /// `data` points to room for as many values as `length` says, which nobody else uses during the call.
+    #[inline]
     pub(crate) unsafe fn output<T: Plain>(
         &mut self,
         name: &str,
@@ -86,6 +89,7 @@ impl<'call> Arrays<'call> {
 }
 
 /// The addresses of an array.
+#[inline]
 fn range<T>(name: &str, data: *const T, length: usize) -> Result<Range<usize>, Failure> {
     if length == 0 {
         return Ok(0..0);
@@ -110,14 +114,17 @@ fn range<T>(name: &str, data: *const T, length: usize) -> Result<Range<usize>, F
     }
 }
 
+#[inline]
 fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
     one.start < other.end && other.start < one.end
 }
 
+#[cold]
 fn overlaps(name: &str) -> Failure {
     Failure::new(Code::Pointer, format_args!("`{name}` overlaps another array of the call"))
 }
 
+#[cold]
 fn null(name: &str) -> Failure {
     Failure::new(Code::Pointer, format_args!("`{name}` is null"))
 }
@@ -139,6 +146,7 @@ pub(crate) unsafe fn text<'call>(name: &str, text: *const c_char) -> Result<&'ca
 ///
 /// # Safety
 /// `value` is null, or points to a value that nobody changes during the call.
+#[inline]
 pub(crate) unsafe fn optional<'call, T>(name: &str, value: *const T) -> Result<Option<&'call T>, Failure> {
     if !value.is_null() {
         range(name, value, 1)?;
@@ -151,6 +159,7 @@ pub(crate) unsafe fn optional<'call, T>(name: &str, value: *const T) -> Result<O
 ///
 /// # Safety
 /// As of [`optional`].
+#[inline]
 pub(crate) unsafe fn value<'call, T>(name: &str, value: *const T) -> Result<&'call T, Failure> {
     // SAFETY: that of this function.
     unsafe { optional(name, value) }?.ok_or_else(|| null(name))
@@ -172,6 +181,7 @@ pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'
 ///
 /// # Safety
 /// `to` is null, or there is room for a value, which nobody else uses during the call.
+#[inline]
 pub(crate) unsafe fn report<T>(name: &str, to: *mut T, result: T) -> Result<(), Failure> {
     if !to.is_null() {
         range(name, to, 1)?;
@@ -216,6 +226,7 @@ pub(crate) fn demand_length(
 }
 
 /// The value that a number of C stands for.
+#[inline]
 pub(crate) fn choice<T: Copy, const N: usize>(name: &str, number: i32, values: [T; N]) -> Result<T, Failure> {
     usize::try_from(number).ok().and_then(|at| values.get(at)).copied().ok_or_else(|| {
         Failure::new(Code::Value, format_args!("`{name}` is {number}; it must be one of 0 to {}", N - 1))

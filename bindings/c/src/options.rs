@@ -104,71 +104,44 @@ impl From<PointSurvey> for Survey {
     }
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            size: size_of::<Self>(),
-            filter: Filter::None as i32,
-            layout: PointLayout::Points as i32,
-            instructions: Instructions::Best as i32,
-            threads: 0,
-            streams: 0,
-            statuses: std::ptr::null_mut(),
-            statuses_length: 0,
-        }
+/// The batch of a material with the options behind a pointer, or with the defaults where that is null.
+///
+/// # Safety
+/// `options` is null, or points to as many bytes as its first field says, and to as many statuses as it says.
+#[inline]
+pub(crate) unsafe fn batch<'call, E: Precision>(
+    options: *const Options,
+    material: &'call Material,
+    arrays: &mut Arrays<'call>,
+) -> Result<Batch<'call, E>, Failure> {
+    let batch = Batch::new(E::tiles(material)?);
+    // SAFETY: that of this function; a size is all that is read.
+    let Some(&size) = (unsafe { lent::optional("options", options.cast::<usize>()) })? else {
+        return Ok(batch);
+    };
+    let expected = size_of::<Options>();
+    if size != expected {
+        let message = format!("`options->size` is {size}; it must be sizeof(piola_options), {expected}");
+        return Err(Failure::new(Code::Value, message));
     }
-}
-
-impl Options {
-    /// The options behind a pointer, or the defaults.
-    ///
-    /// # Safety
-    /// `options` is null, or points to as many bytes as its first field says.
-    pub(crate) unsafe fn read(options: *const Self) -> Result<Self, Failure> {
-        // SAFETY: that of this function; a size is all that is read.
-        let Some(&size) = (unsafe { lent::optional("options", options.cast::<usize>()) })? else {
-            return Ok(Self::default());
-        };
-        let expected = size_of::<Self>();
-        if size != expected {
-            let message = format!("`options->size` is {size}; it must be sizeof(piola_options), {expected}");
-            return Err(Failure::new(Code::Value, message));
-        }
-        // SAFETY: the caller vouches for the bytes, which are numbers and a pointer.
-        Ok(*unsafe { lent::value("options", options) }?)
-    }
-
-    pub(crate) fn filter(&self) -> Result<piola::point::Filter, Failure> {
-        filter("options->filter", self.filter)
-    }
-
-    /// The batch of a material.
-    ///
-    /// # Safety
-    /// `statuses` has the length that is said.
-    pub(crate) unsafe fn batch<'call, E: Precision>(
-        &self,
-        material: &'call Material,
-        arrays: &mut Arrays<'call>,
-    ) -> Result<Batch<'call, E>, Failure> {
-        let layout = lent::choice("options->layout", self.layout, [Layout::Points, Layout::Lines])?;
-        let instructions = [Backend::best as fn() -> Backend, Backend::portable];
-        let instructions = lent::choice("options->instructions", self.instructions, instructions)?;
-        let threads = lent::choice("options->threads", self.threads, [false, true])?;
-        let streams = lent::choice("options->streams", self.streams, [false, true])?;
-        // SAFETY: that of this function.
-        let statuses = unsafe { arrays.output("options->statuses", self.statuses, self.statuses_length) }?;
-        let statuses: *const [u8] = statuses;
-        // SAFETY: a cell is one byte, and nobody else uses these during the call.
-        let statuses = unsafe { &*(statuses as *const [StatusCell]) };
-        Ok(Batch::new(E::tiles(material)?)
-            .with_filter(self.filter()?)
-            .with_layout(layout)
-            .with_backend(instructions())
-            .with_threads(threads)
-            .with_streams(streams)
-            .with_statuses(statuses))
-    }
+    // SAFETY: the caller vouches for the bytes, which are numbers and a pointer.
+    let options = *unsafe { lent::value("options", options) }?;
+    let layout = lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?;
+    let is_portable = lent::choice("options->instructions", options.instructions, [false, true])?;
+    let threads = lent::choice("options->threads", options.threads, [false, true])?;
+    let streams = lent::choice("options->streams", options.streams, [false, true])?;
+    // SAFETY: that of this function.
+    let statuses = unsafe { arrays.output("options->statuses", options.statuses, options.statuses_length) }?;
+    let statuses: *const [u8] = statuses;
+    // SAFETY: a cell is one byte, and nobody else uses these during the call.
+    let statuses = unsafe { &*(statuses as *const [StatusCell]) };
+    let batch = batch
+        .with_filter(filter("options->filter", options.filter)?)
+        .with_layout(layout)
+        .with_threads(threads)
+        .with_streams(streams)
+        .with_statuses(statuses);
+    Ok(if is_portable { batch.with_backend(Backend::portable()) } else { batch })
 }
 
 /// The filter that a number of C stands for.

@@ -1,4 +1,4 @@
-//! Errors of Rust as exceptions of the package, which `piola/errors.py` declares.
+//! Errors of Rust as exceptions of the package, which `python/piola/errors.py` declares.
 
 use piola::material::MaterialError as Refused;
 use piola_declare::Mistakes;
