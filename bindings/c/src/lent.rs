@@ -16,7 +16,8 @@ pub(crate) unsafe trait Plain: Copy {}
 
 macro_rules! plain {
     ($($Type:ty),*) => {$(
-        // SAFETY: it is made of numbers, raw pointers and optional functions, of which every pattern is a value.
+        // SAFETY: it is made of numbers, raw pointers and optional functions, of which every pattern is a
+        // value.
         unsafe impl $crate::lent::Plain for $Type {}
     )*};
 }

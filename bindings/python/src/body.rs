@@ -50,14 +50,16 @@ impl Body {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Evaluates something, on threads, without the interpreter; complains of tetrahedra outside of the domain.
+    /// Evaluates something, on threads, without the interpreter; complains of tetrahedra outside of the
+    /// domain.
     fn evaluate<T: Send>(
         &self,
         py: Python<'_>,
         compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), LengthError> + Send,
     ) -> PyResult<T> {
         let evaluated = py.detach(|| {
-            // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+            // Locked before the pool is entered: a thread of it that waits may take up another call
+            // meanwhile.
             let memory = &mut *self.memory();
             on_threads(|| compute(&self.body, memory))
         })?;
@@ -168,8 +170,8 @@ impl Body {
     ///
     ///     stiffness(positions, /, *, filter=None)
     ///
-    /// Block k holds the second derivatives of the energy by the positions of node rows[k] and node columns[k];
-    /// each pair of nodes occurs once in both orders, and always at the same place. With
+    /// Block k holds the second derivatives of the energy by the positions of node rows[k] and node
+    /// columns[k]; each pair of nodes occurs once in both orders, and always at the same place. With
     /// `i = 3*rows[:, None, None] + numpy.arange(3)[:, None]` and likewise j, `scipy.sparse.csr_array` takes
     /// `(blocks.ravel(), (i, j))`.
     ///

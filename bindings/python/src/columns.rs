@@ -1,5 +1,5 @@
-//! Points along the trailing axes of arrays, which are columns: number k of point p is at k times the number of
-//! points, plus p.
+//! Points along the trailing axes of arrays, which are columns: number k of point p is at k times the number
+//! of points, plus p.
 //!
 //! They are copied to the lines of a batch and back, a chunk of points at a time that stays in the cache.
 

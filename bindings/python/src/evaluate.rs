@@ -287,8 +287,8 @@ impl Material {
     ///
     ///     measured(F, measure, /, *, tangent=True, trailing=False, out=None, status=None, threads=None)
     ///
-    /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent c),
-    ///     "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
+    /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent
+    ///     c), "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
     /// tangent: False for the stress alone.
     ///
     /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12.

@@ -117,7 +117,8 @@ impl Material {
     /// smallest, largest: the range of the principal stretches, in which 1 is.
     /// resolution: number of stretches along each axis of the box that is looked at.
     ///
-    /// Returns a `Stability`. Raises ValueError for a range that is none, or a material without shear modulus.
+    /// Returns a `Stability`. Raises ValueError for a range that is none, or a material without shear
+    /// modulus.
     #[pyo3(signature = (*, smallest = 0.3, largest = 3.0, resolution = 41))]
     fn stability<'py>(
         &self,
@@ -171,8 +172,8 @@ impl Material {
     /// F: float64, of shape (..., 3, 3), inside the domain, with J > 0.
     ///
     /// Returns a dictionary from the names of the parameters to arrays of the shape of F; of a list, to an
-    /// array with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError for
-    /// an energy that does not know these derivatives.
+    /// array with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError
+    /// for an energy that does not know these derivatives.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,

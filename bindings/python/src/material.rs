@@ -23,9 +23,9 @@ use crate::errors::{MaterialError, of_material, of_parameters, of_text, type_err
 /// name: the name in `catalogue()`; case, spaces, `_` and `-` do not matter.
 /// extend: the stretch, between 0 and 1, below which the energy is continued, so that inverted elements are
 ///     ordinary ones; None to refuse what is outside of its domain.
-/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. A number may
-///     be given as an array with a value for each point. `lambda_` is the parameter `lambda`, whose name Python
-///     keeps for itself.
+/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. A number
+///     may be given as an array with a value for each point. `lambda_` is the parameter `lambda`, whose name
+///     Python keeps for itself.
 ///
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]
@@ -131,7 +131,8 @@ impl Material {
         Ok(self.single.get_or_init(|| single))
     }
 
-    /// The energy as a program: that of the text, or of the catalogue's declaration, which gives the same bits.
+    /// The energy as a program: that of the text, or of the catalogue's declaration, which gives the same
+    /// bits.
     fn declaration(&self) -> PyResult<Energy> {
         if let Some(energy) = self.spec.energy() {
             return Ok(energy.clone());
@@ -257,8 +258,8 @@ impl Material {
         Ok(Description::new(&self.name, self.spec.description().map_err(of_material)?))
     }
 
-    /// The parameters by name: a number each, or a list of numbers. Those that differ from point to point have
-    /// the value of the first.
+    /// The parameters by name: a number each, or a list of numbers. Those that differ from point to point
+    /// have the value of the first.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parameters = PyDict::new(py);

@@ -44,7 +44,8 @@ impl Simulation {
         advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
         let report = py.detach(|| {
-            // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+            // Locked before the pool is entered: a thread of it that waits may take up another call
+            // meanwhile.
             let simulation = &mut *self.lock();
             on_threads(|| advance(simulation))
         })?;
@@ -69,7 +70,8 @@ impl Simulation {
         Ok(Self { simulation: Mutex::new(simulation.map_err(of_body)?) })
     }
 
-    /// Positions of the nodes, m, of shape (n, 3): a copy. Set them to start from elsewhere, however deformed.
+    /// Positions of the nodes, m, of shape (n, 3): a copy. Set them to start from elsewhere, however
+    /// deformed.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         from_rows(py, &self.with(py, |simulation| simulation.positions().to_vec()))
@@ -168,7 +170,8 @@ impl Simulation {
         self.advance(py, |simulation| simulation.step(dt))
     }
 
-    /// Moves the body to a minimum of its energy, without inertia and damping; the report and errors of `step`.
+    /// Moves the body to a minimum of its energy, without inertia and damping; the report and errors of
+    /// `step`.
     fn equilibrate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.advance(py, step::Simulation::equilibrate)
     }

@@ -1,5 +1,5 @@
-//! The threads that compute: a pool of their own, so that their number can be set, and a new one after a fork,
-//! which copies a process without its threads.
+//! The threads that compute: a pool of their own, so that their number can be set, and a new one after a
+//! fork, which copies a process without its threads.
 
 use std::process;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -115,8 +115,8 @@ pub(super) struct Request<'a, E> {
     pub(super) volume: VolumeBound,
 }
 
-/// Executes a program for a tile of points. Gives the points at which its bounds are positive and whose volume
-/// is inside the domain, as bits.
+/// Executes a program for a tile of points. Gives the points at which its bounds are positive and whose
+/// volume is inside the domain, as bits.
 ///
 /// One kernel for all programs: what differs between them is data.
 pub(super) fn execute_tile<E: Scalar>(
