@@ -422,8 +422,8 @@ void piola_energy_free(struct piola_energy *energy);
 // Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 // some.
 //
-// Values for each point, and single precision, have energies of the catalogue interpreted, with the same bits.
-// What does so is compiled at its first use, within milliseconds to seconds.
+// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
+// bits. What does so is compiled at its first use, within milliseconds to seconds.
 //
 // Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 // them, and the point.
