@@ -15,7 +15,7 @@ const MAX_TEXT: usize = 12 * 1024;
 const MOST_TRIED: usize = 6;
 
 /// The material of a text with these values. A parameter without one has that of the present material, if
-/// that has one of its name, and else begins with [a value of its own](begin).
+/// that has one of its name and form, and else begins with [a value of its own](begin).
 ///
 /// # Errors
 /// [`Error::Declaration`], or an error of the material.
@@ -26,19 +26,16 @@ pub(super) fn material(
     moduli: Moduli,
 ) -> Result<MaterialSpec, Error> {
     let spec = MaterialSpec::declared(energy(text)?);
-    let names: Vec<_> = parameters(&spec)?.iter().map(|parameter| parameter.name.to_string()).collect();
-    if let Some(parameter) = given.keys().find(|name| !names.contains(name)) {
-        let material = spec.description()?.name.clone();
-        let known = names.into_iter().map(Into::into).collect();
-        return Err(SceneError::UnknownParameter { material, parameter: parameter.clone(), known }.into());
-    }
-    let known = names.iter().filter_map(|name| {
-        let values = given.get(name).map_or(present.values_of(name), Vec::as_slice);
-        (!values.is_empty()).then_some((name, values))
+    let description = spec.description()?.clone();
+    let of_present = description.parameters.iter().filter_map(|parameter| {
+        let values = present.values_of(&parameter.name);
+        // A list may have one entry; a number of the same name is none of them.
+        let fits = if parameter.is_list() { !values.is_empty() } else { values.len() == 1 };
+        fits.then_some((&*parameter.name, values))
     });
-    let spec = known.fold(spec, |spec, (name, values)| spec.with_parameter(name, values));
-    let spec = begin(spec, moduli)?;
-    Ok(spec.explicit()?)
+    let given = given.iter().map(|(name, values)| (name.as_str(), values.as_slice()));
+    let spec = of_present.chain(given).fold(spec, |spec, (name, values)| spec.with_parameter(name, values));
+    Ok(begin(spec, moduli)?.explicit()?)
 }
 
 /// The energy of a formula, or of a declaration in Rust.
@@ -49,18 +46,14 @@ fn energy(text: &str) -> Result<Energy, Error> {
     Energy::from_text(text).map_err(Error::Declaration)
 }
 
-fn parameters(spec: &MaterialSpec) -> Result<&[Parameter], SceneError> {
-    Ok(&spec.description()?.parameters)
-}
-
 /// Gives each parameter without a value the shear modulus of the body, or 1: of all combinations the one with
 /// which the material is about as stiff as the body was.
 ///
 /// A formula does not say which of its parameters are moduli.
 fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, SceneError> {
     let is_new = |parameter: &&Parameter| spec.values_of(&parameter.name).is_empty();
-    let new: Vec<_> =
-        parameters(&spec)?.iter().filter(is_new).map(|parameter| parameter.name.to_string()).collect();
+    let parameters = &spec.description()?.parameters;
+    let new: Vec<_> = parameters.iter().filter(is_new).map(|parameter| parameter.name.to_string()).collect();
     let with = |combination: usize| {
         let valued = new.iter().enumerate().map(|(k, name)| (name, combination >> k & 1 == 1));
         valued.fold(spec.clone(), |spec, (name, is_modulus)| {
@@ -98,6 +91,14 @@ mod tests {
         assert_eq!(["mu", "K", "n"].map(|name| spec.values_of(name)[0]), [3e4, 1e5, 1.0]);
         let spec = typed(text, &[("n", 7.0), ("mu", 2e4)]).unwrap();
         assert_eq!(["mu", "K", "n"].map(|name| spec.values_of(name)[0]), [2e4, 1e5, 7.0]);
+    }
+
+    #[test]
+    fn a_list_of_the_body_is_no_value_for_a_number() {
+        let present = MaterialSpec::typical("ogden").unwrap();
+        let text = "mu/2*(I1 - 3) - mu*ln(J) + kappa/2*(J - 1)^2";
+        let spec = material(text, &BTreeMap::new(), &present, BODY).unwrap();
+        assert_eq!([spec.values_of("mu"), spec.values_of("kappa")], [&[1e5], present.values_of("kappa")]);
     }
 
     #[test]
