@@ -142,6 +142,9 @@ test("an energy is typed while the body moves, and shared by its address", async
   const { frame } = await figures();
   await until((frame) => globalThis.piola.figures().frame > frame, frame); // the energy before is still in use
   await shoot("mistake");
+  await page.selectOption("#material", "neo_hookean");
+  await until(() => document.getElementById("energy-text").value.includes("fn NeoHookean"));
+  assert.ok(await page.locator("#mistakes").isHidden(), "a choice puts an end to what was typed");
   await field.fill("mu/2*(I1 - 3) - mu*ln(J) + K/2*(J - 1)^2");
   await until(() => document.getElementById("formula").textContent.includes("K"));
   assert.ok(await page.locator("#mistakes").isHidden());

@@ -58,6 +58,13 @@ export class Editor {
     if (place !== `${location.pathname}${location.search}${location.hash}`) history.replaceState(null, "", place);
   }
 
+  /** Shows the energy that comes next, whatever has been typed. */
+  giveUp() {
+    clearTimeout(this.waiting);
+    this.link.forget("energy");
+    this.accept();
+  }
+
   accept() {
     this.isAhead = false;
     this.show("");

@@ -26,13 +26,17 @@ export class Panel {
     click("reset", () => link.act({ reset: {} }));
     click("let-go", () => link.act({ release_all: {} }));
     click("save", () => link.act({ save: {} }));
-    click("restore", () => link.act({ restore: {} }));
+    click("restore", () => {
+      this.editor.giveUp();
+      link.act({ restore: {} });
+    });
     click("take-over", () => link.run({ take_over: {} }));
     byId("real-time").addEventListener("change", ({ target }) => {
       link.run({ pace: { real_time: target.checked } });
     });
     byId("wireframe").addEventListener("change", ({ target }) => onWireframe(target.checked));
     byId("material").addEventListener("change", ({ target }) => {
+      this.editor.giveUp();
       this.link.act({ material: { name: target.value, as_stiff: byId("as-stiff").checked } });
     });
     const keys = {
