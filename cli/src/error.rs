@@ -113,7 +113,7 @@ pub enum Error {
     Declaration(Mistakes),
     /// The text of an energy is longer than the viewer takes.
     #[error(
-        "the text of an energy has at most {most} bytes here, and this one has {bytes}; `piola view FILE.rs` takes longer ones"
+        "the text of an energy has at most {most} bytes here, and this one has {bytes}; put a longer one into a file, for `piola view --material FILE.rs`"
     )]
     LongText {
         /// Its length, in bytes.
