@@ -2,8 +2,16 @@
 
 use piola::batch::{Batch, Layout, Stages, TileMaterial};
 use piola::lanes::Backend;
-use piola::point::Filter;
-use piola_speed::{Arrays, Effort, IN_CACHE, STREAMING, Task, Times, time, time_in_turns};
+use piola::point::{Filter, Matrix3};
+use piola_speed::{
+    Arrays, Effort, IN_CACHE, STREAMING, Task, Times, deformation_gradients, time, time_in_turns,
+};
+
+/// Deformation gradients of [`Arrays`], as matrices.
+pub(crate) fn matrices(count: usize) -> Vec<Matrix3<f64>> {
+    let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
+    deformation_gradients().take(count).map(rows).collect()
+}
 
 /// The same arrays again and again.
 pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, batch: &Batch<'_, E>) -> Times {

@@ -10,9 +10,11 @@ use std::hint::black_box;
 use piola::Material;
 use piola::lanes::{Backend, Kernel, Lanes};
 use piola::point::{Matrix3, stress, svd};
-use piola_speed::{IN_CACHE, deformation_gradients};
+use piola_speed::IN_CACHE;
 use piola_tests::baselines::decompositions;
 use piola_tests::baselines::svd_gradients::{self, Regularization};
+
+use super::measure::matrices;
 
 /// [`IN_CACHE`] deformation gradients with room for P and the 81 entries of dP/dF.
 ///
@@ -26,9 +28,7 @@ pub(crate) struct PointByPoint {
 impl PointByPoint {
     /// The points of [`Arrays`](piola_speed::Arrays).
     pub(crate) fn new() -> Self {
-        let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
-        let F = deformation_gradients().take(IN_CACHE).map(rows).collect();
-        Self { F, results: vec![Default::default(); IN_CACHE] }
+        Self { F: matrices(IN_CACHE), results: vec![Default::default(); IN_CACHE] }
     }
 
     /// Computes all after the decomposition of this library, compiled for the instructions of a back end: the

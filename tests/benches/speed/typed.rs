@@ -11,9 +11,9 @@ use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, Entry, Visitor};
-use piola_speed::{Effort, Task, Times, deformation_gradients, time_in_turns};
+use piola_speed::{Effort, Task, Times, time_in_turns};
 
-use super::measure::side_by_side;
+use super::measure::{matrices, side_by_side};
 use super::tables::{cell, header, row};
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
@@ -56,8 +56,7 @@ impl<T: Material> Visitor for PointByPoint<'_, T> {
 
     fn visit<M: Declared + 'static>(self, compiled: M) {
         let Self { effort, entry, typed, table } = self;
-        let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
-        let gradients: Vec<_> = deformation_gradients().take(POINTS).map(rows).collect();
+        let gradients = matrices(POINTS);
         let times = time_in_turns(
             effort,
             POINTS,
