@@ -243,8 +243,8 @@ impl Curvature {
         }
     }
 
-    /// Whether the terms of dP/dF are computed with all second derivatives. If not, those of an energy with I2
-    /// have W11 and WJJ, those of one without it WJJ alone.
+    /// Whether the terms of dP/dF are computed with all second derivatives. If not, those of an energy with
+    /// I2 have W11 and WJJ, those of one without it WJJ alone.
     #[inline(always)]
     pub(crate) fn has_all(self, has_second: bool) -> bool {
         match self {
