@@ -46,18 +46,21 @@
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `bodies`);
 //! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear
 //!   solvers (feature `bodies`);
-//! * [`step`]: implicit Euler by Newton's method (feature `bodies`).
+//! * [`step`]: steps of time by Newton's method, implicit Euler and integrators of higher order (feature
+//!   `bodies`);
+//! * `interpreter`: materials whose energy is known at run time only, as `piola-declare` makes them (feature
+//!   `batch`).
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds:
-//! enough to declare materials, test them and evaluate them at points. `batch` adds rayon. `bodies` adds
-//! `batch` and faer, and minutes.
+//! enough to declare materials, test them and evaluate them at points. `batch` adds rayon; `f32` adds batches
+//! in single precision; `bodies` adds `batch`, faer, and a minute or two.
 //!
 //! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A number
 //! that is not finite, such as the `min_det` of a survey of nothing, is `null` in JSON and cannot be read
 //! back from there.
 //!
-//! There is no contact, no friction, no fracture, no plasticity, no higher-order element, and no time
-//! integrator but implicit Euler.
+//! There is no friction, no fracture, no plasticity and no higher-order element. Contact is a term of the
+//! energy that the caller adds, as the example `ground` of `piola-materials` does.
 
 // Modules that a feature adds, where it is off.
 #![cfg_attr(not(feature = "batch"), doc = "", doc = "[`batch`]: https://docs.rs/piola/latest/piola/batch/")]

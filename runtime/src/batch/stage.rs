@@ -474,7 +474,12 @@ pub(super) enum StiffnessForm {
     Factored,
 }
 
-/// The kernels above for one format: no function is generic, so that each is compiled once, here.
+/// The kernels above for one format: no function is generic, so that each is compiled once, here. With the
+/// feature `f32` there are those of `f32`, too.
+#[diagnostic::on_unimplemented(
+    message = "there are no batches of `{Self}`",
+    note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
+)]
 #[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
 pub trait Stages: Scalar {
     #[doc(hidden)]
@@ -630,4 +635,6 @@ macro_rules! stages {
         }
     )*};
 }
-stages!(f64 f32);
+stages!(f64);
+#[cfg(feature = "f32")]
+stages!(f32);
