@@ -7,8 +7,6 @@ use piola::contract::{Settings, check};
 use crate::bench::Material;
 use crate::error::Error;
 
-/// For materials of the catalogue the tests of piola do the same.
-///
 /// Prints how near each rule came to its tolerance, or what is broken, and where.
 #[derive(Debug, Args)]
 pub(crate) struct Contract {
@@ -29,9 +27,7 @@ impl Contract {
         for inversion in std::iter::once(Inversion::Refuse).chain(inversions) {
             let spec = spec.clone().with_inversion(inversion);
             let material = spec.build()?.name;
-            let interpreted =
-                spec.interpreted()?.ok_or_else(|| Error::OfTheCatalogue(material.to_string()))?;
-            let report = check(&interpreted, &Settings::default())
+            let report = check(&spec.interpreted()?, &Settings::default())
                 .map_err(|violations| Error::Contract { material: material.to_string(), violations })?;
             text += &match inversion {
                 Inversion::Refuse => format!("{material} keeps the contract\n"),

@@ -129,15 +129,6 @@ pub enum Error {
         /// The rules that it breaks.
         violations: Violations,
     },
-    /// A material of the catalogue is to be checked, which its own tests do.
-    #[error(
-        "{0} is of the catalogue, whose materials are checked by `cargo test -p piola-tests --test contract`; give a file of \
-         Rust, or --energy"
-    )]
-    OfTheCatalogue(
-        /// Name of the material.
-        String,
-    ),
     /// There is no state to go back to.
     #[error("no state has been saved yet")]
     NothingSaved,

@@ -50,7 +50,7 @@ pub fn main() -> ExitCode {
     let result = match command {
         Command::Run(arguments) => play(*arguments),
         Command::View(arguments) => serve(*arguments).map(|()| ExitCode::SUCCESS),
-        Command::Materials => say(materials::pages()),
+        Command::Materials => materials::pages().map_err(Error::from).and_then(say),
         Command::Curve(curve) => curve.run().and_then(say),
         Command::Fit(fit) => fit.run().and_then(say),
         Command::Check(check) => check.run().and_then(say),

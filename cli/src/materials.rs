@@ -2,17 +2,23 @@
 //! material.
 
 use piola::material::Description;
-use piola_materials::{CATALOGUE, Entry};
+use piola_materials::DECLARATIONS;
+use piola_scenes::error::Error;
+use piola_scenes::material::MaterialSpec;
+use rayon::prelude::*;
 
 /// A page for each material of the catalogue, separated by blank lines.
-pub(crate) fn pages() -> String {
-    CATALOGUE.iter().map(page).collect::<Vec<_>>().join("\n")
+pub(crate) fn pages() -> Result<String, Error> {
+    let pages: Vec<_> =
+        DECLARATIONS.par_iter().map(|declaration| page(declaration.name)).collect::<Result<_, _>>()?;
+    Ok(pages.join("\n"))
 }
 
-fn page(entry: &Entry) -> String {
+fn page(name: &str) -> Result<String, Error> {
+    let material = MaterialSpec::typical(name)?;
     let Description { summary, formula, parameters, domain, extends, refusal, admissible, moduli, .. } =
-        &entry.description;
-    let mut text = format!("{}\n  {summary}\n  ψ = {formula}\n", entry.name);
+        material.description()?;
+    let mut text = format!("{name}\n  {summary}\n  ψ = {formula}\n");
     for parameter in parameters.iter() {
         let list = if parameter.is_list() { " One for each term." } else { "" };
         text += &format!("  {:12} {}{list}\n", parameter.name, parameter.doc);
@@ -20,8 +26,8 @@ fn page(entry: &Entry) -> String {
     if !admissible.is_empty() {
         text += &format!("  admissible   {}\n", admissible.join(", "));
     }
-    let typical = parameters.iter().zip(entry.typical()).map(|(parameter, values)| {
-        let values: Vec<_> = values.iter().map(f64::to_string).collect();
+    let typical = parameters.iter().map(|parameter| {
+        let values: Vec<_> = material.values_of(&parameter.name).iter().map(f64::to_string).collect();
         format!("{}={}", parameter.name, values.join(","))
     });
     text += &format!("  typical      {}\n", typical.collect::<Vec<_>>().join(" "));
@@ -30,5 +36,7 @@ fn page(entry: &Entry) -> String {
         Some(reason) => format!(", not extended: {reason}"),
         None => String::new(),
     };
-    text + &format!("  domain       {domain}{beyond}\n  small strain μ = {}, λ = {}\n", moduli[0], moduli[1])
+    text += &format!("  domain       {domain}{beyond}\n");
+    text += &format!("  small strain μ = {}, λ = {}\n", moduli[0], moduli[1]);
+    Ok(text)
 }

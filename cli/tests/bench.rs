@@ -115,7 +115,7 @@ fn rubbers_are_ranked_and_those_without_a_fit_named() {
     let (failed, ranked): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.get(1) == Some(&"not"));
     let refused = failed.iter().find(|row| row[0] == "ogden").expect("6 parameters, 5 points");
     assert!(refused.join(" ").contains("5 points cannot determine 6 parameters"), "{text}");
-    assert_eq!(rows.len(), piola_materials::CATALOGUE.iter().filter(|entry| entry.is_rubber).count());
+    assert_eq!(rows.len(), piola_materials::DECLARATIONS.iter().filter(|rubber| rubber.is_rubber).count());
 
     let number = |row: &[&str], column: usize| row[column].parse::<f64>().expect("a number");
     assert!(

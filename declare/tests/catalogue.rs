@@ -1,14 +1,12 @@
 //! Energies declared at run time beside those that the compiler has made of the same declarations: equal
 //! results, bit by bit.
 //!
-//! Every energy of the catalogue is read from its own source file. Batches are compared in `f64` on every
+//! Every energy of the catalogue is read from its own declaration. Batches are compared in `f64` on every
 //! back end, and in `f32` those of energies with all kinds of operations; single points in `f64`, all
 //! responses of them. Deformation gradients are arbitrary patterns of bits, so that the ends of the formats
 //! take part.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
-
-use std::path::Path;
 
 use piola::batch::{Batch, Stages, TileMaterial};
 use piola::interpreter::Interpreted;
@@ -19,8 +17,8 @@ use piola::random::Random;
 use piola::{Inversion, Real, Status, StatusCell};
 use piola_declare::Energy;
 use piola_materials::{
-    ArrudaBoyce, CATALOGUE, Entry, FittableVisitor, Gent, NeoHookean, Ogden, RotatedLinear, StretchSpline,
-    Visitor,
+    ArrudaBoyce, CATALOGUE, DECLARATIONS, Entry, FittableVisitor, Gent, NeoHookean, Ogden, RotatedLinear,
+    StretchSpline, Visitor,
 };
 
 const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
@@ -28,11 +26,10 @@ const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsil
 /// Points of a batch: three tiles, the last of them not full.
 const POINTS: usize = 150;
 
-/// The energy of a file of the catalogue, compiled at run time.
+/// The energy of a declaration of the catalogue, compiled at run time.
 fn declared(name: &str) -> Energy {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../materials/src").join(format!("{name}.rs"));
-    let text = std::fs::read_to_string(&path).expect("a file of the catalogue");
-    Energy::from_rust(&text).unwrap_or_else(|mistakes| panic!("{}: {mistakes}", path.display()))
+    let declaration = DECLARATIONS.iter().find(|known| known.name == name).expect("a name of the catalogue");
+    Energy::from_rust(declaration.source).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"))
 }
 
 /// The energies of the catalogue with their ways of inversion.
@@ -289,6 +286,15 @@ fn fits_have_the_numbers_of_the_compiled_catalogue() {
                 );
             }
         }
+    }
+}
+
+/// Programs that take an energy from its declaration describe it as those that have it compiled.
+#[test]
+fn descriptions_are_those_of_the_compiled_catalogue() {
+    assert_eq!(CATALOGUE.len(), DECLARATIONS.len());
+    for entry in CATALOGUE {
+        assert_eq!(*declared(entry.name).description(), entry.description);
     }
 }
 

@@ -4,9 +4,24 @@ use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
 
+#[cfg(doc)]
+use crate::DECLARATIONS;
 use crate::{CATALOGUE, Kind};
 
-/// An energy of the catalogue, from [`CATALOGUE`] or [`find`].
+/// The text of an energy of the catalogue, from [`DECLARATIONS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Declaration {
+    /// The name by which the energy is chosen, such as `neo_hookean`.
+    pub name: &'static str,
+    /// Whether it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
+    /// be fitted to tests of others.
+    pub is_rubber: bool,
+    /// The declaration, as `piola_declare::Energy::from_rust` takes it.
+    pub source: &'static str,
+}
+
+/// A compiled energy, from [`CATALOGUE`] or [`find`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Entry {
@@ -14,11 +29,6 @@ pub struct Entry {
     pub name: &'static str,
     /// Formula, parameters, domain.
     pub description: Description,
-    /// Whether it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
-    /// be fitted to tests of others.
-    pub is_rubber: bool,
-    /// The declaration, as `piola_declare::Energy::from_rust` takes it.
-    pub source: &'static str,
     pub(crate) kind: Kind,
 }
 
@@ -52,6 +62,16 @@ macro_rules! catalogue {
             pub use $module::$Material;
         )+
 
+        /// The declarations of all energies in the order of their names, those of features that are off too:
+        /// `piola_declare` makes energies of them at run time.
+        pub static DECLARATIONS: &[Declaration] = &[$(
+            Declaration {
+                name: stringify!($module),
+                is_rubber: catalogue!(@is $($rubber)?),
+                source: include_str!(concat!(stringify!($module), ".rs")),
+            },
+        )+];
+
         /// The energies of the features that are on, in the order of their names.
         ///
         /// | name | type | feature |
@@ -65,8 +85,6 @@ macro_rules! catalogue {
             Entry {
                 name: stringify!($module),
                 description: catalogue!(@description $Material $($($length)+)?),
-                is_rubber: catalogue!(@is $($rubber)?),
-                source: include_str!(concat!(stringify!($module), ".rs")),
                 kind: Kind::$Material,
             },
         )+];

@@ -27,6 +27,9 @@
 //! piola-materials = { version = "0.1", default-features = false, features = ["neo-hookean"] }
 //! ```
 //!
+//! The texts of all declarations are in [`DECLARATIONS`], whichever features are on: the crate
+//! `piola-declare` makes energies of them at run time, with the bits of compiled ones.
+//!
 //! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend);
 //! some only for parameters with which the extension restores, as each says. A point of one that extends
 //! comes back from every inverted or collapsed state that was tried if ε is small enough for how
@@ -49,7 +52,8 @@
 mod catalogue;
 mod matching;
 
-pub use catalogue::{Entry, FittableVisitor, Visitor, find};
+pub use catalogue::{Declaration, Entry, FittableVisitor, Visitor, find};
+pub use matching::matching;
 
 use catalogue::catalogue;
 

@@ -1,7 +1,7 @@
 //! Parameters for given small-strain moduli.
 
 use piola::Inversion;
-use piola::material::{MaterialError, Moduli};
+use piola::material::{Description, MaterialError, Moduli, Parameter};
 
 use crate::Entry;
 
@@ -10,12 +10,7 @@ use crate::Entry;
 const ROUNDING: f64 = 1e-12;
 
 impl Entry {
-    /// The typical parameters, rescaled to these small-strain moduli.
-    ///
-    /// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is
-    /// one and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for
-    /// Young's modulus. An energy is proportional to these together, so that its shape, exponents and limits
-    /// included, stays that of the typical material.
+    /// The typical parameters, rescaled to these small-strain moduli: [`matching`].
     ///
     /// ```
     /// use piola::Inversion;
@@ -34,40 +29,69 @@ impl Entry {
     /// # Errors
     /// [`MaterialError`] if the material refuses the parameters, as for moduli that are not positive.
     pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, MaterialError> {
-        let typical: Vec<Vec<f64>> = self.typical().iter().map(|values| values.to_vec()).collect();
-        let values = self.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);
-        let factor = wanted.young() / self.moduli_of(&values)?.young();
-        let values = self.description.parameters.iter().zip(values).map(|(parameter, mut values)| {
-            parameter.rescale(&mut values, factor);
-            values
-        });
-        let values: Vec<_> = values.collect();
-        self.moduli_of(&values)?;
-        Ok(values)
+        matching(&self.description, |values| self.moduli(values, Inversion::Refuse), wanted)
     }
+}
 
+/// The typical parameters of a declaration, rescaled to the small-strain moduli `wanted`; `moduli` are those
+/// of the material with the values of its parameters, one slice for each.
+///
+/// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is one
+/// and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for Young's
+/// modulus. An energy is proportional to these together, so that its shape, exponents and limits included,
+/// stays that of the typical material.
+///
+/// # Errors
+/// [`MaterialError`] if the material refuses the parameters, as for moduli that are not positive, or because
+/// no typical ones are declared.
+pub fn matching(
+    description: &Description,
+    moduli: impl Fn(&[&[f64]]) -> Result<Moduli, MaterialError>,
+    wanted: Moduli,
+) -> Result<Vec<Vec<f64>>, MaterialError> {
+    let solid = Solid { parameters: &description.parameters, moduli };
+    let typical = description.typical.iter().flat_map(|typical| typical.values.iter());
+    let typical: Vec<Vec<f64>> = typical.map(|values| values.to_vec()).collect();
+    let values = solid.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);
+    let factor = wanted.young() / solid.moduli(&values)?.young();
+    let values = description.parameters.iter().zip(values).map(|(parameter, mut values)| {
+        parameter.rescale(&mut values, factor);
+        values
+    });
+    let values: Vec<_> = values.collect();
+    solid.moduli(&values)?;
+    Ok(values)
+}
+
+/// A solid of any parameters.
+struct Solid<'a, F> {
+    parameters: &'a [Parameter],
+    moduli: F,
+}
+
+impl<F: Fn(&[&[f64]]) -> Result<Moduli, MaterialError>> Solid<'_, F> {
     /// These parameters with a ratio λ/μ, if one of them alone can bring it about.
     fn with_ratio(&self, values: &[Vec<f64>], ratio: f64) -> Option<Vec<Vec<f64>>> {
-        let before = self.moduli_of(values).ok()?;
+        let before = self.moduli(values).ok()?;
         let with = |index: usize, factor: f64| {
             let mut values = values.to_vec();
-            self.description.parameters[index].rescale(&mut values[index], factor);
+            self.parameters[index].rescale(&mut values[index], factor);
             values
         };
         (0..values.len()).find_map(|index| {
-            let doubled = self.moduli_of(&with(index, 2.0)).ok()?;
+            let doubled = self.moduli(&with(index, 2.0)).ok()?;
             if (doubled.mu - before.mu).abs() > ROUNDING * before.mu || doubled.lambda == before.lambda {
                 return None;
             }
             // The moduli are linear in the stresses.
             let factor = 1.0 + (ratio * before.mu - before.lambda) / (doubled.lambda - before.lambda);
             let values = with(index, factor);
-            (factor > 0.0 && self.moduli_of(&values).is_ok()).then_some(values)
+            (factor > 0.0 && self.moduli(&values).is_ok()).then_some(values)
         })
     }
 
-    fn moduli_of(&self, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
+    fn moduli(&self, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        self.moduli(&values, Inversion::Refuse)
+        (self.moduli)(&values)
     }
 }

@@ -1,4 +1,4 @@
-//! Materials of bodies, chosen by name. No other file here knows the catalogue.
+//! Materials of bodies, chosen by name. No other file here but `origin` knows the catalogue.
 //!
 //! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
 //! for incompressible rubberlike solids*, 1972.
@@ -12,7 +12,7 @@ use piola::material::{Description, MaterialError, Moduli, Text};
 use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
-use piola_materials::{CATALOGUE, Entry};
+use piola_materials::DECLARATIONS;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -96,8 +96,8 @@ impl MaterialSpec {
     }
 
     /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
-    /// catalogue, [matched](Entry::matching). A parameter that is given later on replaces them all, so that
-    /// the others must be given, too.
+    /// catalogue, [matched](piola_materials::matching). A parameter that is given later on replaces them all,
+    /// so that the others must be given, too.
     #[must_use]
     pub fn matching(material: &str, moduli: Moduli) -> Self {
         match same_name(material, "Ogden") {
@@ -138,10 +138,11 @@ impl MaterialSpec {
     /// # Errors
     /// [`Error::UnknownMaterial`].
     pub fn typical(material: &str) -> Result<Self, Error> {
-        let entry = find(material)?;
-        let parameters = entry.description.parameters.iter().zip(entry.typical());
-        Ok(parameters.fold(Self::new(entry.name), |spec, (parameter, values)| {
-            spec.with_parameter(&parameter.name, values)
+        let origin = find(material)?;
+        let Description { parameters, typical, .. } = origin.description();
+        let values = typical.iter().flat_map(|typical| typical.values.iter());
+        Ok(parameters.iter().zip(values).fold(Self::new(&origin.name()), |spec, (parameter, values)| {
+            spec.with_parameter(&parameter.name, &**values)
         }))
     }
 
@@ -155,12 +156,10 @@ impl MaterialSpec {
         Ok(Self { parameters, lame: None, ..self.clone() })
     }
 
-    /// Whether it is the material of a name, in either spelling of the catalogue.
+    /// Whether it is the material that the catalogue has under a name, in any spelling.
     #[must_use]
     pub fn is(&self, material: &str) -> bool {
-        self.energy.is_none()
-            && find(&self.material)
-                .is_ok_and(|entry| find(material).is_ok_and(|other| std::ptr::eq(entry, other)))
+        self.energy.is_none() && same_name(&self.material, material)
     }
 
     /// The declaration of the material in words.
@@ -170,7 +169,7 @@ impl MaterialSpec {
     pub fn description(&self) -> Result<&Description, Error> {
         match &self.energy {
             Some(energy) => Ok(energy.description()),
-            None => find(&self.material).map(|entry| &entry.description),
+            None => find(&self.material).map(|origin| origin.description()),
         }
     }
 
@@ -206,11 +205,12 @@ impl MaterialSpec {
         self.resolve(|origin, values, inversion| origin.specimen(values, inversion))
     }
 
-    /// The material itself, if its energy was declared at run time.
+    /// The material as a program, also in `f32`; the material that is [built](Self::build) may be compiled
+    /// and has the same bits.
     ///
     /// # Errors
     /// Like [`MaterialSpec::build`].
-    pub fn interpreted(&self) -> Result<Option<Interpreted>, Error> {
+    pub fn interpreted(&self) -> Result<Interpreted, Error> {
         self.resolve(|origin, values, inversion| origin.interpreted(values, inversion))
     }
 
@@ -230,13 +230,15 @@ impl MaterialSpec {
     ) -> Result<T, Error> {
         let origin = match &self.energy {
             Some(energy) => Origin::Declared(energy),
-            None => Origin::Catalogue(find(&self.material)?),
+            None => find(&self.material)?,
         };
         let refused = |source| Error::Inadmissible { material: origin.name(), source };
         let matched;
-        let values = match (self.lame, &origin) {
-            (Some([mu, lambda]), Origin::Catalogue(entry)) if self.parameters.is_empty() => {
-                matched = entry.matching(Moduli { mu, lambda }).map_err(refused)?;
+        let values = match self.lame {
+            Some([mu, lambda]) if self.parameters.is_empty() => {
+                let moduli = |values: &[&[f64]]| origin.moduli(values, Inversion::Refuse);
+                let wanted = Moduli { mu, lambda };
+                matched = piola_materials::matching(origin.description(), moduli, wanted).map_err(refused)?;
                 matched.iter().map(Vec::as_slice).collect()
             }
             _ => self.values(origin.name(), origin.description())?,
@@ -295,17 +297,14 @@ pub struct MaterialInfo {
 
 /// Names of all materials of the catalogue.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
-    CATALOGUE.iter().map(|entry| entry.name)
+    DECLARATIONS.iter().map(|declaration| declaration.name)
 }
 
-/// The entry of a name, in the catalogue's spelling or that of the declaration.
-fn find(material: &str) -> Result<&'static Entry, Error> {
-    let matches =
-        |entry: &&Entry| same_name(entry.name, material) || same_name(&entry.description.name, material);
-    CATALOGUE.iter().find(matches).ok_or_else(|| Error::UnknownMaterial {
-        name: material.into(),
-        known: names().map(Text::from).collect(),
-    })
+/// The energy that the catalogue has under a name, in any spelling.
+fn find(material: &str) -> Result<Origin<'static>, Error> {
+    let unknown =
+        || Error::UnknownMaterial { name: material.into(), known: names().map(Text::from).collect() };
+    Origin::in_catalogue(material).ok_or_else(unknown)
 }
 
 /// Whether two names agree in letters and digits, ignoring case.

@@ -1,11 +1,10 @@
 //! Energies: of the catalogue, or declared in a text.
 
 use std::ffi::{CString, c_char};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use piola::interpreter::Interpreted;
 use piola::material::{Description, Unit};
-use piola_materials::CATALOGUE;
+use piola_materials::DECLARATIONS;
 use piola_scenes::material::MaterialSpec;
 
 use crate::error::{Code, Failure, c_string, guard};
@@ -13,39 +12,8 @@ use crate::{handle, lent};
 
 /// An elastic energy without values for its parameters. Immutable: threads may share it.
 pub struct Energy {
-    pub(crate) source: Arc<Source>,
-    description: Texts,
-}
-
-/// What materials are made of.
-pub(crate) struct Source {
-    /// The energy without values.
     pub(crate) spec: MaterialSpec,
-    /// The declaration, of an energy of the catalogue.
-    text: &'static str,
-    /// The same without values but typical ones, to be interpreted.
-    declared: OnceLock<MaterialSpec>,
-}
-
-impl Source {
-    /// A material that is interpreted, for what no compiled one serves.
-    pub(crate) fn interpreted(
-        &self,
-        with_values: impl FnOnce(&MaterialSpec) -> MaterialSpec,
-    ) -> Result<Interpreted, Failure> {
-        let declared = match self.declared.get() {
-            Some(declared) => declared,
-            None => {
-                let energy = match self.spec.energy() {
-                    Some(energy) => energy.clone(),
-                    None => piola_declare::Energy::from_rust(self.text)?,
-                };
-                self.declared.get_or_init(|| MaterialSpec::declared(energy))
-            }
-        };
-        let material = with_values(declared).interpreted()?;
-        material.ok_or_else(|| Failure::new(Code::Panic, "an energy that was declared is not interpreted"))
-    }
+    description: Texts,
 }
 
 /// The notation of a declaration.
@@ -176,7 +144,7 @@ impl Texts {
 pub unsafe extern "C" fn piola_catalogue_name(index: usize, name: *mut *const c_char) -> Code {
     static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
     guard(|| {
-        let names = NAMES.get_or_init(|| CATALOGUE.iter().map(|entry| c_string(entry.name)).collect());
+        let names = NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
         let found = names.get(index).map_or(std::ptr::null(), |name| name.as_ptr());
         // SAFETY: there is room for a pointer.
         unsafe { lent::report("name", name, found) }?;
@@ -200,11 +168,10 @@ pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *m
             let name = lent::text("name", name)?;
             handle::give("energy", energy, || {
                 let spec = MaterialSpec::new(name);
-                let description = spec.description()?;
-                let entry = CATALOGUE.iter().find(|entry| std::ptr::eq(&entry.description, description));
-                let (name, text) = entry.map_or((name, ""), |entry| (entry.name, entry.source));
-                let description = Texts::new(name, description);
-                Ok(Energy { source: Arc::new(Source { spec, text, declared: OnceLock::new() }), description })
+                let known = DECLARATIONS.iter().map(|declaration| declaration.name);
+                let name = known.into_iter().find(|known| spec.is(known)).unwrap_or(name);
+                let description = Texts::new(name, spec.description()?);
+                Ok(Energy { spec, description })
             })
         }
     })
@@ -231,9 +198,7 @@ pub unsafe extern "C" fn piola_energy_declared(
                     Notation::Formula => piola_declare::Energy::from_formula(text),
                 }?;
                 let description = Texts::new(&declared.description().name, declared.description());
-                let spec = MaterialSpec::declared(declared);
-                let source = Source { spec, text: "", declared: OnceLock::new() };
-                Ok(Energy { source: Arc::new(source), description })
+                Ok(Energy { spec: MaterialSpec::declared(declared), description })
             })
         }
     })

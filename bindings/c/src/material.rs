@@ -1,15 +1,15 @@
 //! Materials: energies with values for their parameters.
 
 use std::ffi::c_char;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use piola::Inversion;
 use piola::batch::{Stages, TileMaterial};
 use piola::interpreter::Interpreted;
-use piola::material::{Moduli, PerElement, Text};
-use piola_scenes::material::{MaterialInfo, MaterialSpec, Parameters};
+use piola::material::{Moduli, PerElement};
+use piola_scenes::material::{MaterialInfo, MaterialSpec};
 
-use crate::energy::{Energy, Source};
+use crate::energy::Energy;
 use crate::error::{Code, Failure, guard};
 use crate::lent::{Arrays, Plain, plain};
 use crate::{handle, lent};
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn piola_material_new(
             let parameters = arrays.input("parameters", parameters, parameter_count)?;
             let given = |parameter| Given::new(parameter, points);
             let given = parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
-            handle::give("material", material, || Material::new(&energy.source, &given, extension, points))
+            handle::give("material", material, || Material::new(&energy.spec, &given, extension, points))
         }
     })
 }
@@ -171,39 +171,28 @@ enum Kind {
     Uniform {
         spec: MaterialSpec,
         elements: Box<dyn TileMaterial<f64>>,
-        values: Values,
+        /// The material as a program, from when single precision is first asked for.
         interpreted: OnceLock<Interpreted>,
     },
     /// One for each point.
     Varied(PerElement<Interpreted>),
 }
 
-/// What a material is made of.
-struct Values {
-    source: Arc<Source>,
-    parameters: Parameters,
-    extension: f64,
-}
-
 impl Material {
     fn new(
-        source: &Arc<Source>,
+        energy: &MaterialSpec,
         given: &[Given<'_>],
         extension: f64,
         points: usize,
     ) -> Result<Self, Failure> {
-        let with_values =
-            |spec: &MaterialSpec, point| at(with_extension(spec.clone(), extension), given, point);
-        // Names and missing values are judged here: what is interpreted has typical ones.
-        let spec = with_values(&source.spec, 0);
+        let energy = with_extension(energy.clone(), extension);
+        let spec = at(energy.clone(), given, 0);
         let info = spec.build().map_err(|error| of_point(error.into(), 0, points))?;
-        let MaterialInfo { parameters, elements, moduli, .. } = info;
+        let MaterialInfo { elements, moduli, .. } = info;
         let kind = if points == 0 {
-            let values = Values { source: source.clone(), parameters, extension };
-            Kind::Uniform { spec, elements, values, interpreted: OnceLock::new() }
+            Kind::Uniform { spec, elements, interpreted: OnceLock::new() }
         } else {
-            let material = |point| source.interpreted(|spec| with_values(spec, point));
-            Kind::Varied(varied(points, material)?)
+            Kind::Varied(varied(points, |point| Ok(at(energy.clone(), given, point).interpreted()?))?)
         };
         Ok(Self { moduli, kind })
     }
@@ -213,17 +202,6 @@ impl Material {
         Ok(match &self.kind {
             Kind::Uniform { spec, .. } => spec.build()?.elements,
             Kind::Varied(materials) => Box::new(materials.clone()),
-        })
-    }
-}
-
-impl Values {
-    fn interpreted(&self) -> Result<Interpreted, Failure> {
-        self.source.interpreted(|spec| {
-            let with_value = |spec: MaterialSpec, (name, values): (&Text, &Vec<f64>)| {
-                spec.with_parameter(name, values.as_slice())
-            };
-            self.parameters.iter().fold(with_extension(spec.clone(), self.extension), with_value)
         })
     }
 }
@@ -246,10 +224,10 @@ impl Precision for f64 {
 impl Precision for f32 {
     fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure> {
         Ok(match &material.kind {
-            Kind::Uniform { values, interpreted, .. } => match interpreted.get() {
+            Kind::Uniform { spec, interpreted, .. } => match interpreted.get() {
                 Some(material) => material,
                 None => {
-                    let material = values.interpreted()?;
+                    let material = spec.interpreted()?;
                     interpreted.get_or_init(|| material)
                 }
             },

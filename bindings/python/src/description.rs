@@ -1,7 +1,7 @@
 //! Declarations in words.
 
 use piola::material::{self, Unit};
-use piola_materials::CATALOGUE;
+use piola_materials::DECLARATIONS;
 use piola_scenes::material::MaterialSpec;
 use pyo3::prelude::*;
 
@@ -96,7 +96,7 @@ impl Description {
 /// The names of all energies of the catalogue.
 #[pyfunction]
 pub(crate) fn catalogue() -> Vec<&'static str> {
-    CATALOGUE.iter().map(|entry| entry.name).collect()
+    DECLARATIONS.iter().map(|declaration| declaration.name).collect()
 }
 
 /// An energy of the catalogue in words. Raises MaterialError for a name that is not there.

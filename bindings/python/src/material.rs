@@ -6,7 +6,7 @@ use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
 use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
-use piola::material::{MaterialError as Refused, Moduli, Parameter, PerElement};
+use piola::material::{Moduli, Parameter, PerElement};
 use piola_declare::{Energy, FormulaOptions};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
@@ -76,7 +76,6 @@ impl Material {
 
     /// A material for each point.
     fn varied(self, varying: &[Varying]) -> PyResult<Self> {
-        let energy = self.declaration()?;
         let points = varying[0].values.len();
         if let Some(other) = varying.iter().find(|other| other.values.len() != points) {
             let (first, name) = (&self.values[varying[0].parameter].0, &self.values[other.parameter].0);
@@ -86,12 +85,12 @@ impl Material {
             )));
         }
         let material = |point: usize| {
-            let mut values: Vec<&[f64]> = self.values.iter().map(|(_, values)| values.as_slice()).collect();
-            for Varying { parameter, values: each } in varying {
-                values[*parameter] = &each[point..=point];
-            }
-            let refused = |error: Refused| MaterialError::new_err(format!("point {point} (from 0): {error}"));
-            energy.material(&values, self.inversion).map_err(refused)
+            let at_point = |spec: MaterialSpec, Varying { parameter, values }: &Varying| {
+                spec.with_parameter(&self.values[*parameter].0, [values[point]])
+            };
+            let spec = varying.iter().fold(self.spec.clone(), at_point);
+            let refused = |error| MaterialError::new_err(format!("point {point} (from 0): {error}"));
+            spec.interpreted().map_err(refused)
         };
         let materials: Vec<_> = (0..points).map(material).collect::<PyResult<_>>()?;
         let each = PerElement::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?;
@@ -131,20 +130,9 @@ impl Material {
         Ok(self.single.get_or_init(|| single))
     }
 
-    /// The energy as a program: that of the text, or of the catalogue's declaration, which gives the same
-    /// bits.
-    fn declaration(&self) -> PyResult<Energy> {
-        if let Some(energy) = self.spec.energy() {
-            return Ok(energy.clone());
-        }
-        let source = piola_materials::find(&self.name).map_or("", |entry| entry.source);
-        Energy::from_rust(source).map_err(of_text)
-    }
-
     /// The material as a program.
     pub(crate) fn interpreted(&self) -> PyResult<Interpreted> {
-        let values: Vec<&[f64]> = self.values.iter().map(|(_, values)| values.as_slice()).collect();
-        self.declaration()?.material(&values, self.inversion).map_err(of_parameters)
+        self.spec.interpreted().map_err(of_material)
     }
 
     /// The material with other values, in the order of the declaration.

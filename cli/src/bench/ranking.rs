@@ -7,7 +7,7 @@ use piola_laboratory::chart;
 use piola_laboratory::curve::Mode;
 use piola_laboratory::fit::{Difference, FitSettings};
 use piola_laboratory::ranking::{Contender, rank};
-use piola_materials::CATALOGUE;
+use piola_materials::DECLARATIONS;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
@@ -44,8 +44,8 @@ pub(super) fn run(file: &Path, svg: Option<&Path>) -> Result<String, Error> {
         let spec = MaterialSpec::typical(name)?.with_inversion(Inversion::Refuse);
         Ok(Contender { name: name.into(), candidate: spec.candidate()? })
     };
-    let rubbers = CATALOGUE.iter().filter(|entry| entry.is_rubber);
-    let contenders = rubbers.map(|entry| contender(entry.name)).collect::<Result<Vec<_>, _>>()?;
+    let rubbers = DECLARATIONS.iter().filter(|declaration| declaration.is_rubber);
+    let contenders = rubbers.map(|rubber| contender(rubber.name)).collect::<Result<Vec<_>, _>>()?;
     let ranking = rank(&contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
     let title = format!("rubbers, incompressible, fitted to {}", file.display());
     if let Some(svg) = svg {

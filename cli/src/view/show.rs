@@ -13,10 +13,11 @@ use std::collections::BTreeSet;
 use piola::material::Parameter;
 use piola::step::Energies;
 use piola_declare::{Energy, Mistake};
-use piola_materials::CATALOGUE;
+use piola_materials::DECLARATIONS;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
+use rayon::prelude::*;
 use serde_json::json;
 use tungstenite::{Bytes, Utf8Bytes};
 
@@ -103,7 +104,10 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
             "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
         })
     });
-    let materials = CATALOGUE.iter().map(|entry| (entry.name, &entry.description.summary));
+    let materials = DECLARATIONS.par_iter().filter_map(|known| {
+        let material = MaterialSpec::new(known.name);
+        material.description().ok().map(|description| (known.name, description.summary.clone()))
+    });
     let setup = json!({
         "scene": settings.scene.name,
         "about": settings.scene.about,
@@ -126,8 +130,8 @@ pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
 
 /// The text of the energy in use, as it is typed: for one of the catalogue the declaration in Rust.
 fn text(material: &MaterialSpec) -> &str {
-    let entry = || CATALOGUE.iter().find(|entry| material.is(entry.name));
-    let source = material.energy().map(Energy::text).or_else(|| entry().map(|entry| entry.source));
+    let known = || DECLARATIONS.iter().find(|known| material.is(known.name));
+    let source = material.energy().map(Energy::text).or_else(|| known().map(|known| known.source));
     let text = source.unwrap_or_default();
     // What the file says of itself, and what it imports, is not the energy.
     text.find("\n///").map_or(text, |begin| &text[begin + 1..])

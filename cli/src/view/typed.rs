@@ -103,8 +103,8 @@ mod tests {
 
     #[test]
     fn declarations_in_rust_are_known_by_their_function() {
-        let text = piola_materials::CATALOGUE.iter().find(|entry| entry.name == "gent").unwrap().source;
-        assert_eq!(typed(text, &[]).unwrap().values_of("jm"), [108.0]);
+        let gent = piola_materials::DECLARATIONS.iter().find(|known| known.name == "gent").unwrap();
+        assert_eq!(typed(gent.source, &[]).unwrap().values_of("jm"), [108.0]);
     }
 
     #[test]

@@ -21,7 +21,7 @@ fn a_vertex_is_dragged_and_comes_back() {
     page.wait("a reset", |page| page.frame() == 0);
     let rest = page.vertex(TAIL);
     assert_eq!(page.setup["scene"], "dinosaur");
-    assert_eq!(page.setup["materials"].as_array().map(Vec::len), Some(piola_materials::CATALOGUE.len()));
+    assert_eq!(page.setup["materials"].as_array().map(Vec::len), Some(piola_materials::DECLARATIONS.len()));
 
     // One body height to the side.
     let height = page.setup["bounds"][1][1].as_f64().expect("a height") as f32;

@@ -141,8 +141,10 @@ impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         // As many groups together as make a tile, or one after the other where there are few points.
-        match 64 / R::LANES {
-            _ if self.request.count <= 2 * R::LANES => self.by_groups::<R, 1>(),
+        if self.request.count <= 2 * R::LANES {
+            return self.by_groups::<R, 1>();
+        }
+        match R::GROUPS {
             4 => self.by_groups::<R, 4>(),
             8 => self.by_groups::<R, 8>(),
             16 => self.by_groups::<R, 16>(),
@@ -150,6 +152,14 @@ impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
         }
     }
 }
+
+/// Lanes as parts of a tile.
+trait Part: Lanes {
+    /// How many make a tile: a constant by itself, so that the compiler forgets the other numbers at once.
+    const GROUPS: usize = 64 / Self::LANES;
+}
+
+impl<R: Lanes> Part for R {}
 
 impl<E: Scalar> Tile<'_, '_, E> {
     /// Executes the program for G groups of lanes at a time.

@@ -1,4 +1,6 @@
-//! Where a material's energy is from, the catalogue or text, and what is made of both alike.
+//! Where a material's energy is from, the compiler or text, and what is made of both alike.
+
+use std::sync::{LazyLock, OnceLock};
 
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
@@ -7,29 +9,56 @@ use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
-use piola_materials::{Entry, FittableVisitor, Visitor};
+use piola_materials::{DECLARATIONS, Declaration, Entry, FittableVisitor, Visitor};
+
+use super::same_name;
+
+/// An energy of the catalogue.
+pub(super) struct Known {
+    declaration: &'static Declaration,
+    /// The compiled energy, if the program was built with it.
+    compiled: Option<&'static Entry>,
+    /// The energy declared at run time, from when it is first asked for.
+    energy: OnceLock<Energy>,
+}
+
+static CATALOGUE: LazyLock<Vec<Known>> = LazyLock::new(|| {
+    let known = |declaration: &'static Declaration| Known {
+        declaration,
+        compiled: piola_materials::find(declaration.name),
+        energy: OnceLock::new(),
+    };
+    DECLARATIONS.iter().map(known).collect()
+});
 
 /// The origin of an energy.
 pub(super) enum Origin<'a> {
-    /// An energy that was compiled.
-    Catalogue(&'static Entry),
-    /// An energy that was declared at run time.
+    /// An energy of the catalogue.
+    Catalogue(&'static Known),
+    /// An energy that the user has declared.
     Declared(&'a Energy),
 }
 
-impl Origin<'_> {
+impl Origin<'static> {
+    /// The energy that the catalogue has under a name, in any spelling.
+    pub(super) fn in_catalogue(name: &str) -> Option<Self> {
+        CATALOGUE.iter().find(|known| same_name(known.declaration.name, name)).map(Self::Catalogue)
+    }
+}
+
+impl<'a> Origin<'a> {
     /// The name by which the material is known.
     pub(super) fn name(&self) -> Text {
         match self {
-            Self::Catalogue(entry) => entry.name.into(),
+            Self::Catalogue(known) => known.declaration.name.into(),
             Self::Declared(energy) => energy.description().name.clone(),
         }
     }
 
-    pub(super) fn description(&self) -> &Description {
-        match self {
-            Self::Catalogue(entry) => &entry.description,
-            Self::Declared(energy) => energy.description(),
+    pub(super) fn description(&self) -> &'a Description {
+        match self.compiled() {
+            Some(entry) => &entry.description,
+            None => self.energy().description(),
         }
     }
 
@@ -39,16 +68,16 @@ impl Origin<'_> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
-        match self {
-            Self::Catalogue(entry) => entry.elements(values, inversion),
-            Self::Declared(energy) => Ok(Box::new(energy.material(values, inversion)?)),
+        match self.compiled() {
+            Some(entry) => entry.elements(values, inversion),
+            None => Ok(Box::new(self.interpreted(values, inversion)?)),
         }
     }
 
     pub(super) fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, MaterialError> {
-        match self {
-            Self::Catalogue(entry) => entry.moduli(values, inversion),
-            Self::Declared(energy) => Ok(Moduli::of(&energy.material(values, inversion)?)),
+        match self.compiled() {
+            Some(entry) => entry.moduli(values, inversion),
+            None => Ok(Moduli::of(&self.interpreted(values, inversion)?)),
         }
     }
 
@@ -57,22 +86,19 @@ impl Origin<'_> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn Specimen>, MaterialError> {
-        match self {
-            Self::Catalogue(entry) => entry.visit(values, inversion, Boxed),
-            Self::Declared(energy) => Ok(Box::new(energy.material(values, inversion)?)),
+        match self.compiled() {
+            Some(entry) => entry.visit(values, inversion, Boxed),
+            None => Ok(Box::new(self.interpreted(values, inversion)?)),
         }
     }
 
-    /// The material itself, if it was declared at run time.
+    /// The material as a program, whether the compiler has made another of it or not.
     pub(super) fn interpreted(
         &self,
         values: &[&[f64]],
         inversion: Inversion,
-    ) -> Result<Option<Interpreted>, MaterialError> {
-        match self {
-            Self::Catalogue(_) => Ok(None),
-            Self::Declared(energy) => energy.material(values, inversion).map(Some),
-        }
+    ) -> Result<Interpreted, MaterialError> {
+        self.energy().material(values, inversion)
     }
 
     pub(super) fn candidate(
@@ -80,20 +106,39 @@ impl Origin<'_> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn Candidate>, MaterialError> {
+        if let Some(entry) = self.compiled() {
+            return entry.visit_fittable(values, inversion, Boxed);
+        }
+        let energy = self.energy();
+        if !energy.is_fittable() {
+            return Err(MaterialError::NotFittable { material: energy.description().name.clone() });
+        }
+        Ok(Box::new(Fitted { energy: energy.clone(), material: energy.material(values, inversion)? }))
+    }
+
+    fn compiled(&self) -> Option<&'static Entry> {
         match self {
-            Self::Catalogue(entry) => entry.visit_fittable(values, inversion, Boxed),
-            Self::Declared(energy) if !energy.is_fittable() => {
-                Err(MaterialError::NotFittable { material: self.name() })
+            Self::Catalogue(known) => known.compiled,
+            Self::Declared(_) => None,
+        }
+    }
+
+    /// The energy, to be interpreted.
+    ///
+    /// # Panics
+    /// If a declaration of the catalogue has a mistake; the tests of the catalogue compile them all.
+    fn energy(&self) -> &'a Energy {
+        match self {
+            Self::Catalogue(known) => {
+                let source = known.declaration.source;
+                known.energy.get_or_init(|| Energy::from_rust(source).expect("the catalogue has no mistake"))
             }
-            Self::Declared(energy) => {
-                let material = energy.material(values, inversion)?;
-                Ok(Box::new(Fitted { energy: (*energy).clone(), material }))
-            }
+            Self::Declared(energy) => energy,
         }
     }
 }
 
-/// A material behind a pointer, whichever of the catalogue it is.
+/// A compiled material behind a pointer.
 struct Boxed;
 
 impl Visitor for Boxed {

@@ -10,7 +10,7 @@ use piola::material::{Declared, MaterialError};
 use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
 use piola_declare::Energy;
-use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
 use piola_speed::{Effort, Task, Times, time_in_turns};
 
 use super::measure::{matrices, side_by_side};
@@ -24,7 +24,9 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
     let mut table = header(&["energy", "kernel", "instructions", "compiled", "typed", "typed / compiled"]);
     for entry in CATALOGUE.iter().filter(|entry| NAMES.contains(&entry.name)) {
         let values = entry.typical();
-        let energy = Energy::from_rust(entry.source).expect("a declaration of the catalogue");
+        let declaration = DECLARATIONS.iter().find(|known| known.name == entry.name);
+        let source = declaration.map_or("", |declaration| declaration.source);
+        let energy = Energy::from_rust(source).expect("a declaration of the catalogue");
         let typed = energy.material(&values, Inversion::Refuse)?;
         let compiled = entry.elements(&values, Inversion::Refuse)?;
         for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
