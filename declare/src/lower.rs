@@ -46,6 +46,8 @@ fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program>
         filled: BTreeMap::new(),
         registers,
         part: 0,
+        latest: None,
+        preparations: Vec::new(),
         program: Program {
             literals: Vec::new(),
             arguments: Vec::new(),
@@ -53,6 +55,7 @@ fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program>
             entries: Vec::new(),
             epsilon: None,
             operations: Vec::new(),
+            preparations: 0,
             loops: Vec::new(),
             results: Vec::new(),
             bounds: Vec::new(),
@@ -73,12 +76,14 @@ fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program>
         outputs[part] = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
     }
     let [results, bounds] = outputs;
+    let preparations = lowering.preparations.len();
+    lowering.program.operations.splice(..0, lowering.preparations);
     let constants = lowering.constants.len();
     let [numbers, _, logarithms, pairs] =
         lowering.registers.map(|registers| registers.first + registers.count);
     let sizes = Sizes { numbers, constants, logarithms, pairs };
     let most = numbers.max(logarithms).max(pairs);
-    (most <= MOST_REGISTERS).then_some(Program { results, bounds, sizes, ..lowering.program })
+    (most <= MOST_REGISTERS).then_some(Program { preparations, results, bounds, sizes, ..lowering.program })
 }
 
 /// A value of a part of the program, or a stretch, which an operation may read that does not name it.
@@ -227,6 +232,10 @@ struct Lowering<'a> {
     registers: [Registers; 4],
     /// The part of the program that is being lowered.
     part: usize,
+    /// The value of the last operation.
+    latest: Option<Name>,
+    /// Operations that compute constants.
+    preparations: Vec<Operation>,
     program: Program,
 }
 
@@ -297,11 +306,12 @@ impl Lowering<'_> {
 
     fn statement(&mut self, statement: &Statement, time: &mut usize) {
         match statement {
-            Statement::Let(value, op) => {
+            Statement::Let(value, op) if self.constants.contains(&self.named(*value)) => {
                 *time += 1;
                 let operation = self.operation(*value, op, *time);
-                self.program.operations.extend(operation);
+                self.preparations.extend(operation);
             }
+            Statement::Let(value, op) => self.step(*value, op, time),
             Statement::Loop { length, body, totals } => {
                 let parameters = &self.declaration.parameters;
                 let list = parameters.iter().position(|parameter| parameter.length() == Some(*length));
@@ -319,9 +329,7 @@ impl Lowering<'_> {
                 self.program.operations.push(Operation::Begin(place));
                 let begin = self.program.operations.len();
                 for (value, op) in body {
-                    *time += 1;
-                    let operation = self.operation(*value, op, *time);
-                    self.program.operations.extend(operation);
+                    self.step(*value, op, time);
                 }
                 let length = self.program.operations.len() - begin;
                 self.program.operations.push(Operation::End(place));
@@ -333,6 +341,21 @@ impl Lowering<'_> {
                 let over = self.places.keys().filter(is_over).copied().collect();
                 self.free(over);
             }
+        }
+    }
+
+    /// The next operation, which may become one with that before.
+    fn step(&mut self, value: Value, op: &Op, time: &mut usize) {
+        *time += 1;
+        let Some(operation) = self.operation(value, op, *time) else { return };
+        let before = self.latest.replace(self.named(value));
+        // A constant is computed once for all points, and stays apart.
+        let is_passed = |name: Name| self.lives.get(&name) == Some(time) && !self.constants.contains(&name);
+        let operations = &mut self.program.operations;
+        let last = operations.last_mut().filter(|_| before.is_some_and(is_passed));
+        match last.and_then(|last| Some((fused(*last, operation)?, last))) {
+            Some((both, last)) => *last = both,
+            None => operations.push(operation),
         }
     }
 
@@ -463,6 +486,44 @@ impl Registers {
         self.count += 1;
         Register::try_from(self.first + self.count - 1).unwrap_or(Register::MAX)
     }
+}
+
+/// Two operations that follow each other as one, if the second reads once what the first has computed, and
+/// nothing else does: that value then needs no register.
+fn fused(first: Operation, second: Operation) -> Option<Operation> {
+    let (Operation::Mul(passed, ..)
+    | Operation::MulMul(passed, _)
+    | Operation::MulAdd(passed, _)
+    | Operation::NegMulAdd(passed, _)) = first
+    else {
+        return None;
+    };
+    let factor = |x: Register, y: Register| match (x == passed, y == passed) {
+        (true, false) => Some(y),
+        (false, true) => Some(x),
+        _ => None,
+    };
+    let addend = |z: Register| Some(z).filter(|&z| z != passed);
+    Some(match (first, second) {
+        (Operation::Mul(_, a, b), Operation::Neg(to, _)) => Operation::NegMul(to, a, b),
+        (Operation::Mul(_, a, b), Operation::Mul(to, x, y)) => Operation::MulMul(to, [a, b, factor(x, y)?]),
+        (Operation::MulMul(_, [a, b, c]), Operation::Mul(to, x, y)) => {
+            Operation::MulMulMul(to, [a, b, c, factor(x, y)?])
+        }
+        (Operation::MulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
+            Operation::MulAddMul(to, [a, b, c, factor(x, y)?])
+        }
+        (Operation::NegMulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
+            Operation::NegMulAddMul(to, [a, b, c, factor(x, y)?])
+        }
+        (Operation::Mul(_, a, b), Operation::MulAdd(to, [x, y, z])) => {
+            Operation::MulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
+        }
+        (Operation::Mul(_, a, b), Operation::NegMulAdd(to, [x, y, z])) => {
+            Operation::NegMulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
+        }
+        _ => return None,
+    })
 }
 
 fn elementary(function: Function) -> Elementary {

@@ -289,6 +289,31 @@ fn fits_have_the_numbers_of_the_compiled_catalogue() {
     }
 }
 
+/// Constants stay in a thread's registers from one tile to the next: each material finds its own.
+#[test]
+fn materials_of_one_energy_do_not_mix_their_constants() {
+    let energy = declared("arruda_boyce");
+    let typical: Vec<Vec<f64>> = energy.typical().iter().map(|list| list.to_vec()).collect();
+    let scaled = |factor: f64| {
+        let values: Vec<Vec<f64>> = typical.iter().map(|list| vec![factor * list[0]]).collect();
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        energy.material(&values, Inversion::Refuse).expect("admissible")
+    };
+    let materials = [scaled(1.0), scaled(1.5)];
+    let F = deformations::<f64>(3);
+    let alone = materials.each_ref().map(|material| {
+        std::thread::scope(|scope| {
+            let stresses = scope.spawn(|| results::<f64>(material, Backend::best(), Filter::None, &F));
+            stresses.join().expect("no panic")
+        })
+    });
+    for k in [0, 1, 1, 0, 1] {
+        let found = results::<f64>(&materials[k], Backend::best(), Filter::None, &F);
+        check(&format!("material {k}"), &found.0, &alone[k].0);
+    }
+    assert!(alone[0].0.iter().zip(&alone[1].0).any(|(one, other)| one < other), "they differ");
+}
+
 /// Programs that take an energy from its declaration describe it as those that have it compiled.
 #[test]
 fn descriptions_are_those_of_the_compiled_catalogue() {

@@ -25,8 +25,20 @@ pub(super) struct Registers<R: Real> {
     numbers: Vec<R>,
     /// How many are for constants.
     constants: usize,
+    /// Whose constants these are.
+    prepared: Option<Prepared>,
     logarithms: Vec<R::Logarithm>,
     pairs: Vec<Pair<R>>,
+}
+
+/// The material and the program whose constants are in registers, and their places.
+#[derive(PartialEq)]
+struct Prepared {
+    /// The number of the material, which holds the program.
+    material: u64,
+    program: *const Program,
+    entry: usize,
+    groups: usize,
 }
 
 thread_local! {
@@ -42,8 +54,10 @@ impl<R: Real> Registers<R> {
             let place = all.iter().position(|one| one.is::<Self>())?;
             all.swap_remove(place).downcast::<Self>().ok()
         });
-        let none = || Self { numbers: Vec::new(), constants: 0, logarithms: Vec::new(), pairs: Vec::new() };
-        let mut registers = used.unwrap_or_else(|| Box::new(none()));
+        let mut registers = used.unwrap_or_else(|| {
+            let (numbers, logarithms, pairs) = (Vec::new(), Vec::new(), Vec::new());
+            Box::new(Self { numbers, constants: 0, prepared: None, logarithms, pairs })
+        });
         registers.constants = sizes.constants;
         let one = R::splat(1.0);
         let Self { numbers, logarithms, pairs, .. } = &mut *registers;
@@ -61,7 +75,19 @@ impl<R: Real> Registers<R> {
 
     /// All registers for numbers, one after the other.
     pub(super) fn numbers(&mut self) -> &mut [R] {
+        self.prepared = None;
         &mut self.numbers
+    }
+
+    /// Whether the constants of a program for so many groups are in their registers, which they are after it
+    /// has been executed.
+    fn prepare(&mut self, program: &Program, context: &Context<'_>, groups: usize) -> bool {
+        let &Context { parameters, entry, material, .. } = context;
+        let material = material.filter(|_| parameters.each.is_none());
+        let these = material.map(|material| Prepared { material, program, entry, groups });
+        let are_there = these.is_some() && self.prepared == these;
+        self.prepared = these;
+        are_there
     }
 
     /// The number in a register, where there is one group of points.
@@ -80,6 +106,8 @@ fn grow<T: Clone>(list: &mut Vec<T>, length: usize, entry: impl FnOnce() -> T) {
 /// Parameters, the entry of lists that a program reads outside of sums, and the threshold of an extension.
 #[derive(Clone, Copy)]
 pub(super) struct Context<'a> {
+    /// The number of the material, if the program is its own.
+    pub(super) material: Option<u64>,
     pub(super) parameters: Parameters<'a>,
     pub(super) entry: usize,
     pub(super) epsilon: f64,
@@ -95,11 +123,12 @@ pub(super) fn execute_alone<R: Real>(
     arguments: &[R],
     registers: &mut Registers<R>,
 ) {
+    let is_prepared = registers.prepare(program, &context, 1);
     let file = Files::<R, 1>::new(registers, &context.parameters);
     for &(register, k) in &program.arguments {
         file.number(register).set(0, arguments[k]);
     }
-    execute(program, context, &file);
+    execute(program, context, &file, is_prepared);
 }
 
 /// Arguments of a program at the points of a tile, and room for its results.
@@ -173,6 +202,7 @@ impl<E: Scalar> Tile<'_, '_, E> {
         let mut start = 0;
         while start < count {
             context.parameters.start = start;
+            let is_prepared = registers.prepare(program, &context, G);
             let file = Files::<R, G>::new(&mut registers, &context.parameters);
             for &(register, k) in &program.arguments {
                 let from = &arguments[k * stride + start..][..G * R::LANES];
@@ -181,7 +211,7 @@ impl<E: Scalar> Tile<'_, '_, E> {
                     to.set(group, R::load(&from[group * R::LANES..]));
                 }
             }
-            execute(program, context, &file);
+            execute(program, context, &file, is_prepared);
             for (k, &register) in program.results.iter().enumerate() {
                 if unread >> k & 1 == 1 {
                     continue;
@@ -210,24 +240,33 @@ impl<E: Scalar> Tile<'_, '_, E> {
     }
 }
 
-/// Executes a program whose arguments are in their registers, for G groups of points.
+/// Executes a program whose arguments are in their registers, and its constants if it is prepared, for G
+/// groups of points.
 #[inline(always)]
-fn execute<R: Real, const G: usize>(program: &Program, context: Context<'_>, file: &Files<'_, R, G>) {
-    let Context { ref parameters, mut entry, epsilon } = context;
-    for &(register, value) in &program.literals {
-        file.number(register).fill(R::splat(value));
-    }
-    if let Some(register) = program.epsilon {
-        file.number(register).fill(R::splat(epsilon));
-    }
-    for &(register, parameter) in &program.parameters {
-        file.load(register, parameters, parameter, 0);
-    }
-    for &(register, list) in &program.entries {
-        file.load(register, parameters, list, entry);
+fn execute<R: Real, const G: usize>(
+    program: &Program,
+    context: Context<'_>,
+    file: &Files<'_, R, G>,
+    is_prepared: bool,
+) {
+    let Context { ref parameters, mut entry, epsilon, .. } = context;
+    let mut next = program.preparations;
+    if !is_prepared {
+        next = 0;
+        for &(register, value) in &program.literals {
+            file.number(register).fill(R::splat(value));
+        }
+        if let Some(register) = program.epsilon {
+            file.number(register).fill(R::splat(epsilon));
+        }
+        for &(register, parameter) in &program.parameters {
+            file.load(register, parameters, parameter, 0);
+        }
+        for &(register, list) in &program.entries {
+            file.load(register, parameters, list, entry);
+        }
     }
     let outside = entry;
-    let mut next = 0;
     while let Some(operation) = program.operations.get(next) {
         next += 1;
         match *operation {
@@ -280,14 +319,20 @@ struct Files<'a, R: Real, const G: usize> {
 #[derive(Clone, Copy)]
 struct Numbers<'a, R, const G: usize> {
     cells: &'a [Cell<R>; G],
-    /// Whether the first cell stands for all.
-    is_constant: bool,
+    /// A mask for the index of a group, which it makes zero where the first cell stands for all. No
+    /// condition, for each of which the compiler would make another loop.
+    mask: usize,
 }
 
 impl<R: Real, const G: usize> Numbers<'_, R, G> {
     #[inline(always)]
+    fn is_constant(self) -> bool {
+        self.mask == 0
+    }
+
+    #[inline(always)]
     fn get(self, group: usize) -> R {
-        self.cells[if self.is_constant { 0 } else { group }].get()
+        self.cells[group & self.mask].get()
     }
 
     #[inline(always)]
@@ -298,7 +343,7 @@ impl<R: Real, const G: usize> Numbers<'_, R, G> {
     /// Sets all groups.
     #[inline(always)]
     fn fill(self, value: R) {
-        if self.is_constant {
+        if self.is_constant() {
             return self.set(0, value);
         }
         for group in 0..G {
@@ -321,7 +366,7 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     #[inline(always)]
     fn number(&self, register: Register) -> Numbers<'a, R, G> {
         let place = usize::from(register);
-        Numbers { cells: &self.numbers[place], is_constant: place < self.constants }
+        Numbers { cells: &self.numbers[place], mask: usize::from(place >= self.constants).wrapping_neg() }
     }
 
     #[inline(always)]
@@ -338,7 +383,7 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     #[inline(always)]
     fn load(&self, register: Register, parameters: &Parameters<'_>, parameter: usize, entry: usize) {
         let to = self.number(register);
-        if to.is_constant {
+        if to.is_constant() {
             return to.set(0, R::splat(parameters.some.number(parameter, entry)));
         }
         for group in 0..G {
@@ -422,14 +467,14 @@ fn compute<R: Real, const G: usize>(
         ($to:expr, [$($x:ident: $register:expr),+] $value:expr) => {{
             let to = file.number($to);
             $(let $x = file.number($register);)+
-            if to.is_constant {
+            if to.is_constant() {
                 to.set(0, { $(let $x = $x.get(0);)+ $value });
             } else {
                 arithmetic!(to, [] [$($x)+] $value);
             }
         }};
         ($to:ident, [$($known:ident)*] [$x:ident $($others:ident)*] $value:expr) => {
-            if $x.is_constant {
+            if $x.is_constant() {
                 let $x = Same($x.get(0));
                 arithmetic!($to, [$($known)* $x] [$($others)*] $value);
             } else {
@@ -458,6 +503,21 @@ fn compute<R: Real, const G: usize>(
         Operation::MulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, z)),
         Operation::NegMulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] (-x).mul_add(y, z)),
         Operation::MulSub(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, -z)),
+        Operation::MulMul(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x * y * z),
+        Operation::MulMulMul(to, [a, b, c, d]) => arithmetic!(to, [x: a, y: b, z: c, w: d] x * y * z * w),
+        Operation::MulMulAdd(to, [a, b, c, d]) => {
+            arithmetic!(to, [x: a, y: b, z: c, w: d] (x * y).mul_add(z, w));
+        }
+        Operation::NegMulMulAdd(to, [a, b, c, d]) => {
+            arithmetic!(to, [x: a, y: b, z: c, w: d] (-(x * y)).mul_add(z, w));
+        }
+        Operation::MulAddMul(to, [a, b, c, d]) => {
+            arithmetic!(to, [x: a, y: b, z: c, w: d] x.mul_add(y, z) * w)
+        }
+        Operation::NegMulAddMul(to, [a, b, c, d]) => {
+            arithmetic!(to, [x: a, y: b, z: c, w: d] (-x).mul_add(y, z) * w)
+        }
+        Operation::NegMul(to, a, b) => arithmetic!(to, [x: a, y: b] -(x * y)),
         Operation::Sqrt(to, a) => unary!(to, a, |x| x.sqrt()),
         Operation::Cbrt(to, a) => unary!(to, a, |x| x.cbrt()),
         Operation::Ln(to, a) => unary!(to, a, |x| x.ln()),

@@ -1,6 +1,7 @@
 //! A material whose responses are programs.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::domain::{Volume, VolumeBound};
 use super::execute::{Context, Registers, Request, execute_alone, execute_tile};
@@ -84,6 +85,8 @@ pub struct Calls {
 /// as long as compiled.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
+    /// Tells materials apart whose values differ; clones share it.
+    number: u64,
     programs: Arc<Programs>,
     values: ParameterValues,
     inversion: Inversion,
@@ -100,7 +103,9 @@ impl Interpreted {
     #[doc(hidden)]
     #[must_use]
     pub fn new(programs: Arc<Programs>, values: ParameterValues, inversion: Inversion) -> Self {
-        Self { programs, values, inversion }
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        Self { number, programs, values, inversion }
     }
 
     /// The values of the parameters.
@@ -114,7 +119,7 @@ impl Interpreted {
     #[doc(hidden)]
     #[must_use]
     pub fn clone_with(&self, values: ParameterValues) -> Self {
-        Self { values, ..self.clone() }
+        Self::new(self.programs.clone(), values, self.inversion)
     }
 
     /// Executes a program of numbers that depend on the parameters and on these arguments alone, at the entry
@@ -123,7 +128,12 @@ impl Interpreted {
     #[must_use]
     pub fn compute(&self, program: &Program, arguments: &[f64], entry: usize) -> Vec<f64> {
         let mut registers = Registers::take(program.sizes, 1);
-        execute_alone(program, Context { entry, ..self.context() }, arguments, &mut registers);
+        execute_alone(
+            program,
+            Context { material: None, entry, ..self.context() },
+            arguments,
+            &mut registers,
+        );
         let results = program.results.iter().map(|&register| registers.number(register)).collect();
         registers.give_back();
         results
@@ -134,7 +144,7 @@ impl Interpreted {
             Inversion::Refuse => f64::NAN,
             Inversion::Extend { epsilon } => epsilon,
         };
-        Context { parameters: Parameters::same(&self.values), entry: 0, epsilon }
+        Context { material: Some(self.number), parameters: Parameters::same(&self.values), entry: 0, epsilon }
     }
 
     fn is_of_the_same_energy(&self, other: &Self) -> bool {

@@ -24,6 +24,8 @@ pub struct Program {
     pub epsilon: Option<Register>,
     /// The operations, in order.
     pub operations: Vec<Operation>,
+    /// How many of the first operations compute constants: once for all tiles that follow each other.
+    pub preparations: usize,
     /// The loops among them.
     pub loops: Vec<Loop>,
     /// The registers of the results.
@@ -92,6 +94,20 @@ pub enum Operation {
     NegMulAdd(Register, [Register; 3]),
     /// a b − c.
     MulSub(Register, [Register; 3]),
+    /// (a b) c: operations that follow each other are one where that spares a register.
+    MulMul(Register, [Register; 3]),
+    /// ((a b) c) d.
+    MulMulMul(Register, [Register; 4]),
+    /// (a b) c + d.
+    MulMulAdd(Register, [Register; 4]),
+    /// d − (a b) c.
+    NegMulMulAdd(Register, [Register; 4]),
+    /// (a b + c) d.
+    MulAddMul(Register, [Register; 4]),
+    /// (c − a b) d.
+    NegMulAddMul(Register, [Register; 4]),
+    /// −(a b).
+    NegMul(Register, Register, Register),
     /// √a.
     Sqrt(Register, Register),
     /// ∛a.
