@@ -144,7 +144,8 @@ impl Texts {
 pub unsafe extern "C" fn piola_catalogue_name(index: usize, name: *mut *const c_char) -> Code {
     static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
     guard(|| {
-        let names = NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
+        let names =
+            NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
         let found = names.get(index).map_or(std::ptr::null(), |name| name.as_ptr());
         // SAFETY: there is room for a pointer.
         unsafe { lent::report("name", name, found) }?;
