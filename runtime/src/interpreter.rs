@@ -12,11 +12,13 @@
 //!
 //! How a declaration becomes a program is not known here, nor what an energy means.
 
+mod compute;
 mod domain;
 mod execute;
 mod material;
 mod parameters;
 mod program;
+mod registers;
 
 #[doc(hidden)]
 pub use domain::Volume;

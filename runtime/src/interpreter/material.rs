@@ -4,9 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::domain::{Volume, VolumeBound};
-use super::execute::{Context, Registers, Request, execute_alone, execute_tile};
-use super::parameters::{ParameterValues, Parameters};
+use super::execute::{Request, execute_alone, execute_tile};
+use super::parameters::{Context, ParameterValues, Parameters};
 use super::program::{Program, Sizes};
+use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
 use crate::univariate::Univariate;

@@ -104,3 +104,13 @@ impl<'a> Parameters<'a> {
         self.some.length(parameter)
     }
 }
+
+/// Parameters, the entry of lists that a program reads outside of sums, and the threshold of an extension.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    /// The number of the material, if the program is its own.
+    pub(super) material: Option<u64>,
+    pub(super) parameters: Parameters<'a>,
+    pub(super) entry: usize,
+    pub(super) epsilon: f64,
+}

@@ -94,7 +94,8 @@ pub enum Operation {
     NegMulAdd(Register, [Register; 3]),
     /// a b − c.
     MulSub(Register, [Register; 3]),
-    /// (a b) c: operations that follow each other are one where that spares a register.
+    /// (a b) c. This and the next six are two or three operations in one: nothing else reads what lies
+    /// between them, which needs no register.
     MulMul(Register, [Register; 3]),
     /// ((a b) c) d.
     MulMulMul(Register, [Register; 4]),

@@ -1,0 +1,185 @@
+//! The registers of a program, and how operations see them.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+
+use super::parameters::{Context, Parameters};
+use super::program::{Program, Register, Sizes};
+use crate::lanes::Real;
+use crate::quotient::Pair;
+
+/// Registers of a program, each as many real numbers side by side as there are groups of points.
+pub(super) struct Registers<R: Real> {
+    /// Those for constants, and behind them those for other numbers.
+    numbers: Vec<R>,
+    /// How many are for constants.
+    constants: usize,
+    /// The material and the program that the constants in the registers belong to.
+    prepared: Option<Prepared>,
+    logarithms: Vec<R::Logarithm>,
+    pairs: Vec<Pair<R>>,
+}
+
+/// A material and a program of it, with all that decides on its constants and their places.
+#[derive(PartialEq)]
+struct Prepared {
+    /// The number of the material, which holds the program.
+    material: u64,
+    program: *const Program,
+    entry: usize,
+    groups: usize,
+}
+
+thread_local! {
+    /// Registers that the thread has used, one set for each type of real number.
+    static USED: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+}
+
+impl<R: Real> Registers<R> {
+    /// Registers of at least these sizes; nothing is allocated once a thread has had them.
+    #[inline(never)]
+    pub(super) fn take(sizes: Sizes, groups: usize) -> Box<Self> {
+        let used = USED.with_borrow_mut(|all| {
+            let place = all.iter().position(|one| one.is::<Self>())?;
+            all.swap_remove(place).downcast::<Self>().ok()
+        });
+        let mut registers = used.unwrap_or_else(|| {
+            let (numbers, logarithms, pairs) = (Vec::new(), Vec::new(), Vec::new());
+            Box::new(Self { numbers, constants: 0, prepared: None, logarithms, pairs })
+        });
+        registers.constants = sizes.constants;
+        let one = R::splat(1.0);
+        let Self { numbers, logarithms, pairs, .. } = &mut *registers;
+        grow(numbers, sizes.numbers * groups, || one);
+        grow(logarithms, sizes.logarithms * groups, || one.logarithm());
+        grow(pairs, sizes.pairs * groups, || Pair::of(one, one));
+        registers
+    }
+
+    /// Keeps the registers for the next program of the thread.
+    #[inline(never)]
+    pub(super) fn give_back(self: Box<Self>) {
+        USED.with_borrow_mut(|all| all.push(self));
+    }
+
+    /// All registers for numbers, one after the other.
+    pub(super) fn numbers(&mut self) -> &mut [R] {
+        self.prepared = None;
+        &mut self.numbers
+    }
+
+    /// Whether the constants of a program for so many groups are in their registers, which they are after it
+    /// has been executed.
+    pub(super) fn prepare(&mut self, program: &Program, context: &Context<'_>, groups: usize) -> bool {
+        let &Context { parameters, entry, material, .. } = context;
+        let material = material.filter(|_| parameters.each.is_none());
+        let these = material.map(|material| Prepared { material, program, entry, groups });
+        let are_there = these.is_some() && self.prepared == these;
+        self.prepared = these;
+        are_there
+    }
+
+    /// The number in a register, where there is one group of points.
+    #[inline(always)]
+    pub(super) fn number(&self, register: Register) -> R {
+        self.numbers[usize::from(register)]
+    }
+}
+
+fn grow<T: Clone>(list: &mut Vec<T>, length: usize, entry: impl FnOnce() -> T) {
+    if list.len() < length {
+        list.resize(length, entry());
+    }
+}
+
+/// The registers of each kind, as cells: an operand may be in the register of the result.
+pub(super) struct Files<'a, R: Real, const G: usize> {
+    numbers: &'a [[Cell<R>; G]],
+    /// How many of the numbers are constants, of which only the first group is in use.
+    constants: usize,
+    logarithms: &'a [[Cell<R::Logarithm>; G]],
+    pairs: &'a [[Cell<Pair<R>>; G]],
+}
+
+/// The cells of a register for numbers, or of a constant.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers<'a, R, const G: usize> {
+    pub(super) cells: &'a [Cell<R>; G],
+    /// A mask for the index of a group, which it makes zero where the first cell stands for all. No
+    /// condition, for each of which the compiler would make another loop.
+    mask: usize,
+}
+
+impl<R: Real, const G: usize> Numbers<'_, R, G> {
+    #[inline(always)]
+    pub(super) fn is_constant(self) -> bool {
+        self.mask == 0
+    }
+
+    #[inline(always)]
+    pub(super) fn get(self, group: usize) -> R {
+        self.cells[group & self.mask].get()
+    }
+
+    #[inline(always)]
+    pub(super) fn set(self, group: usize, value: R) {
+        self.cells[group].set(value);
+    }
+
+    /// Sets all groups.
+    #[inline(always)]
+    pub(super) fn fill(self, value: R) {
+        if self.is_constant() {
+            return self.set(0, value);
+        }
+        for group in 0..G {
+            self.set(group, value);
+        }
+    }
+}
+
+impl<'a, R: Real, const G: usize> Files<'a, R, G> {
+    #[inline(always)]
+    pub(super) fn new(registers: &'a mut Registers<R>, parameters: &Parameters<'_>) -> Self {
+        Self {
+            numbers: Cell::from_mut(&mut registers.numbers[..]).as_slice_of_cells().as_chunks().0,
+            constants: if parameters.each.is_none() { registers.constants } else { 0 },
+            logarithms: Cell::from_mut(&mut registers.logarithms[..]).as_slice_of_cells().as_chunks().0,
+            pairs: Cell::from_mut(&mut registers.pairs[..]).as_slice_of_cells().as_chunks().0,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn number(&self, register: Register) -> Numbers<'a, R, G> {
+        let place = usize::from(register);
+        Numbers { cells: &self.numbers[place], mask: usize::from(place >= self.constants).wrapping_neg() }
+    }
+
+    #[inline(always)]
+    pub(super) fn logarithm(&self, register: Register) -> &'a [Cell<R::Logarithm>; G] {
+        &self.logarithms[usize::from(register)]
+    }
+
+    #[inline(always)]
+    pub(super) fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>; G] {
+        &self.pairs[usize::from(register)]
+    }
+
+    /// Sets a constant to a parameter, or to an entry of a list.
+    #[inline(always)]
+    pub(super) fn load(
+        &self,
+        register: Register,
+        parameters: &Parameters<'_>,
+        parameter: usize,
+        entry: usize,
+    ) {
+        let to = self.number(register);
+        if to.is_constant() {
+            return to.set(0, R::splat(parameters.some.number(parameter, entry)));
+        }
+        for group in 0..G {
+            to.set(group, parameters.number(parameter, entry, group));
+        }
+    }
+}
