@@ -1,5 +1,8 @@
 //! The energy–momentum method on a real mesh: a dinosaur that tumbles freely and is strongly deformed keeps
 //! its energy and its momenta to rounding.
+//!
+//! Over 20 steps, or over a thousand, which take a minute:
+//! `PIOLA_LONG=1 cargo test --release -p piola-scenes --test energy_momentum -- --nocapture`.
 
 use piola::material::Moduli;
 use piola::mesh::TetMesh;
@@ -46,7 +49,8 @@ fn tumbling(mesh: &TetMesh) -> Vec<[f64; 3]> {
 
 /// Steps of 1/30 s from the rest shape; the energies that deformation and motion exchange are of one size.
 #[expect(clippy::print_stderr, reason = "the figure that documents quote")]
-fn energy_and_momenta_are_kept(body: Body, mesh: &TetMesh, steps: usize) {
+fn check_constants(body: Body, mesh: &TetMesh) {
+    let steps = if std::env::var_os("PIOLA_LONG").is_some() { 1000 } else { 20 };
     let newton = NewtonSettings::default().with_tolerance(1e-13);
     let settings =
         SimulationSettings::default().with_newton(newton).with_integrator(Integrator::EnergyMomentum);
@@ -75,37 +79,21 @@ fn energy_and_momenta_are_kept(body: Body, mesh: &TetMesh, steps: usize) {
     eprintln!("{steps} steps: energy and momenta change by {largest_drift:.1e} at most");
 }
 
-fn neo_hookean(steps: usize) {
-    let mesh = dinosaur();
-    let Moduli { mu, lambda, .. } = Moduli::from_young_poisson(1e6, 0.45).expect("moduli");
-    let material = NeoHookean::new(mu, lambda).expect("a material");
-    energy_and_momenta_are_kept(Body::new(&mesh, material, 1000.0).expect("a body"), &mesh, steps);
-}
-
-fn ogden(steps: usize) {
-    let mesh = dinosaur();
-    let material = Ogden::new([4.2e5, 1.5e3, -8e3], [1.3, 5.0, -2.0], 3e6).expect("a material");
-    energy_and_momenta_are_kept(Body::new(&mesh, material, 1000.0).expect("a body"), &mesh, steps);
-}
-
 fn dinosaur() -> TetMesh {
     Geometry::load(&Settings::new(&DINOSAUR)).expect("the mesh of the scene").mesh
 }
 
 #[test]
 fn neo_hookean_rubber_keeps_energy_and_momenta() {
-    neo_hookean(20);
+    let mesh = dinosaur();
+    let Moduli { mu, lambda, .. } = Moduli::from_young_poisson(1e6, 0.45).expect("moduli");
+    let material = NeoHookean::new(mu, lambda).expect("a material");
+    check_constants(Body::new(&mesh, material, 1000.0).expect("a body"), &mesh);
 }
 
 #[test]
 fn ogden_rubber_keeps_energy_and_momenta() {
-    ogden(20);
-}
-
-/// `cargo test --release -p piola-scenes --test energy_momentum -- --ignored --nocapture`
-#[test]
-#[ignore = "takes a minute"]
-fn a_thousand_steps_keep_energy_and_momenta() {
-    neo_hookean(1000);
-    ogden(1000);
+    let mesh = dinosaur();
+    let material = Ogden::new([4.2e5, 1.5e3, -8e3], [1.3, 5.0, -2.0], 3e6).expect("a material");
+    check_constants(Body::new(&mesh, material, 1000.0).expect("a body"), &mesh);
 }

@@ -3,6 +3,9 @@
 //! A scene is played to a state, and the frame after it made twice: to the tolerance, and by third order to a
 //! small part of it. Beside that the error is judged, not beside a motion from the start: of the horse, which
 //! begins with all nodes in a plane, motions end a body height apart however short their steps are.
+//!
+//! One frame of each scene, or frames all along, which take minutes:
+//! `PIOLA_LONG=1 cargo test --release -p piola-scenes --test tolerance -- --nocapture`.
 
 use piola::step::Integrator;
 use piola_scenes::geometry::Geometry;
@@ -67,19 +70,13 @@ impl State {
 
 #[test]
 fn frames_err_by_no_more_than_three_times_their_tolerance() {
-    for (scene, frames) in [(&DINOSAUR, 62), (&HORSE, 10)] {
-        let ratios = State::after(scene, frames).ratios(&[0.3, 0.1]);
-        assert!(ratios.iter().all(|&ratio| ratio <= 3.0), "{} after frame {frames}: {ratios:?}", scene.name);
-    }
-}
-
-/// `cargo test --release -p piola-scenes --test tolerance -- --ignored --nocapture`
-#[test]
-#[ignore = "takes minutes"]
-fn frames_all_along_err_by_no_more_than_three_times_their_tolerance() {
-    for (scene, states) in [(&DINOSAUR, [30, 60, 62, 66, 75, 90]), (&HORSE, [4, 6, 8, 10, 12, 15])] {
-        for frames in states {
-            let ratios = State::after(scene, frames).ratios(&[0.3, 0.1, 0.03]);
+    let (of_dinosaur, of_horse, tolerances) = match std::env::var_os("PIOLA_LONG") {
+        None => (&[62][..], &[10][..], &[0.3, 0.1][..]),
+        Some(_) => (&[30, 60, 62, 66, 75, 90][..], &[4, 6, 8, 10, 12, 15][..], &[0.3, 0.1, 0.03][..]),
+    };
+    for (scene, states) in [(&DINOSAUR, of_dinosaur), (&HORSE, of_horse)] {
+        for &frames in states {
+            let ratios = State::after(scene, frames).ratios(tolerances);
             assert!(
                 ratios.iter().all(|&ratio| ratio <= 3.0),
                 "{} after frame {frames}: {ratios:?}",
