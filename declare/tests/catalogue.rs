@@ -314,15 +314,6 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
     assert!(alone[0].0.iter().zip(&alone[1].0).any(|(one, other)| one < other), "they differ");
 }
 
-/// Programs that take an energy from its declaration describe it as those that have it compiled.
-#[test]
-fn descriptions_are_those_of_the_compiled_catalogue() {
-    assert_eq!(CATALOGUE.len(), DECLARATIONS.len());
-    for entry in CATALOGUE {
-        assert_eq!(*declared(entry.name).description(), entry.description);
-    }
-}
-
 /// What a constructor refuses, it refuses with the error of the compiled one.
 #[test]
 fn values_are_refused_as_by_the_compiled_catalogue() {

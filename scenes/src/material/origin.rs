@@ -207,3 +207,43 @@ impl Candidate for Fitted {
         self.energy.domain_constraints(&self.material, stretches)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A program is built with all energies or with two; what it makes of the others is no different.
+    #[test]
+    fn energies_that_are_not_compiled_are_those_that_are() {
+        for known in CATALOGUE.iter() {
+            let Some(entry) = known.compiled else { continue };
+            let interpreted =
+                Known { declaration: known.declaration, compiled: None, energy: OnceLock::new() };
+            let origins = [known, Box::leak(Box::new(interpreted))].map(Origin::Catalogue);
+            let [one, other] = &origins;
+            assert_eq!(one.name(), other.name());
+            assert_eq!(one.description(), other.description());
+            let values = entry.typical();
+            // Generated code computes moduli with the logarithms and fused operations of the standard library:
+            // they differ by a few roundings of their terms.
+            let moduli = origins.each_ref().map(|origin| {
+                let Moduli { mu, lambda, .. } = origin.moduli(&values, Inversion::Refuse).expect("typical");
+                [mu, lambda]
+            });
+            for k in 0..2 {
+                let error = (moduli[0][k] - moduli[1][k]).abs();
+                assert!(error <= 1e-12 * moduli[0][0].max(moduli[0][1]), "{}: {moduli:?}", entry.name);
+            }
+            let at = [1.1, 1.0, 0.95];
+            let blocks = origins.each_ref().map(|origin| {
+                origin.specimen(&values, Inversion::Refuse).expect("typical parameters").blocks(at)
+            });
+            assert_eq!(blocks[0], blocks[1], "{}", entry.name);
+            let fitted = origins.each_ref().map(|origin| {
+                let candidate = origin.candidate(&values, Inversion::Refuse)?;
+                Ok::<_, MaterialError>((candidate.description(), candidate.values()))
+            });
+            assert_eq!(fitted[0], fitted[1], "{}", entry.name);
+        }
+    }
+}
