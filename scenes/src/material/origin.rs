@@ -224,8 +224,8 @@ mod tests {
             assert_eq!(one.name(), other.name());
             assert_eq!(one.description(), other.description());
             let values = entry.typical();
-            // Generated code computes moduli with the logarithms and fused operations of the standard library:
-            // they differ by a few roundings of their terms.
+            // Generated code computes moduli with the logarithms and fused operations of the standard
+            // library: they differ by a few roundings of their terms.
             let moduli = origins.each_ref().map(|origin| {
                 let Moduli { mu, lambda, .. } = origin.moduli(&values, Inversion::Refuse).expect("typical");
                 [mu, lambda]
