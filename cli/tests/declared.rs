@@ -46,21 +46,27 @@ fn a_body_of_a_formula_moves_like_that_of_the_compiled_material() {
     assert!(summary.contains("\"material\": \"Energy\""), "{summary}");
 }
 
-/// A run that is cut off goes on from its files alone, the energy among them.
+/// A run that is cut off goes on from its files alone, the energy among them, be it long.
 #[test]
-fn a_run_of_a_formula_is_resumed() {
-    let folder = tempfile::tempdir().expect("a scratch folder");
-    let run = |out: &str, frames: &str, more: &[&str]| {
-        let mut arguments = vec!["run", "dinosaur", "--energy", NEO_HOOKEAN, "--param", "mu=345kPa"];
-        arguments.extend(["--param", "lambda=3.1MPa", "--out", out, "--frames", frames]);
-        arguments.extend(more);
-        answer(folder.path(), &arguments);
-    };
-    run("whole", "4", &[]);
-    run("parts", "2", &[]);
-    run("parts", "4", &["--resume"]);
-    let frame = |out: &str| fs::read(folder.path().join(out).join("frame_0004.ply")).expect("a frame");
-    assert!(frame("whole") == frame("parts"), "the frames differ");
+fn a_run_of_a_formula_or_a_file_is_resumed() {
+    let long =
+        fs::read_to_string(OGDEN).expect("a file").replace("#[", &format!("// {}\n#[", "x".repeat(20_000)));
+    for material in [
+        &["--energy", NEO_HOOKEAN, "--param", "mu=345kPa", "--param", "lambda=3.1MPa"][..],
+        &["--material", "long.rs"],
+    ] {
+        let folder = tempfile::tempdir().expect("a scratch folder");
+        fs::write(folder.path().join("long.rs"), &long).expect("a file");
+        let run = |out: &str, frames: &str, more: &[&str]| {
+            let arguments = [&["run", "dinosaur", "--out", out, "--frames", frames], material, more].concat();
+            answer(folder.path(), &arguments);
+        };
+        run("whole", "4", &[]);
+        run("parts", "2", &[]);
+        run("parts", "4", &["--resume"]);
+        let frame = |out: &str| fs::read(folder.path().join(out).join("frame_0004.ply")).expect("a frame");
+        assert!(frame("whole") == frame("parts"), "the frames differ");
+    }
 }
 
 #[test]

@@ -11,8 +11,8 @@ use crate::mistakes::Mistakes;
 /// The message about an energy beyond the limits.
 pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, or a list with a sum instead of many terms, keep within the limits";
 
-/// The longest text of an energy, bytes.
-const LARGEST_TEXT: usize = 1 << 16;
+/// The longest text of an energy, in bytes.
+pub const LARGEST_TEXT: usize = 1 << 16;
 
 /// The most different expressions of an energy, derivatives included: some forty times as many as those of
 /// the catalogue have, and compiled within seconds.

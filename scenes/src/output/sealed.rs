@@ -10,13 +10,17 @@
 
 use crc32fast::Hasher;
 use piola::message::printable;
+use piola_declare::LARGEST_TEXT;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::ser::Error as _;
 use serde::{Deserialize, Serialize};
 use serde_json::value::{RawValue, to_raw_value};
 
-/// The longest text in a file, in bytes. Names are shorter, and messages repeat them.
-const MAX_TEXT: usize = 1024;
+/// The longest text in a file, in bytes as it is written: that of an energy, of which ends of lines and
+/// quotation marks take two each.
+const MAX_TEXT: usize = 2 * LARGEST_TEXT;
+/// The longest message about a line that is not as expected, in characters: it may repeat a text of the file.
+const MAX_MESSAGE: usize = 1024;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -91,7 +95,7 @@ impl Unsealer {
 #[non_exhaustive]
 pub enum SealError {
     /// The line is not sealed JSON, or its content is something else than expected.
-    #[error("{}", printable(&.0.to_string()))]
+    #[error("{}", printable(&shortened(.0.to_string())))]
     NotJson(#[source] serde_json::Error),
     /// The checksum belongs to another content, or to other lines before.
     #[error("the checksum is wrong: the file has been changed or cut off")]
@@ -99,6 +103,15 @@ pub enum SealError {
     /// A text in the content is absurdly long.
     #[error("a text in it is longer than {MAX_TEXT} bytes")]
     LongText,
+}
+
+/// A message, cut where it is long.
+fn shortened(mut message: String) -> String {
+    if let Some((end, _)) = message.char_indices().nth(MAX_MESSAGE) {
+        message.truncate(end);
+        message.push('…');
+    }
+    message
 }
 
 /// The checksum once this content has been added.
@@ -197,5 +210,8 @@ mod tests {
         assert!(sealer.line(&text(MAX_TEXT / 8)).is_ok());
         assert!(sealer.line(&text(MAX_TEXT)).is_err());
         assert_eq!(longest_text(r#"{"a":["b\\","","\"cd"],"ef":1}"#), 4);
+        let name = format!("{{\"{}\":1}}", "y".repeat(MAX_TEXT));
+        let message = Unsealer::new().line::<Vec<f64>>(&name).expect_err("no list").to_string();
+        assert!(message.chars().count() <= MAX_MESSAGE + 1, "{message}");
     }
 }
