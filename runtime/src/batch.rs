@@ -59,7 +59,6 @@ use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
-mod by_invariants;
 mod call;
 #[cfg(feature = "bodies")]
 pub(crate) mod element;
@@ -88,7 +87,6 @@ pub use svd_tile::SvdTile;
 pub use tetrahedra::{NoSuchNode, Tetrahedra};
 pub use tile::Rows;
 
-use by_invariants::StressByInvariants;
 use call::Call;
 #[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
@@ -96,7 +94,7 @@ pub(crate) use form::MAX_STIFFNESS_RATIO;
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::Source;
-use stage::{Deform, Product, StiffnessForm, Stress, TangentForm};
+use stage::{Deform, Product, StiffnessForm, Stress, StressByInvariants, TangentForm};
 use tile::first_bits;
 use workspace::Workspace;
 

@@ -3,10 +3,12 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use super::REST;
-use super::by_invariants::{Invariants, RespondByInvariants};
 use super::material::{Arguments, Properties, TileMaterial};
 use super::sink::{Layout, Sink, Source};
-use super::stage::{Decompose, Forces, Judge, Respond, Stages, StiffnessForm, Stress, TangentForm};
+use super::stage::{
+    Decompose, Forces, Invariants, Judge, Respond, RespondByInvariants, Stages, StiffnessForm, Stress,
+    TangentForm,
+};
 use super::svd_tile::SvdTile;
 use super::tile::{Rows, first_bits};
 use super::workspace::{Rooms, Workspace};

@@ -7,12 +7,14 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::by_invariants::{Invariants, RespondByInvariants, StressByInvariants};
 use super::material::{Arguments, Properties, TileMaterial};
 use super::operator::StiffnessFactors;
 use super::rest::{RestShapes, by_elements};
 use super::sink::{Lines, Sink};
-use super::stage::{Decompose, Deform, Forces, Judge, Respond, Stages, StiffnessForm};
+use super::stage::{
+    Decompose, Deform, Forces, Invariants, Judge, Respond, RespondByInvariants, Stages, StiffnessForm,
+    StressByInvariants,
+};
 use super::svd_tile::SvdTile;
 use super::tetrahedra::set_edges;
 use super::tile::{Rows, first_bits};
