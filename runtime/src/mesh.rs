@@ -9,5 +9,8 @@ pub(crate) mod tet;
 
 pub use boxes::{BoxError, tetrahedral_box};
 pub use embed::{Anchor, EmbedError, Embedding};
-pub use io::{ReadError, Surface, parse_msh, parse_surface_obj, read_msh, read_surface_obj, read_tetgen};
+pub use io::{
+    NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh, parse_surface_obj, read_msh,
+    read_surface_obj, read_tetgen, turned,
+};
 pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh, lumped_masses};

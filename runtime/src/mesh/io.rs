@@ -11,5 +11,5 @@ mod text;
 
 pub use msh::{parse_msh, read_msh};
 pub use obj::{Surface, parse_surface_obj, read_surface_obj};
-pub use tetgen::read_tetgen;
+pub use tetgen::{NodeLine, NodeLines, TetLine, TetLines, read_tetgen, turned};
 pub use text::ReadError;

@@ -35,65 +35,177 @@ struct Nodes {
     marked: BTreeMap<i64, Vec<usize>>,
 }
 
-/// `count 3 attributes markers`, then `number x y z attribute … marker` each.
+/// What the lines of a `.node` file hold, as its first line says, for readers that take the file in parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NodeLines {
+    /// Number of nodes.
+    pub count: usize,
+    attributes: usize,
+    has_markers: bool,
+}
+
+/// A line of a `.node` file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct NodeLine {
+    /// Number of the node.
+    pub number: usize,
+    /// Its position, in the unit of the file.
+    pub position: [f64; 3],
+    /// Its boundary marker; 0 for none.
+    pub marker: i64,
+}
+
+impl NodeLines {
+    /// Reads the first line, which is not blank.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn of_first_line(line: &str) -> Result<Self, String> {
+        Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
+    }
+
+    /// Reads a line behind the first; `None` for a blank one or a comment.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn node(&self, line: &str) -> Result<Option<NodeLine>, String> {
+        filled(line).map(|mut line| self.read_node(&mut line)).transpose().map_err(|problem| problem.text)
+    }
+
+    /// `count 3 attributes markers`.
+    fn read(line: &mut Line<'_>) -> Result<Self, Problem> {
+        let count = line.number("the number of nodes")?;
+        let dimension: usize = line.number("the dimension")?;
+        if dimension != 3 {
+            return Err(line.problem(format!("nodes have {dimension} coordinates; they must have 3")));
+        }
+        let attributes = line.number_if_any("the number of attributes")?.unwrap_or(0);
+        let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
+        Ok(Self { count, attributes, has_markers: markers > 0 })
+    }
+
+    /// `number x y z attribute … marker`.
+    fn read_node(&self, line: &mut Line<'_>) -> Result<NodeLine, Problem> {
+        let (number, position) = (line.number("the number of the node")?, line.point()?);
+        for _ in 0..self.attributes {
+            line.number::<f64>("an attribute of the node")?;
+        }
+        let marker = if self.has_markers { line.number("the boundary marker of the node")? } else { 0 };
+        Ok(NodeLine { number, position, marker })
+    }
+}
+
+/// What the lines of a `.ele` file hold, as its first line says, for readers that take the file in parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TetLines {
+    /// Number of tetrahedra.
+    pub count: usize,
+    corners: usize,
+    has_regions: bool,
+}
+
+/// A line of a `.ele` file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TetLine {
+    /// Number of the tetrahedron.
+    pub number: usize,
+    /// Numbers of its corners, in either orientation.
+    pub corners: [usize; 4],
+    /// Its region, if the file has regions.
+    pub region: Option<i64>,
+}
+
+impl TetLines {
+    /// Reads the first line, which is not blank.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn of_first_line(line: &str) -> Result<Self, String> {
+        Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
+    }
+
+    /// Reads a line behind the first; `None` for a blank one or a comment.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn tet(&self, line: &str) -> Result<Option<TetLine>, String> {
+        let read = |mut line: Line<'_>| self.read_tet(&mut line, |line| line.number(NODE));
+        filled(line).map(read).transpose().map_err(|problem| problem.text)
+    }
+
+    /// `count corners attributes`.
+    fn read(line: &mut Line<'_>) -> Result<Self, Problem> {
+        let count = line.number("the number of tetrahedra")?;
+        let corners = line.number("the number of nodes of a tetrahedron")?;
+        if count == 0 {
+            return Err(line.problem("there is no tetrahedron"));
+        }
+        if corners != 4 && corners != 10 {
+            return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4 or 10")));
+        }
+        let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
+        Ok(Self { count, corners, has_regions: attributes > 0 })
+    }
+
+    /// `number node … attribute …`.
+    fn read_tet(
+        &self,
+        line: &mut Line<'_>,
+        node: impl Fn(&mut Line<'_>) -> Result<usize, Problem>,
+    ) -> Result<TetLine, Problem> {
+        let number = line.number("the number of the tetrahedron")?;
+        let corners = [node(line)?, node(line)?, node(line)?, node(line)?];
+        for _ in 4..self.corners {
+            node(line)?;
+        }
+        // A whole number, written as a real one.
+        let region: Option<f64> =
+            self.has_regions.then(|| line.number("the region of the tetrahedron")).transpose()?;
+        Ok(TetLine { number, corners, region: region.map(|region| region as i64) })
+    }
+}
+
+/// What errors call the node of a tetrahedron.
+const NODE: &str = "the number of a node";
+
+/// A line without its comment, unless nothing is left.
+fn filled(line: &str) -> Option<Line<'_>> {
+    Cursor::with_comments(line, '#').next_filled()
+}
+
 fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
     let mut cursor = Cursor::with_comments(text, '#');
-    let mut line = cursor.next("the number of nodes")?;
-    let count: usize = line.number("the number of nodes")?;
-    let dimension: usize = line.number("the dimension")?;
-    if dimension != 3 {
-        return Err(line.problem(format!("nodes have {dimension} coordinates; they must have 3")));
-    }
-    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
-    let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
+    let lines = NodeLines::read(&mut cursor.next("the number of nodes")?)?;
     let mut nodes = Nodes::default();
-    for _ in 0..count {
+    for node in 0..lines.count {
         let mut line = cursor.next("a node")?;
-        let number = line.number("the number of the node")?;
-        let node = nodes.positions.len();
+        let NodeLine { number, position, marker } = lines.read_node(&mut line)?;
         if nodes.index.insert(number, node).is_some() {
             return Err(line.problem(format!("node {number} is given twice")));
         }
-        nodes.positions.push(line.point()?);
-        for _ in 0..attributes {
-            line.number::<f64>("an attribute of the node")?;
-        }
-        if markers > 0 {
-            let marker: i64 = line.number("the boundary marker of the node")?;
-            nodes.marked.entry(marker).or_default().push(node);
-        }
+        nodes.positions.push(position);
+        nodes.marked.entry(marker).or_default().push(node);
     }
     nodes.marked.remove(&0);
     Ok(nodes)
 }
 
-/// `count corners attributes`, then `number node … attribute …` each.
 fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
     let mut cursor = Cursor::with_comments(text, '#');
-    let mut line = cursor.next("the number of tetrahedra")?;
-    let count: usize = line.number("the number of tetrahedra")?;
-    let corners: usize = line.number("the number of nodes of a tetrahedron")?;
-    if count == 0 {
-        return Err(line.problem("there is no tetrahedron"));
-    }
-    if corners != 4 && corners != 10 {
-        return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4 or 10")));
-    }
-    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
+    let lines = TetLines::read(&mut cursor.next("the number of tetrahedra")?)?;
     let (mut tets, mut tags) = (Vec::new(), Vec::new());
     let mut regions: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
-    for tet in 0..count {
+    for tet in 0..lines.count {
         let mut line = cursor.next("a tetrahedron")?;
-        tags.push(line.number("the number of the tetrahedron")?);
-        let mut corner = || nodes.named(&mut line);
-        tets.push(nodes.turned([corner()?, corner()?, corner()?, corner()?]));
-        for _ in 4..corners {
-            corner()?;
-        }
-        if attributes > 0 {
-            // A whole number, written as a real one.
-            let region: f64 = line.number("the region of the tetrahedron")?;
-            regions.entry(region as i64).or_default().push(tet);
+        let TetLine { number, corners, region } = lines.read_tet(&mut line, |line| nodes.named(line))?;
+        tags.push(number);
+        tets.push(turned(corners, &nodes.positions));
+        if let Some(region) = region {
+            regions.entry(region).or_default().push(tet);
         }
     }
     let marked = nodes.marked.into_iter().map(|(marker, nodes)| Group {
@@ -116,21 +228,24 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
 impl Nodes {
     /// Parses the next word of a line as the index of a node.
     fn named(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
-        let number: usize = line.number("the number of a node")?;
+        let number: usize = line.number(NODE)?;
         let index = self.index.get(&number).copied();
         index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
     }
+}
 
-    /// The corners in the order of positive volume, unless it is zero.
-    fn turned(&self, [a, b, c, d]: [usize; 4]) -> [usize; 4] {
-        let edge = |node: usize| -> [f64; 3] {
-            std::array::from_fn(|i| self.positions[node][i] - self.positions[a][i])
-        };
-        let ([x, y, z], [u, v, w], e) = (edge(b), edge(c), edge(d));
-        let across = [y * w - z * v, z * u - x * w, x * v - y * u];
-        let volume = across[0] * e[0] + across[1] * e[1] + across[2] * e[2];
-        if volume < 0.0 { [a, c, b, d] } else { [a, b, c, d] }
-    }
+/// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
+/// promises no orientation.
+///
+/// # Panics
+/// If a corner is none of the nodes.
+#[must_use]
+pub fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
+    let edge = |node: usize| -> [f64; 3] { std::array::from_fn(|i| nodes[node][i] - nodes[a][i]) };
+    let ([x, y, z], [u, v, w], e) = (edge(b), edge(c), edge(d));
+    let across = [y * w - z * v, z * u - x * w, x * v - y * u];
+    let volume = across[0] * e[0] + across[1] * e[1] + across[2] * e[2];
+    if volume < 0.0 { [a, c, b, d] } else { [a, b, c, d] }
 }
 
 #[cfg(test)]
