@@ -13,12 +13,11 @@ use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
 use piola_scenes::material::MaterialSpec;
+use piola_scenes::options::{Formula, Given, in_file, parameter, with_values};
 use piola_scenes::output::write_whole;
 
-use crate::declared::{self, Formula};
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
-use crate::value::Given;
 
 pub(crate) use check::Check;
 pub(crate) use curve::Curve;
@@ -36,7 +35,7 @@ pub(crate) struct Material {
 
     /// Value of a parameter, in SI units or with kPa, MPa or GPa behind it; lists as NAME=V,V,V [default: the
     /// typical one of `piola materials`, or of the file].
-    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<Given>,
 }
 
@@ -46,12 +45,12 @@ impl Material {
         let name = self.material.unwrap_or_default();
         let material = match self.formula.spec(&self.parameters)? {
             Some(material) => material,
-            None => match declared::in_file(&name)? {
+            None => match in_file(&name)? {
                 Some(material) => material,
                 None => MaterialSpec::typical(&name)?,
             },
         };
-        Ok(declared::with_values(material, self.parameters))
+        Ok(with_values(material, self.parameters))
     }
 }
 

@@ -4,21 +4,17 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use piola::Inversion;
 use piola::step::Integrator;
-use piola_scenes::material::MaterialSpec;
+use piola_scenes::options::{SceneOptions, scenes};
 use piola_scenes::output::Newton;
 use piola_scenes::run::{Existing, Output};
-use piola_scenes::scene::{Amplitude, Body, SCENES, Scene, Start};
 use piola_scenes::settings::{Files, Settings};
 
 use crate::bench::{Check, Curve, Fit};
 use crate::contract::Contract;
 use crate::declare::Declare;
-use crate::declared::{self, Formula};
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
-use crate::value::Given;
 use crate::view::recording::Recording;
 use crate::view::state::State;
 use crate::view::{Begin, Options};
@@ -130,63 +126,12 @@ pub(crate) struct View {
 /// A scene and overrides of its defaults.
 #[derive(Debug, PartialEq, Parser)]
 struct Choice {
-    /// The scene.
-    #[arg(default_value = "horse")]
-    scene: String,
+    #[command(flatten)]
+    scene: SceneOptions,
 
     /// Time step in s [default: the scene's, 1/30].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     dt: Option<f64>,
-
-    /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
-    /// One that is listed is as stiff as the scene's without --param.
-    #[arg(long, value_name = "NAME|FILE.rs")]
-    material: Option<String>,
-
-    #[command(flatten)]
-    formula: Formula,
-
-    /// Value of a parameter of the material, in SI units or with kPa, MPa or GPa behind it; lists as
-    /// NAME=V,V,V. Of another material than the scene's, all or none.
-    #[arg(long = "param", value_name = "NAME=V", value_parser = crate::value::parameter)]
-    parameters: Vec<Given>,
-
-    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
-    /// energy is extended by polynomials [default: 0.1 where it can be].
-    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::value::inversion, allow_negative_numbers = true)]
-    inversion: Option<Inversion>,
-
-    /// Density in kg/m³ [default: the scene's, 1000].
-    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
-    density: Option<f64>,
-
-    /// Gravity in m/s², downwards [default: 0].
-    #[arg(long, value_name = "G", allow_negative_numbers = true)]
-    gravity: Option<f64>,
-
-    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
-    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
-    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
-    pins: Vec<String>,
-
-    /// Another body that comes with the program: horse, dinosaur or bar [default: the scene's].
-    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
-    body: Option<String>,
-
-    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default:
-    /// the scene's, 1].
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-
-    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere
-    /// in the body's bounding box [default: the scene's, 0.3].
-    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
-    amplitude: Option<Amplitude>,
-
-    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
-    /// become shares of its bounding box.
-    #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
 
     /// The surface to embed in them, OBJ [default: their boundary].
     #[arg(long, value_name = "FILE", requires = "mesh")]
@@ -247,7 +192,7 @@ impl View {
 
     /// Refuses to write over files that are read. A state may be saved to the file that it was loaded from.
     fn refuse_overlaps(&self) -> Result<(), Error> {
-        let Choice { mesh, surface, .. } = &self.choice;
+        let Choice { scene: SceneOptions { mesh, .. }, surface, .. } = &self.choice;
         // TetGen's files are two, either of which may be named.
         let is_tetgen = |mesh: &&PathBuf| mesh.extension().is_some_and(|end| end == "node" || end == "ele");
         let tetgen = mesh.as_ref().filter(is_tetgen);
@@ -267,45 +212,19 @@ impl View {
 }
 
 impl Choice {
-    /// The files of another body.
-    fn files(&self) -> Option<Files> {
-        self.mesh.clone().map(|mesh| Files { mesh, surface: self.surface.clone() })
-    }
-
     /// The files of another body, where nothing else may be chosen.
-    fn only_files(self) -> Result<Option<Files>, Error> {
-        let files = self.files();
-        let rest = Self { mesh: None, surface: None, ..self };
-        if rest == Self::parse_from(["piola"]) { Ok(files) } else { Err(Error::ScenesOwn) }
+    fn only_files(mut self) -> Result<Option<Files>, Error> {
+        let (mesh, surface) = (self.scene.mesh.take(), self.surface.take());
+        let files = mesh.map(|mesh| Files { mesh, surface });
+        if self == Self::parse_from(["piola"]) { Ok(files) } else { Err(Error::ScenesOwn) }
     }
 
     /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
-        let files = self.files();
-        let scene = Scene::find(&self.scene)?;
-        let mut settings = Settings::new(scene);
-        if let Some(material) = self.formula.spec(&self.parameters)? {
-            settings.material = material;
-        } else if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
-            settings.material = match declared::in_file(&name)? {
-                Some(material) => material,
-                None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
-            };
-        }
-        settings.material = declared::with_values(settings.material, self.parameters);
-        if let Some(inversion) = self.inversion {
-            settings.material = settings.material.with_inversion(inversion);
-        }
-        if let Some(name) = self.body {
-            settings.body = Body::find(&name)?;
-        }
-        settings.start = start(scene, self.seed, self.amplitude)?;
-        settings.density = self.density.unwrap_or(settings.density);
-        settings.gravity = self.gravity.unwrap_or(settings.gravity);
-        settings.dt = self.dt.unwrap_or(settings.dt);
+        let settings = self.scene.settings(self.surface)?;
+        let dt = self.dt.unwrap_or(settings.dt);
         Ok(settings
-            .with_files(files)
-            .with_pins(self.pins)
+            .with_dt(dt)
             .with_integrator(self.integrator)
             .with_tolerance(self.tolerance)
             .with_newton(self.newton)
@@ -321,51 +240,14 @@ fn integrators() -> impl TypedValueParser<Value = Integrator> {
     })
 }
 
-/// The scene's start, with another seed or amplitude if it is a random one.
-fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
-    let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
-    match (scene.start, seed, amplitude) {
-        (Start::Scrambled { seed, amplitude }, other_seed, other_amplitude) => Ok(Start::Scrambled {
-            seed: other_seed.unwrap_or(seed),
-            amplitude: other_amplitude.unwrap_or(amplitude),
-        }),
-        (start, None, None) => Ok(start),
-        (_, seed, _) => Err(Error::NotScrambled {
-            option: if seed.is_some() { "--seed" } else { "--amplitude" },
-            scene: scene.name,
-            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
-        }),
-    }
-}
-
-fn scenes() -> String {
-    let mut text = String::from("Scenes:\n");
-    for scene in SCENES {
-        text += &format!("  {:24} {}\n", scene.name, scene.about);
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
 
     use super::*;
-    use crate::value::parameter;
 
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn lists_and_numbers_are_parameters() {
-        let read = |text| parameter(text).map(|given| (given.name, given.values));
-        assert_eq!(read("mu=1e5"), Ok(("mu".into(), vec![1e5])));
-        assert_eq!(read("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
-        assert_eq!(read("mu=0.25 MPa"), Ok(("mu".into(), vec![0.25e6])));
-        assert_eq!(read("mu=1,2kPa"), Ok(("mu".into(), vec![1e3, 2e3])));
-        assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
-        assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));
     }
 }

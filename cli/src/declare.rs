@@ -2,6 +2,7 @@
 
 use clap::Args;
 use piola_declare::{Energy, FormulaOptions};
+use piola_scenes::error::Error as SceneError;
 
 use crate::error::Error;
 
@@ -27,7 +28,7 @@ impl Declare {
     pub(crate) fn run(self) -> Result<String, Error> {
         let options = FormulaOptions::default().with_free_rest(self.free_rest);
         let options = if self.kappa { options.with_bulk("kappa") } else { options };
-        let energy = Energy::from_formula_with(&self.formula, &options).map_err(Error::Declaration)?;
+        let energy = Energy::from_formula_with(&self.formula, &options).map_err(SceneError::Declaration)?;
         Ok(format!("{}\n{}", energy.source(), as_comment(energy.documentation())))
     }
 }

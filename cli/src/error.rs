@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use piola::contract::Violations;
 use piola::material::MaterialError;
-use piola_declare::Mistakes;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
@@ -18,19 +17,6 @@ pub enum Error {
     /// A scene cannot start or go on.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// An option for random starts is given for a scene that starts elsewhere.
-    #[error(
-        "the scene `{scene}` has no use for {option}: only {} displace nodes at random",
-        known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-    )]
-    NotScrambled {
-        /// The option, such as `--seed`.
-        option: &'static str,
-        /// The scene.
-        scene: &'static str,
-        /// The scenes that start at random.
-        known: Vec<&'static str>,
-    },
     /// A file that names its scene is given beside a scene or its options.
     #[error(
         "the file names its scene and options itself; leave out all but --load or --replay, --mesh and --surface of \
@@ -108,9 +94,6 @@ pub enum Error {
     /// The system gives no random number for the page's token.
     #[error("cannot make a token for the page: {0}")]
     Random(#[source] getrandom::Error),
-    /// An energy has mistakes.
-    #[error("{0}")]
-    Declaration(Mistakes),
     /// The text of an energy is longer than the viewer takes.
     #[error(
         "the text of an energy has at most {most} bytes here, and this one has {bytes}; put a longer one into a file, for `piola view --material FILE.rs`"
@@ -191,7 +174,7 @@ impl Error {
 
     /// Whether its message is laid out in lines, as a compiler's is.
     pub(crate) fn has_lines(&self) -> bool {
-        matches!(self, Self::Declaration(_) | Self::Contract { .. })
+        matches!(self, Self::Scene(SceneError::Declaration(_)) | Self::Contract { .. })
     }
 
     /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if

@@ -8,14 +8,12 @@ mod bench;
 mod command;
 mod contract;
 mod declare;
-mod declared;
 pub mod error;
 mod materials;
 mod overlap;
 mod picture;
 pub mod render;
 mod signals;
-mod value;
 pub mod view;
 
 use std::fmt::Display;

@@ -8,6 +8,7 @@ use piola::mesh::ReadError;
 use piola::message::{number, quoted};
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
+use piola_declare::Mistakes;
 
 use crate::region::RegionError;
 
@@ -23,6 +24,27 @@ pub enum Error {
         /// The names that exist.
         known: Vec<&'static str>,
     },
+    /// An option for random starts is given for a scene that starts elsewhere.
+    #[error("the scene `{scene}` has no use for {option}: only {} displace nodes at random", list(known))]
+    NotScrambled {
+        /// The option, such as `--seed`.
+        option: &'static str,
+        /// The scene.
+        scene: &'static str,
+        /// The scenes that start at random.
+        known: Vec<&'static str>,
+    },
+    /// A file that is to declare an energy cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    UnreadableDeclaration {
+        /// The file.
+        path: PathBuf,
+        /// Error of the system.
+        source: io::Error,
+    },
+    /// An energy has mistakes.
+    #[error("{0}")]
+    Declaration(Mistakes),
     /// No body has that name.
     #[error("there is no body `{}`; choose one of {}", quoted(name), list(known))]
     UnknownBody {

@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use piola::mesh::{
-    Anchor, Embedding, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    Anchor, Bounds, Embedding, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
     read_tetgen, tetrahedral_box,
 };
 
@@ -152,7 +152,14 @@ impl Geometry {
 /// its bounding box, m.
 fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
     usable(name, mesh.rest_shapes())?;
-    let bounds = mesh.bounds();
+    check_bounds(mesh.bounds())
+}
+
+/// Checks that a body with this bounding box, m, can be simulated and drawn; returns its diagonal, m.
+///
+/// # Errors
+/// [`Error::OutOfRange`].
+pub fn check_bounds(bounds: Bounds) -> Result<f64, Error> {
     let diagonal = bounds.size().iter().map(|side| side * side).sum::<f64>().sqrt();
     let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |far: f64, x| far.max(x.abs()));
     for (quantity, value, [low, high], requirement) in [

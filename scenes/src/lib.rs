@@ -14,6 +14,8 @@ pub mod geometry;
 pub mod material;
 pub mod measure;
 pub mod moment;
+#[cfg(feature = "clap")]
+pub mod options;
 pub mod output;
 pub mod play;
 pub mod recovery_trial;

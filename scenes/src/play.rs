@@ -62,7 +62,7 @@ impl Play {
             pulls,
             drags: Vec::new(),
             moduli: info.moduli,
-            stiffness: stiffness(young, mesh),
+            stiffness: stiffness(young, mesh.bounds()),
             clock: Clock::new(settings.dt),
             tolerance: settings.tolerance.map(|share| share * mesh.bounds().size()[1]),
             steps: StepCounts::default(),
@@ -192,9 +192,9 @@ impl Play {
             let (quantity, value) = ("the time after the step", clock.time());
             return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
         }
-        let (start, events) = self.events_before(clock);
-        let before = (!events.is_empty()).then(|| self.simulation.clone());
-        match self.step_by_events(start, &events, clock) {
+        let (first, last) = stretches(&self.pulls, self.clock);
+        let before = (!first.is_empty()).then(|| self.simulation.clone());
+        match self.make(&first, last, clock.frame()) {
             Ok((report, counts)) => {
                 (self.clock, self.steps) = (clock, counts);
                 Ok(report)
@@ -208,59 +208,35 @@ impl Play {
         }
     }
 
-    /// The present time, s, as that of an event where it is one but for rounding, and the times between it
-    /// and the next frame when a pull changes at once.
-    fn events_before(&self, next: Clock) -> (f64, Vec<f64>) {
-        let near = NEAR * next.dt();
-        let (now, end) = (self.clock.time(), next.time());
-        let events = || self.pulls.iter().flat_map(|springs| springs.pull.events());
-        let start = events().find(|event| (event - now).abs() <= near).unwrap_or(now);
-        let is_between = |&event: &f64| event - start > near && end - event > near;
-        let mut between: Vec<f64> = events().filter(is_between).collect();
-        between.sort_unstable_by(f64::total_cmp);
-        between.dedup();
-        (start, between)
-    }
-
-    /// Makes a frame that begins at a time, s, and in which a pull changes at once at others.
-    fn step_by_events(
+    /// Makes the stretches of a frame.
+    fn make(
         &mut self,
-        mut start: f64,
-        events: &[f64],
-        clock: Clock,
+        first: &[Stretch],
+        last: Stretch,
+        frame: usize,
     ) -> Result<(StepReport, StepCounts), Error> {
         let (mut counts, mut iterations) = (StepCounts::default(), 0);
-        for &event in events {
-            let (report, more) = self.step_between(start, event, event - start, clock.frame())?;
+        for &stretch in first {
+            let (report, more) = self.advance(stretch, frame)?;
             counts += more;
             iterations += report.newton.iterations;
-            start = event;
         }
-        // A whole frame is as long as its clock says, to the last bit.
-        let length = if events.is_empty() { clock.dt() } else { clock.time() - start };
-        let (mut report, more) = self.step_between(start, clock.time(), length, clock.frame())?;
+        let (mut report, more) = self.advance(last, frame)?;
         counts += more;
         report.newton.iterations += iterations;
         Ok((report, counts))
     }
 
-    /// Advances between two times, s, by this length, s.
-    fn step_between(
-        &mut self,
-        start: f64,
-        end: f64,
-        length: f64,
-        frame: usize,
-    ) -> Result<(StepReport, StepCounts), Error> {
-        self.pull(start, end)?;
+    fn advance(&mut self, stretch: Stretch, frame: usize) -> Result<(StepReport, StepCounts), Error> {
+        self.pull(stretch.start, stretch.end)?;
         let failed = |source| Error::Step { frame, source };
         match self.tolerance {
             None => {
-                let report = self.simulation.step(length).map_err(failed)?;
+                let report = self.simulation.step(stretch.length).map_err(failed)?;
                 Ok((report, StepCounts { taken: 1, ..StepCounts::default() }))
             }
             Some(tolerance) => {
-                let report = self.simulation.advance_within(length, tolerance).map_err(failed)?;
+                let report = self.simulation.advance_within(stretch.length, tolerance).map_err(failed)?;
                 let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
                 Ok((step, StepCounts { taken, refused, unresolved }))
             }
@@ -274,6 +250,40 @@ impl Play {
         let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
         Ok(self.simulation.set_springs(&springs)?)
     }
+}
+
+/// A part of a frame in which no pull changes at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Stretch {
+    /// Time at its begin, s.
+    pub start: f64,
+    /// Time at its end, s.
+    pub end: f64,
+    /// Its length, s: that of the clock for a whole frame, to the last bit.
+    pub length: f64,
+}
+
+/// The stretches of time that the frame after the present one is made of: those that end where a pull changes
+/// at once, and the last.
+#[must_use]
+pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch) {
+    let next = clock.next();
+    let near = NEAR * next.dt();
+    let (now, last) = (clock.time(), next.time());
+    let events = || pulls.iter().flat_map(|springs| springs.pull.events());
+    let mut start = events().find(|event| (event - now).abs() <= near).unwrap_or(now);
+    let is_between = |&event: &f64| event - start > near && last - event > near;
+    let mut between: Vec<f64> = events().filter(is_between).collect();
+    between.sort_unstable_by(f64::total_cmp);
+    between.dedup();
+    let is_whole = between.is_empty();
+    let first = between
+        .into_iter()
+        .map(|end| Stretch { start: std::mem::replace(&mut start, end), end, length: 0.0 })
+        .map(|stretch| Stretch { length: stretch.end - stretch.start, ..stretch })
+        .collect();
+    (first, Stretch { start, end: last, length: if is_whole { next.dt() } else { last - start } })
 }
 
 /// Checks that forces on bodies of such a material stay in the range of f64, and their squares.
@@ -307,8 +317,8 @@ pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) ->
 
 /// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
 /// Pa.
-fn stiffness(young: f64, mesh: &TetMesh) -> f64 {
-    young * mesh.bounds().size()[1]
+fn stiffness(young: f64, bounds: Bounds) -> f64 {
+    young * bounds.size()[1]
 }
 
 /// Settings of the steps of a scene.
@@ -378,8 +388,14 @@ impl DragSprings {
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = DRAG_STIFFNESS * stiffness(young, mesh) / nodes.len().max(1) as f64;
+        let stiffness = Self::stiffness_of_each(nodes.len(), bounds, young);
         Self { pull, nodes, bounds, stiffness }
+    }
+
+    /// Stiffness of the spring at each of so many nodes, N/m.
+    #[must_use]
+    pub fn stiffness_of_each(nodes: usize, bounds: Bounds, young: f64) -> f64 {
+        DRAG_STIFFNESS * stiffness(young, bounds) / nodes.max(1) as f64
     }
 
     /// The springs at the end of a stretch of time, s.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 use piola_laboratory::stability::{SurveySettings, map, survey};
+use piola_scenes::options::inversion;
 use piola_scenes::output::write_whole;
 
 use super::Material;
@@ -19,7 +20,7 @@ pub(crate) struct Check {
 
     /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which
     /// the energy is extended by polynomials.
-    #[arg(long, value_name = "refuse|STRETCH", value_parser = crate::value::inversion, default_value = "refuse")]
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, default_value = "refuse")]
     #[arg(allow_negative_numbers = true)]
     inversion: Inversion,
 

@@ -141,7 +141,7 @@ impl Session {
     /// Does what a page asks for, before the next step.
     ///
     /// # Errors
-    /// [`Error::Scene`], [`Error::Declaration`], [`Error::LongText`] or [`Error::NothingSaved`]; the state is then as before.
+    /// [`Error::Scene`], [`Error::LongText`] or [`Error::NothingSaved`]; the state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
             &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),

@@ -18,7 +18,7 @@ const MOST_TRIED: usize = 6;
 /// that has one of its name and form, and else begins with [a value of its own](begin).
 ///
 /// # Errors
-/// [`Error::Declaration`], or an error of the material.
+/// [`SceneError::Declaration`], or an error of the material.
 pub(super) fn material(
     text: &str,
     given: &BTreeMap<String, Vec<f64>>,
@@ -43,7 +43,7 @@ fn energy(text: &str) -> Result<Energy, Error> {
     if text.len() > MAX_TEXT {
         return Err(Error::LongText { bytes: text.len(), most: MAX_TEXT });
     }
-    Energy::from_text(text).map_err(Error::Declaration)
+    Ok(Energy::from_text(text).map_err(SceneError::Declaration)?)
 }
 
 /// Gives each parameter without a value the shear modulus of the body, or 1: of all combinations the one with
@@ -109,7 +109,9 @@ mod tests {
 
     #[test]
     fn mistakes_are_told_with_their_places() {
-        let Err(Error::Declaration(mistakes)) = typed("mu/2*(I1 - 3", &[]) else { panic!() };
+        let Err(Error::Scene(SceneError::Declaration(mistakes))) = typed("mu/2*(I1 - 3", &[]) else {
+            panic!()
+        };
         assert_eq!(mistakes.list[0].place.unwrap().column, 6);
         let unknown = typed("mu/2*(I1 - 3) - mu*ln(J)", &[("nu", 0.3)]).unwrap_err().to_string();
         assert!(unknown.contains("nu") && unknown.contains("mu"), "{unknown}");

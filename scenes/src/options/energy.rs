@@ -5,14 +5,15 @@ use std::path::Path;
 
 use clap::Args;
 use piola_declare::{Energy, FormulaOptions};
-use piola_scenes::material::MaterialSpec;
 
 use crate::error::Error;
-use crate::value::Given;
+use crate::material::MaterialSpec;
+
+use super::Given;
 
 /// Options of a formula.
-#[derive(Debug, Default, PartialEq, Args)]
-pub(crate) struct Formula {
+#[derive(Clone, Debug, Default, PartialEq, Args)]
+pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, in place of a material.
     ///
     /// Its names are the stretches l1, l2, l3, the invariants I1, I2, J, I1b and I2b, and parameters, whose
@@ -34,7 +35,10 @@ const BULK: &str = "kappa";
 
 impl Formula {
     /// The material of the formula with these parameters, if a formula is given.
-    pub(crate) fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
+    ///
+    /// # Errors
+    /// [`Error::Declaration`].
+    pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
         let Some(formula) = &self.energy else { return Ok(None) };
         // A name without a value is a mistake, told at its place, unless none has a value yet.
         let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
@@ -51,7 +55,10 @@ impl Formula {
 }
 
 /// The material of a declaration in Rust, if a name is that of a file.
-pub(crate) fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
+///
+/// # Errors
+/// [`Error::UnreadableDeclaration`], [`Error::Declaration`].
+pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     if !is_file(name) {
         return Ok(None);
     }
@@ -64,14 +71,15 @@ fn is_file(name: &str) -> bool {
 }
 
 /// The energy that a file of Rust declares.
-pub(crate) fn read(path: &Path) -> Result<Energy, Error> {
-    let unreadable = |source| Error::Unreadable { path: path.to_owned(), source };
+fn read(path: &Path) -> Result<Energy, Error> {
+    let unreadable = |source| Error::UnreadableDeclaration { path: path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
     let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
     Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
 }
 
 /// Adds values of parameters to a material.
-pub(crate) fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> MaterialSpec {
+#[must_use]
+pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> MaterialSpec {
     parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values))
 }

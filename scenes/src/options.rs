@@ -1,0 +1,136 @@
+//! Options of a command line that choose a scene and replace what it says, for every program that plays one.
+
+mod energy;
+mod value;
+
+pub use energy::{Formula, in_file, with_values};
+pub use value::{Given, inversion, parameter};
+
+use std::path::PathBuf;
+
+use clap::Args;
+use piola::Inversion;
+
+use crate::error::Error;
+use crate::material::MaterialSpec;
+use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
+use crate::settings::{Files, Settings};
+
+/// A scene and overrides of its defaults.
+#[derive(Clone, Debug, PartialEq, Args)]
+#[non_exhaustive]
+pub struct SceneOptions {
+    /// The scene.
+    #[arg(default_value = "horse")]
+    pub scene: String,
+
+    /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
+    /// One that is listed is as stiff as the scene's without --param.
+    #[arg(long, value_name = "NAME|FILE.rs")]
+    pub material: Option<String>,
+
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "clap would print it")]
+    pub formula: Formula,
+
+    /// Value of a parameter of the material, in SI units or with kPa, MPa or GPa behind it; lists as
+    /// NAME=V,V,V. Of another material than the scene's, all or none.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    pub parameters: Vec<Given>,
+
+    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
+    /// energy is extended by polynomials [default: 0.1 where it can be].
+    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
+    pub inversion: Option<Inversion>,
+
+    /// Density in kg/m³ [default: the scene's, 1000].
+    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
+    pub density: Option<f64>,
+
+    /// Gravity in m/s², downwards [default: 0].
+    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    pub gravity: Option<f64>,
+
+    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
+    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
+    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
+    pub pins: Vec<String>,
+
+    /// Another body that comes with the program: horse, dinosaur or bar [default: the scene's].
+    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
+    pub body: Option<String>,
+
+    /// Seed of the random displacements of a scene that scrambles: equal seeds give equal starts [default:
+    /// the scene's, 1].
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+
+    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere
+    /// in the body's bounding box [default: the scene's, 0.3].
+    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
+    pub amplitude: Option<Amplitude>,
+
+    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
+    /// become shares of its bounding box.
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
+}
+
+impl SceneOptions {
+    /// The scene with the overrides; with a surface to embed in the tetrahedra of `--mesh`, in place of their
+    /// boundary.
+    ///
+    /// # Errors
+    /// [`Error`] of a name, a formula or a file of the material. Values are not checked: see
+    /// [`Settings::check`].
+    pub fn settings(self, surface: Option<PathBuf>) -> Result<Settings, Error> {
+        let scene = Scene::find(&self.scene)?;
+        let mut settings = Settings::new(scene);
+        if let Some(material) = self.formula.spec(&self.parameters)? {
+            settings.material = material;
+        } else if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
+            settings.material = match in_file(&name)? {
+                Some(material) => material,
+                None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
+            };
+        }
+        settings.material = with_values(settings.material, self.parameters);
+        if let Some(inversion) = self.inversion {
+            settings.material = settings.material.with_inversion(inversion);
+        }
+        if let Some(name) = self.body {
+            settings.body = Body::find(&name)?;
+        }
+        settings.start = start(scene, self.seed, self.amplitude)?;
+        settings.density = self.density.unwrap_or(settings.density);
+        settings.gravity = self.gravity.unwrap_or(settings.gravity);
+        Ok(settings.with_files(self.mesh.map(|mesh| Files { mesh, surface })).with_pins(self.pins))
+    }
+}
+
+/// The scene's start, with another seed or amplitude if it is a random one.
+fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
+    let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
+    match (scene.start, seed, amplitude) {
+        (Start::Scrambled { seed, amplitude }, other_seed, other_amplitude) => Ok(Start::Scrambled {
+            seed: other_seed.unwrap_or(seed),
+            amplitude: other_amplitude.unwrap_or(amplitude),
+        }),
+        (start, None, None) => Ok(start),
+        (_, seed, _) => Err(Error::NotScrambled {
+            option: if seed.is_some() { "--seed" } else { "--amplitude" },
+            scene: scene.name,
+            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
+        }),
+    }
+}
+
+/// The scenes with what happens in them, to be shown behind the options.
+#[must_use]
+pub fn scenes() -> String {
+    let mut text = String::from("Scenes:\n");
+    for scene in SCENES {
+        text += &format!("  {:24} {}\n", scene.name, scene.about);
+    }
+    text
+}
