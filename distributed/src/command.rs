@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
-use piola::Inversion;
 use piola::point::Filter;
 use piola::step::{Filtering, Integrator, LineSearchSettings};
 use piola_scenes::material::MaterialSpec;
+use piola_scenes::options::{SceneOptions, in_file, parameter, scenes, with_values};
 use piola_scenes::output::Newton;
-use piola_scenes::scene::{Amplitude, Body, Scene, Start};
-use piola_scenes::settings::{Files, Settings};
+use piola_scenes::settings::Settings;
 
 use crate::elastic::MaterialPart;
 use crate::error::Error;
@@ -35,8 +34,10 @@ pub enum Command {
     /// iterations and times.
     Box(BoxOptions),
     /// Take a body to equilibrium under gravity.
+    #[command(after_help = scenes())]
     Statics(Box<StaticsOptions>),
     /// Run a scene, or a mesh, in steps of time.
+    #[command(after_help = scenes())]
     Run(Box<RunOptions>),
 }
 
@@ -116,6 +117,11 @@ pub struct RunOptions {
     #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
     integrator: Integrator,
 
+    /// Largest error of the motion that steps of time may make, in body heights per second: each frame is
+    /// made in steps as short as that takes. Best with --integrator sdirk2 and --newton full.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+
     /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
     #[arg(long, value_enum, default_value_t = Newton::Single)]
     newton: Newton,
@@ -154,63 +160,18 @@ pub struct SolverOptions {
 /// A scene and overrides of its defaults.
 #[derive(Debug, Parser)]
 struct Choice {
-    /// The scene.
-    #[arg(default_value = "horse")]
-    scene: String,
+    #[command(flatten)]
+    scene: SceneOptions,
 
-    /// Material, as listed by `piola materials` [default: the scene's]. Without --param, as stiff as the
-    /// scene's.
-    #[arg(long, value_name = "NAME")]
-    material: Option<String>,
-
-    /// Value of a parameter of the material; lists as NAME=V,V,V.
-    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
-    parameters: Vec<(String, Vec<f64>)>,
-
-    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. Without
-    /// parameters, as stiff as the scene's; may be repeated.
-    #[arg(long = "part", value_name = "GROUP=NAME;…")]
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO, where NAME
+    /// may be a file of Rust. Without parameters, as stiff as the scene's; may be repeated.
+    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
-
-    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
-    /// energy is extended by polynomials [default: 0.1 where it can be].
-    #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
-    inversion: Option<Inversion>,
-
-    /// Density in kg/m³ [default: the scene's, 1000].
-    #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
-    density: Option<f64>,
-
-    /// Gravity in m/s², downwards [default: 0].
-    #[arg(long, value_name = "G", allow_negative_numbers = true)]
-    gravity: Option<f64>,
-
-    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
-    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
-    #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
-    pins: Vec<String>,
 
     /// Nodes that are moved: BOX|GROUP=X,Y,Z@T, steadily by X, Y, Z in m until the time T in s, and held
     /// there; in statics at once. May be repeated.
     #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
     moves: Vec<Move>,
-
-    /// Another body that comes with piola: horse, dinosaur or bar [default: the scene's].
-    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
-    body: Option<String>,
-
-    /// Another body: tetrahedra in Gmsh MSH 4.1 or 2.2, ASCII, or TetGen's .node and .ele; the scene's places
-    /// become shares of its bounding box.
-    #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
-
-    /// Seed of the random displacements of a scene that scrambles.
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-
-    /// How far such a scene displaces each node along each axis, in mean edge lengths, or `box`.
-    #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
-    amplitude: Option<Amplitude>,
 }
 
 /// What a run is to do.
@@ -247,6 +208,7 @@ impl RunOptions {
         settings.dt = self.dt.unwrap_or(settings.dt);
         settings.frames = self.frames.unwrap_or(settings.frames);
         settings.integrator = self.integrator;
+        settings.tolerance = self.tolerance;
         settings.newton = self.newton;
         settings.check()?;
         Ok(task)
@@ -292,35 +254,7 @@ impl SolverOptions {
 
 impl Choice {
     fn task(&self) -> Result<Task, Error> {
-        let scene = Scene::find(&self.scene)?;
-        let mut settings = Settings::new(scene);
-        if let Some(name) = self.material.as_ref().filter(|name| !settings.material.is(name)) {
-            settings.material = MaterialSpec::matching(name, settings.material.build()?.moduli);
-        }
-        for (name, values) in &self.parameters {
-            settings.material = settings.material.with_parameter(name, values.clone());
-        }
-        if let Some(inversion) = self.inversion {
-            settings.material = settings.material.with_inversion(inversion);
-        }
-        if let Some(name) = &self.body {
-            settings.body = Body::find(name)?;
-        }
-        if let Start::Scrambled { seed, amplitude } = scene.start {
-            settings.start = Start::Scrambled {
-                seed: self.seed.unwrap_or(seed),
-                amplitude: self.amplitude.unwrap_or(amplitude),
-            };
-        } else if self.seed.is_some() || self.amplitude.is_some() {
-            let name = scene.name;
-            return Err(Error::Options(format!(
-                "--seed and --amplitude: the scene {name} displaces nothing at random"
-            )));
-        }
-        settings.density = self.density.unwrap_or(settings.density);
-        settings.gravity = self.gravity.unwrap_or(settings.gravity);
-        settings.pins = self.pins.clone();
-        settings.files = self.mesh.clone().map(|mesh| Files { mesh, surface: None });
+        let settings = self.scene.clone().settings(None)?;
         settings.check()?;
         let mut task =
             Task { settings, groups: Vec::new(), materials: Vec::new(), moves: self.moves.clone() };
@@ -344,43 +278,26 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
     let mut density = settings.density;
     let mut parameters = Vec::new();
     for word in words {
-        match parameter(word).map_err(|reason| wrong(&reason))? {
-            (name, values) if name == "density" => {
-                density = *values.first().ok_or_else(|| wrong("density=RHO needs a number"))?;
-            }
-            other => parameters.push(other),
+        let given = parameter(word).map_err(|reason| wrong(&reason))?;
+        if given.name == "density" {
+            density = *given.values.first().ok_or_else(|| wrong("density=RHO needs a number"))?;
+        } else {
+            parameters.push(given);
         }
     }
-    let mut material = if parameters.is_empty() {
-        MaterialSpec::matching(name, settings.material.build()?.moduli)
-    } else {
-        MaterialSpec::new(name)
+    let material = match in_file(name)? {
+        Some(material) => material,
+        None if parameters.is_empty() => MaterialSpec::matching(name, settings.material.build()?.moduli),
+        None => MaterialSpec::new(name),
     };
-    for (name, values) in parameters {
-        material = material.with_parameter(&name, values);
-    }
+    let material = with_values(material, parameters);
     material.build()?;
     Ok((group.to_owned(), MaterialPart { material, density }))
-}
-
-/// Reads `NAME=V,V,V`.
-fn parameter(text: &str) -> Result<(String, Vec<f64>), String> {
-    let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
-    Ok((name.trim().into(), numbers(values)?))
 }
 
 fn numbers(text: &str) -> Result<Vec<f64>, String> {
     let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
     text.split(',').map(number).collect()
-}
-
-/// Reads `refuse` or the stretch where an extension begins.
-fn inversion(text: &str) -> Result<Inversion, String> {
-    if text == "refuse" {
-        return Ok(Inversion::Refuse);
-    }
-    let epsilon = text.parse().map_err(|_| "write `refuse`, or a stretch between 0 and 1")?;
-    Ok(Inversion::Extend { epsilon })
 }
 
 /// Reads `BOX|GROUP=X,Y,Z@T`.
@@ -498,7 +415,7 @@ mod tests {
         for wrong in ["top=1,2@3", "top=1,2,3@0", "1,2,3@1", "top=1,2,3"] {
             assert!(motion(wrong).is_err(), "{wrong}");
         }
-        let settings = Settings::new(Scene::find("horse")?);
+        let settings = Settings::new(piola_scenes::scene::Scene::find("horse")?);
         let (group, material) = part("legs=neo-Hookean;mu=1e5;lambda=1e6;density=2000", &settings)?;
         assert_eq!((group.as_str(), material.density), ("legs", 2000.0));
         assert!(part("legs=nothing", &settings).is_err() && part("legs", &settings).is_err());

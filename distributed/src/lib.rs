@@ -24,3 +24,4 @@ pub mod share;
 pub mod simulation;
 pub mod system;
 pub mod team;
+pub mod tetgen;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use piola::step::Integrator;
 use piola_scenes::material::Parameters;
-use piola_scenes::output::{Ended, Field, write_pvd, write_vtu, write_whole};
+use piola_scenes::output::{Ended, Field, StepCounts, write_pvd, write_vtu, write_whole};
 use serde::Serialize;
 
 use crate::error::Error;
@@ -54,6 +54,12 @@ pub struct Summary {
     pub dt: Option<f64>,
     /// Method by which steps advanced in time; `None` in statics.
     pub integrator: Option<Integrator>,
+    /// Largest error of the motion that steps of time were to make, body heights per second; `None` for one
+    /// step in each frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Steps of time by which the frames were made.
+    pub steps: StepCounts,
     /// Newton iterations per step, on average.
     pub newton_iterations_mean: f64,
     /// Iterations of the linear solver in each system, on average.

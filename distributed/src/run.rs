@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola::material::Moduli;
-use piola::step::Convergence;
+use piola::step::{Convergence, Pace};
 use piola_scenes::clock::Clock;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
-use piola_scenes::output::{Ended, Newton};
+use piola_scenes::output::{Ended, Newton, StepCounts};
+use piola_scenes::play::Stretch;
 use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +21,7 @@ use crate::error::Error;
 use crate::newton::NewtonReport;
 use crate::output::{self, Summary};
 use crate::portion::Portion;
-use crate::setting::{Setting, parts};
+use crate::setting::{Setting, materials};
 use crate::share::Share;
 use crate::simulation::{Simulation, SimulationSettings};
 use crate::team::Team;
@@ -47,6 +48,7 @@ struct Progress {
     linear_iterations: usize,
     relative_residual: f64,
     min_det_f: f64,
+    steps: StepCounts,
 }
 
 impl Progress {
@@ -57,6 +59,7 @@ impl Progress {
             linear_iterations: 0,
             relative_residual: 0.0,
             min_det_f: 1.0,
+            steps: StepCounts::default(),
         }
     }
 
@@ -211,14 +214,15 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
             output::write_frame(team, &folder, 0, &course.simulation)?;
         }
     }
-    let springs = setting.springs(clock.time());
+    let springs = setting.springs(clock.time(), clock.time());
     course.simulation.set_springs(springs);
     let wanted = task.settings.frames;
     let (mut times, mut failures) = (Vec::new(), Vec::new());
     while course.frame < wanted {
         let begun = Instant::now();
+        let stepped = course.step(clock);
         clock = clock.next();
-        if let Err(error) = course.step(clock) {
+        if let Err(error) = stepped {
             // The first step says that the run cannot be; of PETSc's errors other ranks may not know.
             if course.frame == 0 || !error.is_common() {
                 return Err(error);
@@ -269,7 +273,7 @@ fn simulation(
     };
     let (gravity, integrator) = (settings.gravity, settings.integrator);
     let settings = SimulationSettings { gravity, damping, integrator, newton };
-    Simulation::new(team, setting.share.clone(), &parts(&task.settings, &task.materials), settings)
+    Simulation::new(team, setting.share.clone(), &materials(&task.settings, &task.materials), settings)
 }
 
 /// A run between its first step and its last.
@@ -283,15 +287,32 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
+    /// Makes the frame after the one at the clock.
     fn step(&mut self, clock: Clock) -> Result<(), Error> {
-        let time = clock.time();
-        self.simulation.set_springs(self.setting.springs(time));
-        let share = &self.setting.share;
-        self.simulation.prescribe(|node| self.setting.place(share, node, time));
-        let reports = self.simulation.step(clock.dt())?;
-        self.progress.note(&reports);
+        let (first, last) = self.setting.stretches(clock);
+        for stretch in first.into_iter().chain([last]) {
+            self.advance(stretch)?;
+        }
         self.progress.note_state(self.team, &self.simulation);
         self.frame += 1;
+        Ok(())
+    }
+
+    fn advance(&mut self, stretch: Stretch) -> Result<(), Error> {
+        let Self { team: _, task, setting, simulation, progress, .. } = self;
+        simulation.set_springs(setting.springs(stretch.start, stretch.end));
+        simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end));
+        let (steps, reports) = match task.settings.tolerance {
+            None => (StepCounts { taken: 1, ..StepCounts::default() }, simulation.step(stretch.length)?),
+            Some(share) => {
+                let tolerance = share * setting.height();
+                let (pace, reports) = simulation.advance_within(stretch.length, tolerance)?;
+                let Pace { taken, refused, unresolved, .. } = pace;
+                (StepCounts { taken, refused, unresolved }, reports)
+            }
+        };
+        progress.steps += steps;
+        progress.note(&reports);
         Ok(())
     }
 
@@ -346,7 +367,7 @@ impl Course<'_> {
         let mut sorted: Vec<f64> = times.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let total: f64 = sorted.iter().sum();
-        let Progress { newton_iterations, systems, linear_iterations, relative_residual, min_det_f } =
+        let Progress { newton_iterations, systems, linear_iterations, relative_residual, min_det_f, steps } =
             self.progress;
         Summary {
             scene: settings.scene.name.to_owned(),
@@ -365,6 +386,8 @@ impl Course<'_> {
             warnings: self.setting.body.warnings.clone(),
             dt: Some(settings.dt),
             integrator: Some(settings.integrator),
+            tolerance: settings.tolerance,
+            steps,
             newton_iterations_mean: newton_iterations as f64 / self.frame.max(1) as f64,
             linear_iterations_mean: linear_iterations as f64 / systems.max(1) as f64,
             relative_residual,

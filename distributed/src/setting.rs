@@ -1,11 +1,15 @@
-//! The setting of a run: a scene's body, read once and divided, and what acts on it.
+//! The setting of a run: a scene's body, read and divided, and what acts on it.
+
+use std::path::Path;
 
 use piola::mesh::Bounds;
 use piola::step::Spring;
 use piola::system::Pins;
+use piola_scenes::clock::Clock;
 use piola_scenes::geometry::Geometry;
-use piola_scenes::play::{self, DragSprings};
+use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
+use piola_scenes::scene::{Amplitude, Start};
 use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +18,8 @@ use crate::error::Error;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
+
+mod parts;
 
 /// A motion of some nodes, which are pinned for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,27 +57,63 @@ pub struct BodyFacts {
     stiffnesses: Vec<f64>,
 }
 
-/// Marks of pulls begin behind that of a pin; those of moves begin here.
-const MOVES: usize = 32;
+/// Most pulls, and most moves: the marks of a node have a bit for each.
 const MOST: usize = 24;
 
+/// Marks of nodes that are held where they are, or moved.
+const PINNED: u64 = 1;
+
+/// Mark of the nodes of a pull.
+fn pull_mark(number: usize) -> u64 {
+    2 << number
+}
+
+/// Mark of the nodes of a move.
+fn move_mark(number: usize) -> u64 {
+    1 << (32 + number)
+}
+
+/// TetGen's file that all ranks can read at once.
+fn in_parts(settings: &Settings) -> Option<&Path> {
+    let starts_at_rest =
+        matches!(settings.start, Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. });
+    let file = settings.files.as_ref().map(|files| files.mesh.as_path())?;
+    let is_tetgen = file.extension().is_some_and(|end| end == "node" || end == "ele");
+    (is_tetgen && starts_at_rest).then_some(file)
+}
+
 impl Setting {
-    /// Reads the body on rank 0, and divides it; `parts` are the materials of named groups, behind that of
-    /// all others.
+    /// Reads the body and divides it; `groups` are those with a material of their own, behind that of all
+    /// others. TetGen's files are read by all ranks at once where the body starts at rest; others are read by
+    /// rank 0, which holds them whole.
     ///
     /// # Errors
-    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::TooManyRanks`], [`Error::Petsc`].
+    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
+    /// [`Error::TooManyRanks`], [`Error::Petsc`].
     pub fn new(team: &Team, settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Self, Error> {
-        let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
-        let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
-        let facts = team.from_first(facts);
-        let body: BodyFacts = serde_json::from_slice(&facts)
-            .map_err(|error| Error::Options(format!("ranks run different programs: {error}")))?;
-        let share = Share::of(team, Portion::spread(team, places, elements))?;
+        if moves.len() > MOST || settings.scene.pulls.len() > MOST {
+            return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
+        }
+        let (share, body) = match in_parts(settings) {
+            Some(path) => {
+                let (portion, body) = parts::read(team, path, settings, groups, moves)?;
+                let mut share = Share::of(team, portion)?;
+                share.turn_inverted();
+                (share, body)
+            }
+            None => {
+                let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
+                let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
+                let facts = team.from_first(facts);
+                let body: BodyFacts = serde_json::from_slice(&facts)
+                    .map_err(|error| Error::Options(format!("ranks run different programs: {error}")))?;
+                (Share::of(team, Portion::spread(team, places, elements))?, body)
+            }
+        };
         let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
             pull,
             nodes: (0..share.owned)
-                .filter(|&node| share.places[node].marks >> (number + 1) & 1 == 1)
+                .filter(|&node| share.places[node].marks & pull_mark(number) != 0)
                 .map(|node| (node, share.places[node].rest))
                 .collect(),
             bounds: body.bounds,
@@ -80,10 +122,16 @@ impl Setting {
         Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
     }
 
-    /// The springs at owned nodes at a time, s.
+    /// The springs at owned nodes at the end of a stretch of time, s.
     #[must_use]
-    pub fn springs(&self, time: f64) -> Vec<Spring> {
-        self.pulls.iter().flat_map(|pull| pull.during(time, time)).collect()
+    pub fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
+        self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
+    }
+
+    /// The stretches of time of the next frame, equal on all ranks.
+    #[must_use]
+    pub fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
+        play::stretches(&self.pulls, clock)
     }
 
     /// Where a pinned node is at a time, s, if something moves it.
@@ -92,7 +140,7 @@ impl Setting {
         let Place { rest, marks, .. } = share.places[node];
         let mut moved = None;
         for (number, motion) in self.moves.iter().enumerate() {
-            if marks >> (MOVES + number) & 1 == 1 {
+            if marks & move_mark(number) != 0 {
                 let done = (time / motion.reached).clamp(0.0, 1.0);
                 let at = moved.get_or_insert(rest);
                 (0..3).for_each(|c| at[c] += done * motion.displacement[c]);
@@ -116,9 +164,6 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();
     let mut pins = play::pins(settings, mesh)?;
-    if moves.len() > MOST || settings.scene.pulls.len() > MOST {
-        return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
-    }
     let mut marks = vec![0_u64; mesh.positions.len()];
     for (number, motion) in moves.iter().enumerate() {
         let moved = match (mesh.group(&motion.nodes), region::parse(&motion.nodes)) {
@@ -126,14 +171,14 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
             _ => Pins::of_group(mesh, &motion.nodes),
         };
         let moved = moved.map_err(|error| Error::Options(format!("--move {}: {error}", motion.nodes)))?;
-        moved.nodes().iter().for_each(|&node| marks[node] |= 1 << (MOVES + number));
+        moved.nodes().iter().for_each(|&node| marks[node] |= move_mark(number));
         pins = pins.and(&moved);
     }
-    pins.nodes().iter().for_each(|&node| marks[node] |= 1);
+    pins.nodes().iter().for_each(|&node| marks[node] |= PINNED);
     let mut stiffnesses = Vec::new();
     for (number, &pull) in settings.scene.pulls.iter().enumerate() {
         let springs = DragSprings::new(pull, mesh, young);
-        springs.nodes.iter().for_each(|&(node, _)| marks[node] |= 2 << number);
+        springs.nodes.iter().for_each(|&(node, _)| marks[node] |= pull_mark(number));
         stiffnesses.push(springs.stiffness);
     }
     let start = play::start_positions(settings, &geometry, &pins);
@@ -166,7 +211,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
 
 /// The materials of a run: that of the settings, and those of groups with their density.
 #[must_use]
-pub fn parts(settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
+pub fn materials(settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
     let first = MaterialPart { material: settings.material.clone(), density: settings.density };
     std::iter::once(first).chain(groups.iter().cloned()).collect()
 }

@@ -7,6 +7,8 @@
 
 use std::collections::HashMap;
 
+use piola::mesh::turned;
+
 use crate::error::Error;
 use crate::petsc::Matrix;
 use crate::portion::{Element, Homes, Place, Portion};
@@ -129,6 +131,14 @@ impl Share {
             elements: elements.iter().map(local).collect(),
             totals: [homes.total() as usize, total],
         })
+    }
+
+    /// Gives every element the orientation of positive volume, of meshes that promise none.
+    pub fn turn_inverted(&mut self) {
+        let rest: Vec<[f64; 3]> = self.places.iter().map(|place| place.rest).collect();
+        for (nodes, ..) in &mut self.elements {
+            *nodes = turned(*nodes, &rest);
+        }
     }
 
     /// The pinned nodes among those of this rank and the copies, ascending.

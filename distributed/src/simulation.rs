@@ -1,6 +1,8 @@
 //! A body that is divided among ranks, stepped in time.
 
-use piola::step::{Integrator, SetupError, Spring, Stage, StagedSteps, Term};
+use piola::step::{
+    Integrator, Pace, Repeatable, SetupError, Spring, Stage, StagedSteps, Term, advance_within, on_the_way,
+};
 
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
@@ -198,6 +200,33 @@ impl Simulation {
         Ok(reports)
     }
 
+    /// Advances the state by a time, s, in steps so short that they make no error of positions above
+    /// `tolerance`, m/s, times the time, as [`piola::step::Simulation::advance_within`] does. Returns what
+    /// became of the steps, with the reports of all of their stages, refused ones included.
+    ///
+    /// # Errors
+    /// An [`Error`] of the shortest step, or of PETSc.
+    pub fn advance_within(
+        &mut self,
+        duration: f64,
+        tolerance: f64,
+    ) -> Result<(Pace<()>, Vec<NewtonReport>), Error> {
+        let (integrator, allowed) = (self.settings.integrator, tolerance * duration);
+        let mut course = Course {
+            duration,
+            before: self.steps.positions().to_vec(),
+            targets: self.targets.clone(),
+            targets_before: self.targets_before.clone(),
+            springs: self.springs.clone(),
+            reports: Vec::new(),
+            simulation: self,
+        };
+        let pace = advance_within(&mut course, integrator, allowed);
+        let Course { targets, springs, reports, .. } = course;
+        (self.targets, self.springs) = (targets, springs);
+        Ok((pace?, reports))
+    }
+
     /// Moves the body to a minimum of its energy with gravity and springs, without inertia, where it is at
     /// rest.
     ///
@@ -262,5 +291,60 @@ impl Simulation {
         let [elastic, kinetic, gravity, springs] =
             self.team.sum([self.elastic.energy(), kinetic, gravity, springs]);
         Energies { elastic: if is_admissible { elastic } else { f64::NAN }, kinetic, gravity, springs }
+    }
+}
+
+/// The time that a simulation is advanced over, and what moves evenly meanwhile.
+struct Course<'a> {
+    simulation: &'a mut Simulation,
+    duration: f64,
+    /// Positions before, m.
+    before: Vec<[f64; 3]>,
+    /// Positions of pinned nodes at the end, m.
+    targets: Vec<[f64; 3]>,
+    /// Targets of springs before, m.
+    targets_before: Vec<[f64; 3]>,
+    /// Springs at the end.
+    springs: Vec<Spring>,
+    /// Reports of all stages of all steps.
+    reports: Vec<NewtonReport>,
+}
+
+impl Repeatable for Course<'_> {
+    type State = StagedSteps;
+    type Report = ();
+    type Error = Error;
+
+    fn state(&self) -> StagedSteps {
+        self.simulation.steps.clone()
+    }
+
+    fn restore(&mut self, state: &StagedSteps) {
+        self.simulation.steps.clone_from(state);
+    }
+
+    fn distance(&self, from: &StagedSteps) -> f64 {
+        let (x, y) = (self.simulation.steps.positions(), from.positions());
+        let pairs = x.as_flattened().iter().zip(y.as_flattened());
+        self.simulation.team.max(pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max))
+    }
+
+    fn step_between(&mut self, start: f64, end: f64) -> Result<(), Error> {
+        let Self { simulation, .. } = self;
+        for &node in &simulation.pinned {
+            simulation.targets[node] = on_the_way(self.before[node], self.targets[node], end);
+        }
+        for (index, (before, spring)) in self.targets_before.iter().zip(&self.springs).enumerate() {
+            simulation.targets_before[index] = on_the_way(*before, spring.target, start);
+            simulation.springs[index].target = on_the_way(*before, spring.target, end);
+        }
+        let reports = simulation.step((end - start) * self.duration)?;
+        self.reports.extend(reports);
+        Ok(())
+    }
+
+    /// Other ranks may know nothing of it.
+    fn is_final(error: &Error) -> bool {
+        !error.is_common()
     }
 }

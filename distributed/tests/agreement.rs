@@ -17,6 +17,7 @@ use piola::step::{
 use piola::system::{Body, Part, Pins};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
+use piola_scenes::output::Newton;
 use piola_scenes::play::{Play, step_settings};
 use piola_scenes::scene::{DINOSAUR, HORSE, Scene, TWIST};
 use piola_scenes::settings::Settings;
@@ -140,6 +141,69 @@ fn integrators_go_the_same_way() -> TestResult {
         println!("{name}: {:.1e} body heights", error / height);
         assert!(error <= 1e-9 * frames as f64 * height, "{name}: {error:e} m");
     }
+    Ok(())
+}
+
+/// Where a pull ends within a frame, the frame is divided there; and the energy is a formula.
+#[test]
+fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
+    let spec = matching(&DINOSAUR, "neo-Hookean")?;
+    let [mu, lambda] = ["mu", "lambda"].map(|name| spec.values_of(name)[0]);
+    let settings = Settings::new(&DINOSAUR).with_material(spec).with_dt(0.4);
+    let geometry = Geometry::load(&settings)?;
+    let mut play = Play::new(&settings, &geometry)?;
+    play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+    // Let go at 2 s; all of the way at 1.5 s.
+    let frames = 4;
+    for _ in 0..frames {
+        play.step()?;
+    }
+    let scratch = tempfile::tempdir()?;
+    let folder = scratch.path().join("run");
+    let options = format!("run dinosaur --dt 0.4 --frames {frames} {SOLVED} --out {}", folder.display());
+    let energy = [
+        "--energy".to_owned(),
+        "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2".to_owned(),
+        format!("--param=mu={mu}"),
+        format!("--param=lambda={lambda}"),
+    ];
+    let found = state_after(2, options.split_whitespace().map(str::to_owned).chain(energy), &folder)?;
+    let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
+    println!("four frames of 0.4 s: {error:.1e} body heights");
+    assert!(error <= 1e-9 * f64::from(frames), "{error:e} body heights");
+    Ok(())
+}
+
+/// Each program makes steps as short as the tolerance takes; where the other solves one to fewer digits,
+/// trajectories part by a share of it.
+#[test]
+fn steps_within_a_tolerance_go_the_same_way() -> TestResult {
+    let (tolerance, dt, frames) = (0.05, 0.1, 4);
+    let settings = Settings::new(&DINOSAUR)
+        .with_dt(dt)
+        .with_integrator(Integrator::Sdirk2)
+        .with_tolerance(Some(tolerance))
+        .with_newton(Newton::Full);
+    let geometry = Geometry::load(&settings)?;
+    let mut play = Play::new(&settings, &geometry)?;
+    let mut taken = 0;
+    for _ in 0..frames {
+        play.step()?;
+        taken += play.steps().taken;
+    }
+    let scratch = tempfile::tempdir()?;
+    let folder = scratch.path().join("run");
+    let options = format!(
+        "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full --out {}",
+        folder.display()
+    );
+    let found = state_after(2, options.split_whitespace().map(str::to_owned), &folder)?;
+    let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
+    let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
+    println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
+    assert!(taken > 2 * frames, "{taken} steps are no test of this");
+    assert_eq!(summary["steps"]["taken"], taken);
+    assert!(error <= 0.1 * tolerance * dt * frames as f64, "{error:e} body heights");
     Ok(())
 }
 
@@ -295,4 +359,78 @@ fn msh(mesh: &TetMesh, upper: &[usize]) -> String {
         text += &format!("{} 4 2 {group} {group} {a} {b} {c} {d}\n", tet + 1);
     }
     text + "$EndElements\n"
+}
+
+/// A bar in TetGen's files, which ranks read in parts: with markers and regions, a stray node among the
+/// others, comments, and tetrahedra in both orientations.
+#[test]
+fn files_read_in_parts_are_those_read_whole() -> TestResult {
+    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("bar.node");
+    let stray = 11;
+    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
+    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
+    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
+        let marker = if *y == 0.0 { 5 } else { 0 };
+        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
+    }
+    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
+    let mut tets = format!("{} 4 1\n", bar.tets.len());
+    for (tet, nodes) in bar.tets.iter().enumerate() {
+        let [a, b, c, d] = nodes.map(number);
+        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
+        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
+    }
+    std::fs::write(&file, nodes)?;
+    std::fs::write(file.with_extension("ele"), tets)?;
+
+    let mesh = piola::mesh::read_tetgen(&file)?;
+    let soft = (HORSE.material)().build()?.moduli;
+    let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
+        let material = MaterialSpec::matching(name, soft).build()?.elements;
+        Ok(Part { group: group.map(str::to_owned), material, density })
+    };
+    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
+    let body = Body::from_parts(&mesh, parts)?;
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
+    let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, settings)?;
+    simulation.equilibrate()?;
+
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let words = [
+            "statics",
+            "scramble",
+            "--amplitude",
+            "0",
+            "--mesh",
+            file.to_str().expect("UTF-8"),
+            "--material",
+            "neo-Hookean",
+            "--part",
+            "7=stable neo-Hookean;density=3000",
+            "--gravity",
+            "9.81",
+            "--pin",
+            "5",
+            "--newton-tolerance",
+            "1e-12",
+            "--newton-iterations",
+            "200",
+            "--filter",
+            "clamp",
+            "--out",
+            folder.to_str().expect("UTF-8"),
+        ];
+        let found = state_after(count, words.map(str::to_owned), &folder)?;
+        let error = distance(&found.positions, simulation.positions());
+        println!("files in {count} parts: {error:.1e} m");
+        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
+        let summary: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
+        let warnings = summary["warnings"].to_string();
+        assert!(warnings.contains("1 nodes of the file belong to no tetrahedron"), "{warnings}");
+    }
+    Ok(())
 }

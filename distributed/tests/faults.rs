@@ -223,3 +223,36 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     }
     Ok(())
 }
+
+/// Ranks that read a file in parts say where it is malformed, whichever of them it is.
+#[test]
+fn files_read_in_parts_are_malformed_at_a_byte() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("tet.node");
+    let nodes = "5 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n";
+    let tets = "2 4\n1 1 2 3 4\n2 2 3 4 5\n";
+    for (nodes, tets, expected) in [
+        (
+            nodes.replace("0 0 1\n", "0 o 1\n"),
+            tets.into(),
+            "tet.node, at byte 28: expected the y coordinate, found `o`",
+        ),
+        (
+            nodes.replace("4 0 0 1", "7 0 0 1"),
+            tets.into(),
+            "each once, for ranks to read them in parts; see node 7",
+        ),
+        (nodes.replace("4 0 0 1", "3 0 0 1"), tets.into(), "see node 3"),
+        (nodes.replace("5 3", "6 3"), tets.into(), "tet.node: its first line says 6 nodes, and there are 5"),
+        (nodes.into(), tets.replace("3 4 5", "3 4 6"), "tet.ele: node 6 is not among 5 nodes from 1 on"),
+        (nodes.into(), tets.replace("2 4\n", "2 5\n"), "tetrahedra have 5 nodes; they must have 4 or 10"),
+    ] {
+        std::fs::write(&file, nodes)?;
+        std::fs::write(file.with_extension("ele"), tets)?;
+        let folder = scratch.path().join("run");
+        let options =
+            format!("statics scramble --amplitude 0 --mesh {} --out {}", file.display(), folder.display());
+        check_failure(&finish(command(2, words(&options)))?, expected);
+    }
+    Ok(())
+}
