@@ -8,7 +8,11 @@
  * For solids (NTENS = 6), plane strain and axial symmetry (NTENS = 4). STRESS is the Cauchy stress, DDSDDE the
  * tangent of the Jaumann rate of the Kirchhoff stress by deformed volume, SSE the energy by deformed volume. A
  * deformation outside the domain of the energy asks for an increment of a quarter.
+ *
+ * Compiled with CALCULIX defined, it is one for CalculiX, for materials whose names begin with ABAQUSNL, which
+ * wants another stress and another tangent.
  */
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +22,12 @@
 
 /* Abaqus' own: ends the analysis. */
 void xit_(void);
+#ifdef CALCULIX
+/* CalculiX ends with this code after an error. */
+void xit_(void) {
+    exit(201);
+}
+#endif
 
 /* A material that has been made: piola's are shared by all threads. */
 struct known {
@@ -93,6 +103,46 @@ find(const char *name, const double *props, size_t nprops, const piola_material 
     return code;
 }
 
+/* The cofactors of a matrix, and its determinant. */
+static double cofactors(const double F[9], double C[9]) {
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            const int below = 3 * ((i + 1) % 3), last = 3 * ((i + 2) % 3), right = (j + 1) % 3,
+                      end = (j + 2) % 3;
+            C[3 * i + j] = F[below + right] * F[last + end] - F[below + end] * F[last + right];
+        }
+    }
+    return F[0] * C[0] + F[1] * C[1] + F[2] * C[2];
+}
+
+#ifdef CALCULIX
+/*
+ * CalculiX hands over F = R U, but wants the Cauchy stress turned back by R, which is that of U. It multiplies
+ * DDSDDE by the inverse of U at each of its four indices and takes the product for dS/dE: right for the tangent
+ * of the Lie derivative of the Kirchhoff stress of U.
+ *
+ * Writes U in the place of F, unless that is inverted, by Newton's method for R.
+ */
+static void turned_back(double F[9]) {
+    double R[9], C[9], change = 1.0;
+    memcpy(R, F, sizeof R);
+    if (!(cofactors(F, C) > 0.0)) return;
+    for (int round = 0; round < 50 && change > 1e-15; round++) {
+        const double determinant = cofactors(R, C);
+        change = 0.0;
+        for (int k = 0; k < 9; k++) {
+            const double next = (R[k] + C[k] / determinant) / 2.0;
+            change = fmax(change, fabs(next - R[k]));
+            R[k] = next;
+        }
+    }
+    memcpy(C, F, sizeof C);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) F[3 * i + j] = R[i] * C[j] + R[3 + i] * C[3 + j] + R[6 + i] * C[6 + j];
+    }
+}
+#endif
+
 void umat_(
     double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
     double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
@@ -111,8 +161,17 @@ void umat_(
     (void)celent, (void)dfgrd0, (void)noel, (void)npt, (void)layer, (void)kspt, (void)jstep, (void)kinc;
 
     char name[81] = "";
+#ifdef CALCULIX
+    /* It passes another type. */
+    cmname_length = 80;
+#endif
     while (cmname_length > 0 && cmname[cmname_length - 1] == ' ') cmname_length--;
     memcpy(name, cmname, cmname_length < 80 ? cmname_length : 80);
+#ifdef CALCULIX
+    /* Where it loads this from a library, the name of the library comes first. */
+    const char *at = strrchr(name, '@');
+    if (at != NULL) memmove(name, at + 1, strlen(at));
+#endif
     if (*ndi != 3 || (*nshr != 3 && *nshr != 1) || *ntens != *ndi + *nshr) {
         fprintf(stderr, "%s: a material of piola is for solids, plane strain and axial symmetry\n", name);
         xit_();
@@ -122,14 +181,22 @@ void umat_(
     piola_code code = find(name, props, *nprops > 0 ? (size_t)*nprops : 0, &material);
 
     /* Fortran has columns side by side, piola rows. */
-    double F[9], sigma[6], tangent[36], energy = 0.0;
+    double F[9], C[9], stresses[6], tangents[36], energy = 0.0;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) F[3 * i + j] = dfgrd1[i + 3 * j];
     }
+#ifdef CALCULIX
+    turned_back(F);
+    const int32_t measure = PIOLA_MEASURE_KIRCHHOFF;
+    const double by = cofactors(F, C);
+#else
+    const int32_t measure = PIOLA_MEASURE_JAUMANN;
+    const double by = 1.0;
+#endif
     piola_survey survey = {0, 0, 0, 0, 0};
     if (code == PIOLA_CODE_OK) code = piola_energies(material, NULL, F, 9, &energy, 1, NULL);
     if (code == PIOLA_CODE_OK) {
-        code = piola_stresses_in(material, NULL, PIOLA_MEASURE_JAUMANN, F, 9, sigma, 6, tangent, 36, &survey);
+        code = piola_stresses_in(material, NULL, measure, F, 9, stresses, 6, tangents, 36, &survey);
     }
     if (code != PIOLA_CODE_OK) {
         fprintf(stderr, "%s\n", piola_error_message());
@@ -141,10 +208,8 @@ void umat_(
         return;
     }
     for (int i = 0; i < *ntens; i++) {
-        stress[i] = sigma[place[i]];
-        for (int j = 0; j < *ntens; j++) ddsdde[i + *ntens * j] = tangent[6 * place[i] + place[j]];
+        stress[i] = stresses[place[i]] / by;
+        for (int j = 0; j < *ntens; j++) ddsdde[i + *ntens * j] = tangents[6 * place[i] + place[j]];
     }
-    const double J = F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
-                     F[2] * (F[3] * F[7] - F[4] * F[6]);
-    *sse = energy / J;
+    *sse = energy / cofactors(F, C);
 }
