@@ -1,15 +1,16 @@
 //! A finite-element code of one's own, with piola for the material: slices of deformation gradients in,
 //! slices of stresses and tangents out.
 //!
-//! The elements are trilinear hexahedra with 2×2×2 Gauss points, of which piola knows nothing. All it sees is
-//! [`piola::batch::Batch`]. The program checks its forces and stiffness by finite differences, then bends and
-//! stretches a bar of rubber by a force at its tip.
+//! The elements are trilinear hexahedra with 2×2×2 Gauss points, whose shape functions piola does not know.
+//! For these there is [`piola::batch::Batch`], and for sums over points [`piola::batch::Quadrature`]. The
+//! program checks its forces and stiffness by finite differences, then bends and stretches a bar of rubber by
+//! a force at its tip.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF, X and J as in the literature")]
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use piola::batch::{Batch, TileMaterial};
+use piola::batch::{Batch, Quadrature, TileMaterial};
 use piola::point::Filter;
 use piola_materials::NeoHookean;
 
@@ -59,18 +60,22 @@ struct Bar<'a> {
     X: DVector<f64>,
     elements: Vec<[usize; 8]>,
     /// ∂N/∂X of the eight shape functions at each point, 1/m.
-    gradients: Vec<[Vector3<f64>; 8]>,
+    slopes: Vec<f64>,
     /// Volume of each point, m³: its weight times det ∂X/∂ξ.
     volumes: Vec<f64>,
+    hexahedra: Quadrature<f64>,
     slices: Slices,
 }
 
 /// What goes to piola and what comes back, allocated once.
 struct Slices {
+    positions: Vec<f64>,
     F: Vec<f64>,
     energies: Vec<f64>,
     P: Vec<f64>,
     dP_dF: Vec<f64>,
+    gradients: Vec<f64>,
+    stiffnesses: Vec<f64>,
 }
 
 impl<'a> Bar<'a> {
@@ -84,13 +89,17 @@ impl<'a> Bar<'a> {
             0.1 * at[a] as f64 + 0.01 * irregular(unknown)
         });
         let slices = Slices {
+            positions: vec![0.0; 24 * ELEMENTS],
             F: vec![0.0; 9 * POINTS],
             energies: vec![0.0; POINTS],
             P: vec![0.0; 9 * POINTS],
             dP_dF: vec![0.0; 81 * POINTS],
+            gradients: vec![0.0; 24 * ELEMENTS],
+            stiffnesses: vec![0.0; 24 * 24 * ELEMENTS],
         };
-        let mut bar =
-            Self { material, X, elements: Vec::new(), gradients: Vec::new(), volumes: Vec::new(), slices };
+        let hexahedra = Quadrature::new(8, 8);
+        let (elements, slopes, volumes) = Default::default();
+        let mut bar = Self { material, X, elements, slopes, volumes, hexahedra, slices };
         for e in 0..ELEMENTS {
             let [i, j, k] = [e / (ny * nz), e / nz % ny, e % nz];
             bar.add(std::array::from_fn(|n| node(i + (n & 1), j + (n >> 1 & 1), k + (n >> 2))))?;
@@ -115,30 +124,28 @@ impl<'a> Bar<'a> {
             }
             // ∂N/∂X = J⁻ᵀ ∂N/∂ξ.
             let inverse = J.try_inverse().ok_or("an element is flat")?;
-            self.gradients.push(dN_dxi.map(|dN| inverse.transpose() * dN));
+            for dN in dN_dxi {
+                self.slopes.extend_from_slice((inverse.transpose() * dN).as_slice());
+            }
             self.volumes.push(J.determinant());
         }
         self.elements.push(nodes);
         Ok(())
     }
 
-    /// F = Σ x_n ⊗ ∂N_n/∂X of all points, into their slice row by row.
-    fn deform(&mut self, x: &DVector<f64>) {
-        for (point, F) in self.slices.F.chunks_exact_mut(9).enumerate() {
-            F.fill(0.0);
-            for (&node, gradient) in self.elements[point / 8].iter().zip(&self.gradients[point]) {
-                for a in 0..3 {
-                    for b in 0..3 {
-                        F[3 * a + b] += x[3 * node + a] * gradient[b];
-                    }
-                }
-            }
+    /// F of all points, into their slice.
+    fn deform(&mut self, x: &DVector<f64>) -> Result<()> {
+        let Slices { positions, F, .. } = &mut self.slices;
+        for (node, to) in self.elements.as_flattened().iter().zip(positions.chunks_exact_mut(3)) {
+            to.copy_from_slice(&x.as_slice()[3 * node..][..3]);
         }
+        self.hexahedra.deform(positions, &self.slopes, F)?;
+        Ok(())
     }
 
     /// Elastic energy, J; infinite where a point lies outside the domain of the material.
     fn energy(&mut self, x: &DVector<f64>) -> Result<f64> {
-        self.deform(x);
+        self.deform(x)?;
         let Slices { F, energies, .. } = &mut self.slices;
         let survey = Batch::new(self.material).energies(F, energies)?;
         let sum = energies.iter().zip(&self.volumes).map(|(energy, volume)| energy * volume).sum();
@@ -147,33 +154,28 @@ impl<'a> Bar<'a> {
 
     /// Gradient of the energy, N, and stiffness, N/m, with the filter on dP/dF of each point.
     fn linearise(&mut self, x: &DVector<f64>, filter: Filter) -> Result<(DVector<f64>, DMatrix<f64>)> {
-        self.deform(x);
-        let Slices { F, P, dP_dF, .. } = &mut self.slices;
+        self.deform(x)?;
+        let Slices { F, P, dP_dF, gradients, stiffnesses, .. } = &mut self.slices;
         let batch = Batch::new(self.material).with_filter(filter);
         let survey = batch.tangents(F, P, dP_dF)?;
         if let Some(point) = survey.first {
             return Err(format!("point {point} is outside the domain of the material").into());
         }
+        self.hexahedra.gradients(&self.slopes, &self.volumes, P, gradients)?;
+        self.hexahedra.stiffnesses(&self.slopes, &self.volumes, dP_dF, stiffnesses)?;
 
-        let (mut forces, mut stiffness) = (DVector::zeros(x.len()), DMatrix::zeros(x.len(), x.len()));
-        for (point, (P, dP_dF)) in P.chunks_exact(9).zip(dP_dF.chunks_exact(81)).enumerate() {
-            let (nodes, volume) = (&self.elements[point / 8], self.volumes[point]);
-            let P = Matrix3::from_row_slice(P);
-            for (&m, dN_m) in nodes.iter().zip(&self.gradients[point]) {
-                let mut force = forces.fixed_rows_mut::<3>(3 * m);
-                force += volume * P * dN_m;
-                for (&n, dN_n) in nodes.iter().zip(&self.gradients[point]) {
-                    for a in 0..3 {
-                        for c in 0..3 {
-                            // dP_ab/dF_cd of this a and c, as a matrix in b and d.
-                            let block = Matrix3::from_fn(|b, d| dP_dF[9 * (3 * a + b) + 3 * c + d]);
-                            stiffness[(3 * m + a, 3 * n + c)] += volume * dN_m.dot(&(block * dN_n));
-                        }
-                    }
+        let (mut gradient, mut stiffness) = (DVector::zeros(x.len()), DMatrix::zeros(x.len(), x.len()));
+        for (element, nodes) in self.elements.iter().enumerate() {
+            let unknown = |k: usize| 3 * nodes[k / 3] + k % 3;
+            for row in 0..24 {
+                gradient[unknown(row)] += gradients[24 * element + row];
+                for column in 0..24 {
+                    let entry = stiffnesses[24 * (24 * element + row) + column];
+                    stiffness[(unknown(row), unknown(column))] += entry;
                 }
             }
         }
-        Ok((forces, stiffness))
+        Ok((gradient, stiffness))
     }
 }
 

@@ -1,11 +1,11 @@
 //! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
 //!
 //! This is the interface for finite-element codes that have their own elements: it knows points, and of
-//! meshes the nodes of linear tetrahedra alone ([`Batch::stiffnesses_at`]). A [`Batch`] holds the material,
-//! the filter, the instructions and the layout of the slices; its methods are the kernels. They allocate
-//! nothing, but for some 80 kB of room on the first call in each thread. Points go through in tiles of 64:
-//! decomposition, energy, outputs, each stage with as many points side by side as the registers hold, and
-//! what lies between the stages stays in the inner caches.
+//! meshes the nodes of single elements ([`Batch::stiffnesses_at`], [`Quadrature`]). A [`Batch`] holds the
+//! material, the filter, the instructions and the layout of the slices; its methods are the kernels. They
+//! allocate nothing, but for some 80 kB of room on the first call in each thread. Points go through in tiles
+//! of 64: decomposition, energy, outputs, each stage with as many points side by side as the registers hold,
+//! and what lies between the stages stays in the inner caches.
 //!
 //! ```
 //! use piola::batch::Batch;
@@ -30,6 +30,9 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! **Other elements** than linear tetrahedra, hexahedra for one, sum what their points have by a
+//! [`Quadrature`].
 //!
 //! **Bits.** Within a back end a point's results are the same whatever the other points, its place, the
 //! number of points and of threads. Two back ends differ by rounding.
@@ -70,6 +73,7 @@ mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;
 mod point_by_point;
+mod quadrature;
 #[cfg(feature = "bodies")]
 pub(crate) mod rest;
 mod sink;
@@ -81,6 +85,7 @@ mod workspace;
 
 pub use material::{Arguments, Properties, TileMaterial};
 pub use point_by_point::PointBatch;
+pub use quadrature::Quadrature;
 pub use sink::Layout;
 pub use stage::Stages;
 pub use svd_tile::SvdTile;

@@ -6,7 +6,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use piola::batch::{Batch, FACTORS, Layout, PointBatch, REST, Tetrahedra};
+use piola::batch::{Batch, FACTORS, Layout, PointBatch, Quadrature, REST, Tetrahedra};
 use piola::mesh::{
     Anchor, Bounds, Embedding, Group, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, tetrahedral_box,
@@ -405,6 +405,23 @@ fn batches_in_the_plane() {
         let _ = batch.energies_from_displacements(&displacements, &mut one);
         let _ = batch.stresses_from_displacements(&displacements, &mut nine);
         let _ = batch.tangents_from_displacements(&displacements, &mut nine, &mut all);
+    });
+}
+
+#[test]
+fn elements_with_quadrature() {
+    check(|hostile| {
+        let (nodes, points) =
+            (hostile.one_of(&[0, 1, 8, 10, usize::MAX]), hostile.one_of(&[0, 1, 3, usize::MAX]));
+        let (count, unknowns, all) = (hostile.0.below(3), 3 * nodes.min(10), points.min(3));
+        let mut elements = Quadrature::new(nodes, points);
+        let [positions, mut gradients] = [(); 2].map(|()| hostile.numbers(unknowns * count));
+        let [slopes, volumes, mut F, dP_dF] =
+            [unknowns, 1, 9, 81].map(|size| hostile.numbers(size * all * count));
+        let mut stiffnesses = hostile.numbers(unknowns * unknowns * count);
+        let _ = elements.deform(&positions, &slopes, &mut F);
+        let _ = elements.gradients(&slopes, &volumes, &F, &mut gradients);
+        let _ = elements.stiffnesses(&slopes, &volumes, &dP_dF, &mut stiffnesses);
     });
 }
 

@@ -1,0 +1,393 @@
+//! Elements with any number of nodes and quadrature points: deformation gradients of their points, and the
+//! sums over points that make gradients and stiffnesses of their nodes.
+//!
+//! With the slopes g = ∂N/∂X of the shape functions and the volume v of each point,
+//!
+//! ```text
+//! F_ab = Σm x_ma g_mb,   ∂W/∂x_ma = Σ v P_ab g_mb,   ∂²W/∂x_ma∂x_nc = Σ v g_mb (dP_ab/dF_cd g_nd)
+//! ```
+//!
+//! The product in brackets is made once for each point and node n, and lanes hold nodes n side by side.
+
+#![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
+
+use super::LengthError;
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
+use crate::point::matrix::three;
+
+/// Elements of so many nodes and quadrature points each: sums over the points, and room to make them in.
+///
+/// Hexahedra, quadratic tetrahedra and all else whose shape functions a caller knows. Every slice has one
+/// element after the other:
+///
+/// | slice | of | numbers |
+/// |---|---|---|
+/// | `positions` | each element | coordinate a of node n at 3n+a, m |
+/// | `slopes` | each point | ∂N/∂X, along axis b of node n at 3n+b, 1/m |
+/// | `volumes` | each point | its weight times det ∂X/∂ξ, m³ |
+/// | `F`, `P`, `dP_dF` | each point | 9, 9 and 81, as [`Batch::tangents`](super::Batch::tangents) has them |
+/// | `gradients` | each element | as `positions`, N; **forces are minus these** |
+/// | `stiffnesses` | each element | unknown 3n+a in row and column 3n+a, N/m; exactly symmetric |
+///
+/// Calls allocate nothing but room at the first one, and compute on the thread of the caller: others may have
+/// a clone for their own elements. What an element gets does not depend on the others.
+///
+/// ```
+/// use piola::batch::{Batch, Quadrature};
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // A hexahedron, the unit cube, whose node n is at the bits of n; one point in its middle.
+/// let mut hexahedra = Quadrature::new(8, 1);
+/// let bits = |n: usize| [n & 1, n >> 1 & 1, n >> 2 & 1].map(|bit| bit as f64);
+/// let slopes: Vec<f64> = (0..8).flat_map(|n| bits(n).map(|bit| (2.0 * bit - 1.0) / 4.0)).collect();
+/// // Drawn along x by a tenth.
+/// let positions: Vec<f64> = (0..8).flat_map(|n| [1.1 * bits(n)[0], bits(n)[1], bits(n)[2]]).collect();
+///
+/// let (mut F, mut P, mut dP_dF) = ([0.0; 9], [0.0; 9], [0.0; 81]);
+/// hexahedra.deform(&positions, &slopes, &mut F)?;
+/// let rubber = Rubber::new(1e6, 4e6)?;
+/// Batch::new(&rubber).tangents(&F, &mut P, &mut dP_dF)?;
+/// let (mut gradients, mut stiffness) = ([0.0; 24], vec![0.0; 24 * 24]);
+/// hexahedra.gradients(&slopes, &[1.0], &P, &mut gradients)?;
+/// hexahedra.stiffnesses(&slopes, &[1.0], &dP_dF, &mut stiffness)?;
+///
+/// // The four nodes of the face x = 1 carry its force, and its slope is dP11/dF11 times its area.
+/// let force: f64 = [1, 3, 5, 7].map(|n| gradients[3 * n]).iter().sum();
+/// assert!((force - P[0]).abs() < 1e-9 * P[0]);
+/// let pairs = [1, 3, 5, 7].map(|m| [1, 3, 5, 7].map(|n| stiffness[24 * 3 * m + 3 * n]));
+/// assert!((pairs.as_flattened().iter().sum::<f64>() - dP_dF[0]).abs() < 1e-9 * dP_dF[0]);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Quadrature<E> {
+    nodes: usize,
+    points: usize,
+    backend: Backend,
+    room: Vec<E>,
+}
+
+impl<E: Scalar> Quadrature<E> {
+    /// Elements of so many nodes and points each, with the best instructions of this processor.
+    #[must_use]
+    pub fn new(nodes: usize, points: usize) -> Self {
+        Self { nodes, points, backend: Backend::best(), room: Vec::new() }
+    }
+
+    /// Sets the instructions to compute with.
+    #[must_use]
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { backend, ..self }
+    }
+
+    /// Deformation gradients of all points, whose numbers the elements of `positions` say.
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn deform(&self, positions: &[E], slopes: &[E], F: &mut [E]) -> Result<(), LengthError> {
+        let (unknowns, points) = (self.unknowns(), self.points);
+        let elements = positions.len().checked_div(unknowns).unwrap_or(0);
+        fit("positions", positions, unknowns, elements)?;
+        fit("slopes", slopes, unknowns, elements.saturating_mul(points))?;
+        fit("F", F, 9, elements.saturating_mul(points))?;
+        for (point, (F, slopes)) in F.chunks_exact_mut(9).zip(chunks(slopes, unknowns)).enumerate() {
+            F.fill(E::splat(0.0));
+            let x = &positions[point / points * unknowns..][..unknowns];
+            for (x, slope) in x.chunks_exact(3).zip(slopes.chunks_exact(3)) {
+                for a in 0..3 {
+                    for b in 0..3 {
+                        F[3 * a + b] = x[a].mul_add(slope[b], F[3 * a + b]);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Gradients of the elements' energies in their nodal positions, N, from the stresses of their points.
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn gradients(
+        &self,
+        slopes: &[E],
+        volumes: &[E],
+        P: &[E],
+        gradients: &mut [E],
+    ) -> Result<(), LengthError> {
+        let (unknowns, elements) = (self.unknowns(), self.elements(slopes, volumes)?);
+        fit("P", P, 9, volumes.len())?;
+        fit("gradients", gradients, unknowns, elements)?;
+        gradients.fill(E::splat(0.0));
+        let points = chunks(slopes, unknowns).zip(volumes).zip(P.chunks_exact(9)).enumerate();
+        for (point, ((slopes, &volume), P)) in points {
+            let gradients = &mut gradients[point / self.points * unknowns..];
+            for (gradient, slope) in gradients.chunks_exact_mut(3).zip(slopes.chunks_exact(3)) {
+                for a in 0..3 {
+                    for b in 0..3 {
+                        gradient[a] = (volume * P[3 * a + b]).mul_add(slope[b], gradient[a]);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Stiffnesses of the elements, N/m, from the tangents of their points: semidefinite if these are.
+    ///
+    /// # Errors
+    /// [`LengthError`] if the lengths of the slices do not fit together.
+    pub fn stiffnesses(
+        &mut self,
+        slopes: &[E],
+        volumes: &[E],
+        dP_dF: &[E],
+        stiffnesses: &mut [E],
+    ) -> Result<(), LengthError> {
+        let (unknowns, elements) = (self.unknowns(), self.elements(slopes, volumes)?);
+        let Self { nodes, points, backend, .. } = *self;
+        fit("dP_dF", dP_dF, 81, volumes.len())?;
+        fit("stiffnesses", stiffnesses, unknowns.saturating_mul(unknowns), elements)?;
+        if stiffnesses.is_empty() {
+            return Ok(());
+        }
+        // Only a first call makes room; nothing writes to what stands beyond the nodes.
+        self.room.resize(Room::<E>::size(nodes), E::splat(0.0));
+        for (element, stiffness) in stiffnesses.chunks_exact_mut(unknowns * unknowns).enumerate() {
+            let of = element * points..(element + 1) * points;
+            backend.run(Stiffness {
+                nodes,
+                slopes: &slopes[unknowns * of.start..unknowns * of.end],
+                volumes: &volumes[of.clone()],
+                dP_dF: &dP_dF[81 * of.start..81 * of.end],
+                room: Room::new(nodes, &mut self.room),
+                stiffness,
+            });
+        }
+        Ok(())
+    }
+
+    /// Number of elements that these slices are of.
+    fn elements(&self, slopes: &[E], volumes: &[E]) -> Result<usize, LengthError> {
+        let elements = volumes.len().checked_div(self.points).unwrap_or(0);
+        fit("volumes", volumes, self.points, elements)?;
+        fit("slopes", slopes, self.unknowns(), volumes.len())?;
+        Ok(elements)
+    }
+
+    fn unknowns(&self) -> usize {
+        self.nodes.saturating_mul(3)
+    }
+}
+
+/// Whether a slice has so many numbers of each point or element.
+fn fit<E>(slice: &'static str, of: &[E], components: usize, points: usize) -> Result<(), LengthError> {
+    let found = of.len();
+    if components.checked_mul(points) == Some(found) {
+        return Ok(());
+    }
+    Err(LengthError { slice, found, components, points, group: 1 })
+}
+
+fn chunks<E>(of: &[E], size: usize) -> impl Iterator<Item = &[E]> {
+    of.chunks_exact(size.max(1))
+}
+
+/// Nodes, and as many more as fill whole registers of any back end.
+fn stride<E: Scalar>(nodes: usize) -> usize {
+    nodes.next_multiple_of(E::LINE)
+}
+
+/// The stiffness of an element.
+struct Stiffness<'a, E> {
+    nodes: usize,
+    slopes: &'a [E],
+    volumes: &'a [E],
+    dP_dF: &'a [E],
+    room: Room<'a, E>,
+    stiffness: &'a mut [E],
+}
+
+/// Numbers of one point, and sums over all points.
+struct Room<'a, E> {
+    /// The slopes along each axis, node by node.
+    axes: &'a mut [E],
+    /// Each slope in all lanes of a register.
+    splats: &'a mut [E],
+    /// Entries at (a, c), block of nodes n, node m, lane: those with m beyond the block are left out.
+    sums: &'a mut [E],
+}
+
+impl<'a, E: Scalar> Room<'a, E> {
+    fn size(nodes: usize) -> usize {
+        3 * stride::<E>(nodes) + 3 * nodes * E::LINE + 9 * nodes * stride::<E>(nodes)
+    }
+
+    fn new(nodes: usize, room: &'a mut [E]) -> Self {
+        let (axes, room) = room.split_at_mut(3 * stride::<E>(nodes));
+        let (splats, sums) = room.split_at_mut(3 * nodes * E::LINE);
+        Self { axes, splats, sums }
+    }
+}
+
+impl<E: Scalar> Kernel<E> for Stiffness<'_, E> {
+    type Output = ();
+
+    // Plain loops: closures and iterators that are not inlined are not compiled for the back end.
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) {
+        let Self { nodes, slopes, volumes, dP_dF, room: Room { axes, splats, sums }, stiffness } = self;
+        let (stride, lanes, unknowns) = (stride::<E>(nodes), R::LANES, 3 * nodes);
+        // Of each (a, c), one row of registers for each block of nodes.
+        let (row, rows) = (nodes * lanes, nodes.div_ceil(lanes));
+        sums.fill(E::splat(0.0));
+        for point in 0..volumes.len() {
+            let slopes = &slopes[unknowns * point..][..unknowns];
+            let dP_dF = &dP_dF[81 * point..][..81];
+            for k in 0..unknowns {
+                axes[k % 3 * stride + k / 3] = slopes[k];
+                R::splat(slopes[k].into()).store(&mut splats[k * lanes..]);
+            }
+            for ac in 0..9 {
+                let (a, c) = (ac / 3, ac % 3);
+                // v dP_ab/dF_cd at b, d.
+                let t = three!(b => three!(d => {
+                    R::splat((volumes[point] * dP_dF[9 * (3 * a + b) + 3 * c + d]).into())
+                }));
+                for block in 0..rows {
+                    let n = block * lanes;
+                    let g = three!(d => R::load(&axes[d * stride + n..]));
+                    let [p1, p2, p3] =
+                        three!(b => t[b][0].mul_add(g[0], t[b][1].mul_add(g[1], t[b][2] * g[2])));
+                    let count = nodes.min(n + lanes);
+                    let sum = &mut sums[(ac * rows + block) * row..][..count * lanes];
+                    let splats = &splats[..3 * count * lanes];
+                    for m in 0..count {
+                        let g = &splats[3 * m * lanes..][..3 * lanes];
+                        let sum = &mut sum[m * lanes..][..lanes];
+                        let after = R::load(g).mul_add(p1, R::load(sum));
+                        let after = R::load(&g[lanes..]).mul_add(p2, after);
+                        R::load(&g[2 * lanes..]).mul_add(p3, after).store(sum);
+                    }
+                }
+            }
+        }
+        for ac in 0..9 {
+            let (a, c) = (ac / 3, ac % 3);
+            for n in 0..nodes {
+                let sums = &sums[(ac * rows + n / lanes) * row + n % lanes..];
+                // Of a node with itself, one triangle is copied to the other.
+                for m in 0..n + usize::from(a <= c) {
+                    let entry = sums[m * lanes];
+                    stiffness[unknowns * (3 * m + a) + 3 * n + c] = entry;
+                    stiffness[unknowns * (3 * n + c) + 3 * m + a] = entry;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::{Batch, Stages};
+    use crate::hand_written::SaintVenantKirchhoff;
+    use crate::random::Random;
+
+    /// Sums of elements with random slopes are those that the formulas say, whatever elements stand beside.
+    fn check<E: Stages>(nodes: usize, points: usize) {
+        const ELEMENTS: usize = 3;
+        let mut random = Random::new(31);
+        let mut numbers =
+            |count: usize| -> Vec<E> { (0..count).map(|_| E::splat(random.uniform(-1.0, 1.0))).collect() };
+        let positions = numbers(3 * nodes * ELEMENTS);
+        let slopes = numbers(3 * nodes * points * ELEMENTS);
+        let volumes = numbers(points * ELEMENTS);
+        let zeros = |count: usize| vec![E::splat(0.0); count];
+        let wide = |x: E| -> f64 { x.into() };
+        let (mut F, mut P) = (zeros(9 * points * ELEMENTS), zeros(9 * points * ELEMENTS));
+        let mut dP_dF = zeros(81 * points * ELEMENTS);
+        for backend in Backend::available() {
+            let mut elements = Quadrature::new(nodes, points).with_backend(backend);
+            elements.deform(&positions, &slopes, &mut F).expect("lengths fit");
+            Batch::new(&SaintVenantKirchhoff).tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
+            let mut gradients = zeros(3 * nodes * ELEMENTS);
+            let mut stiffnesses = zeros(9 * nodes * nodes * ELEMENTS);
+            elements.gradients(&slopes, &volumes, &P, &mut gradients).expect("lengths fit");
+            elements.stiffnesses(&slopes, &volumes, &dP_dF, &mut stiffnesses).expect("lengths fit");
+
+            // Terms are products of at most four numbers, each rounded, and so are their sums.
+            let close = |found: E, terms: &mut dyn Iterator<Item = f64>| {
+                let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
+                let tolerance = 30.0 * E::UNIT_ROUNDOFF * size;
+                assert!((wide(found) - sum).abs() <= tolerance, "{} for {sum}", wide(found));
+            };
+            let slope = |point: usize, n: usize, b: usize| wide(slopes[3 * (nodes * point + n) + b]);
+            for (k, &found) in F.iter().enumerate() {
+                let (point, a, b) = (k / 9, k / 3 % 3, k % 3);
+                let x = |n: usize| wide(positions[3 * (nodes * (point / points) + n) + a]);
+                close(found, &mut (0..nodes).map(|n| x(n) * slope(point, n, b)));
+            }
+            for element in 0..ELEMENTS {
+                let points = element * points..(element + 1) * points;
+                for row in 0..3 * nodes {
+                    let (m, a) = (row / 3, row % 3);
+                    let terms = points.clone().flat_map(|p| (0..3).map(move |b| (p, b)));
+                    let term = |(p, b): (usize, usize)| {
+                        wide(volumes[p]) * wide(P[9 * p + 3 * a + b]) * slope(p, m, b)
+                    };
+                    close(gradients[3 * nodes * element + row], &mut terms.map(term));
+                    for column in 0..3 * nodes {
+                        let (n, c) = (column / 3, column % 3);
+                        let entry = |row: usize, column: usize| {
+                            stiffnesses[3 * nodes * (3 * nodes * element + row) + column]
+                        };
+                        let terms = points.clone().flat_map(|p| (0..9).map(move |bd| (p, bd / 3, bd % 3)));
+                        let term = |(p, b, d): (usize, usize, usize)| {
+                            let slopes = slope(p, m, b) * slope(p, n, d);
+                            wide(volumes[p]) * wide(dP_dF[81 * p + 9 * (3 * a + b) + 3 * c + d]) * slopes
+                        };
+                        close(entry(row, column), &mut terms.map(term));
+                        assert!(entry(row, column) == entry(column, row));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sums_are_those_of_the_formulas() {
+        // Numbers of nodes below, at and above those of a register.
+        for (nodes, points) in [(4, 1), (8, 8), (10, 4), (27, 2)] {
+            check::<f64>(nodes, points);
+            #[cfg(feature = "f32")]
+            check::<f32>(nodes, points);
+        }
+    }
+
+    #[test]
+    fn lengths_that_do_not_fit_are_errors() {
+        let mut hexahedra = Quadrature::<f64>::new(8, 2);
+        let wrong = |slice, found, components, points| {
+            Err(LengthError { slice, found, components, points, group: 1 })
+        };
+        assert_eq!(hexahedra.deform(&[0.0; 25], &[], &mut []), wrong("positions", 25, 24, 1));
+        assert_eq!(hexahedra.deform(&[0.0; 24], &[0.0; 24], &mut []), wrong("slopes", 24, 24, 2));
+        assert_eq!(hexahedra.deform(&[0.0; 24], &[0.0; 48], &mut [0.0; 9]), wrong("F", 9, 9, 2));
+        assert_eq!(hexahedra.gradients(&[], &[0.0; 3], &[], &mut []), wrong("volumes", 3, 2, 1));
+        let stiffnesses = hexahedra.stiffnesses(&[0.0; 48], &[0.0; 2], &[0.0; 162], &mut [0.0; 575]);
+        assert_eq!(stiffnesses, wrong("stiffnesses", 575, 576, 1));
+        // Nothing is an answer, too.
+        for (nodes, points) in [(0, 0), (0, 1), (8, 0), (usize::MAX, usize::MAX)] {
+            let mut none = Quadrature::<f64>::new(nodes, points);
+            assert_eq!(none.deform(&[], &[], &mut []), Ok(()));
+            assert_eq!(none.stiffnesses(&[], &[], &[], &mut []), Ok(()));
+        }
+    }
+}
