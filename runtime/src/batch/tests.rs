@@ -370,6 +370,30 @@ fn bits_do_not_depend_on_place_neighbours_layout_or_threads() {
     check_bits::<f32>(&extended, Filter::None);
 }
 
+/// F by columns is Fᵀ by rows, and so is everything that an isotropic solid makes of it.
+#[test]
+fn matrices_by_columns_give_matrices_by_columns() {
+    let turn = |k: usize| 3 * (k % 3) + k / 3;
+    let Sample { F, .. } = Sample::<f64>::new(100);
+    let [by_rows, by_columns] = [|k| k, turn].map(|place: fn(usize) -> usize| {
+        let F: Vec<f64> = F.iter().flat_map(|F| (0..9).map(|k| F[place(k)]).collect::<Vec<_>>()).collect();
+        let (mut energies, mut P, mut dP_dF) = (vec![0.0; 100], vec![0.0; 900], vec![0.0; 8100]);
+        let batch = Batch::new(&SaintVenantKirchhoff).with_filter(Filter::Clamp);
+        let survey = batch.energies_and_tangents(&F, &mut energies, &mut P, &mut dP_dF);
+        assert!(survey.expect("lengths fit").is_clean());
+        let entries = |k: usize, n: usize| 81 * k + 9 * place(n / 9) + place(n % 9);
+        let mut all = energies;
+        all.extend((0..900).map(|k| P[k / 9 * 9 + place(k % 9)]));
+        all.extend((0..8100).map(|k| dP_dF[entries(k / 81, k % 81)]));
+        all
+    });
+    // Entries of F are of the order of 1, and so are the moduli: each value is a few roundings off.
+    let largest = by_rows.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    for (rows, columns) in by_rows.iter().zip(&by_columns) {
+        assert!((rows - columns).abs() <= 200.0 * f64::EPSILON * largest, "{rows} and {columns}");
+    }
+}
+
 #[test]
 fn a_survey_counts_and_names_the_first() {
     let mut F = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(130);
