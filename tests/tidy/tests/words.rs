@@ -84,7 +84,9 @@ fn sources() -> Vec<(PathBuf, String)> {
     let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
     found.extend(files(Path::new("fuzz/fuzz_targets")));
     found.extend(
-        ["distributed", "bindings/c", "bindings/python"].iter().flat_map(|folder| files(Path::new(folder))),
+        ["distributed", "bindings/c", "bindings/python", "examples/fenris"]
+            .iter()
+            .flat_map(|folder| files(Path::new(folder))),
     );
     found.sort();
     found.dedup();
