@@ -8,8 +8,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use piola::batch::{Batch, FACTORS, Layout, PointBatch, Quadrature, REST, Tetrahedra};
 use piola::mesh::{
-    Anchor, Bounds, Embedding, Group, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
-    read_surface_obj, read_tetgen, tetrahedral_box,
+    Anchor, Bounds, Embedding, Group, NodeLines, Surface, TetLines, TetMesh, parse_msh, parse_surface_obj,
+    read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
 };
 use piola::point::Filter;
 use piola::point::measures::Measure;
@@ -250,8 +250,9 @@ fn files() {
     let msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
                $Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let lines = ["4 3 1 1", "1 0.5 0 1e3 7 -1 # a node", "2 4 1", "1 1 2 3 4 5"];
     check(|hostile| {
-        for text in [msh, obj] {
+        for text in [msh, obj].into_iter().chain(lines) {
             let mut bytes = text.as_bytes().to_vec();
             for _ in 0..hostile.0.below(4) {
                 let at = hostile.0.below(bytes.len());
@@ -262,6 +263,10 @@ fn files() {
             let text = String::from_utf8_lossy(&bytes);
             let _ = parse_msh(&text, "some.msh").map(|mesh| mesh.rest_shapes());
             let _ = parse_surface_obj(&text, "some.obj");
+            let [nodes, tets] =
+                [lines[0], lines[2]].map(|good| if hostile.0.once_in(2) { good } else { &text });
+            let _ = NodeLines::of_first_line(nodes).and_then(|lines| lines.node(&text));
+            let _ = TetLines::of_first_line(tets).and_then(|lines| lines.tet(&text));
         }
     });
     for path in ["", "/", "no/such/file", "\0"] {

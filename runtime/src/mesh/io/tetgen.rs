@@ -321,6 +321,20 @@ mod tests {
     }
 
     #[test]
+    fn lines_are_read_one_by_one() {
+        let lines = NodeLines::of_first_line("6 3 1 1").expect("a first line");
+        assert_eq!(lines.count, 6);
+        let node = NodeLine { number: 4, position: [0.0, 0.0, 1.0], marker: -1 };
+        assert_eq!(lines.node("4  0 0 1  0.5 -1 # the fourth"), Ok(Some(node)));
+        assert_eq!((lines.node(" # none"), lines.node("")), (Ok(None), Ok(None)));
+        assert_eq!(lines.node("4 0 0"), Err("the z coordinate is missing".to_owned()));
+        let lines = TetLines::of_first_line("2 4 1").expect("a first line");
+        let tet = TetLine { number: 2, corners: [3, 2, 4, 5], region: Some(-1) };
+        assert_eq!(lines.tet("2 3 2 4 5 -1"), Ok(Some(tet)));
+        assert_eq!(NodeLines::of_first_line("# none"), Err("the number of nodes is missing".to_owned()));
+    }
+
+    #[test]
     fn either_file_may_be_named_and_both_must_be_there() {
         for name in ["no/such/mesh.ele", "no/such/mesh.node"] {
             let missing = read_tetgen(name).expect_err("no such file");
