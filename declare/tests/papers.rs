@@ -1,5 +1,5 @@
-//! Energies that the catalogue does not have, most of them of papers: the same declaration compiled by the attribute and
-//! at run time, with equal results, bit by bit.
+//! Energies that the catalogue does not have, most of them of papers: the same declaration compiled by the
+//! attribute and at run time, with equal results, bit by bit.
 //!
 //! Where a paper's solid is incompressible, a term of volume is added. A function that a paper gives by a
 //! derivative or an integral is a spline here: its numbers are arbitrary.

@@ -163,8 +163,8 @@ struct Choice {
     #[command(flatten)]
     scene: SceneOptions,
 
-    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO, where NAME
-    /// may be a file of Rust. Without parameters, as stiff as the scene's; may be repeated.
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO, where
+    /// NAME may be a file of Rust. Without parameters, as stiff as the scene's; may be repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 

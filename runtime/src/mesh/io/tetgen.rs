@@ -35,7 +35,7 @@ struct Nodes {
     marked: BTreeMap<i64, Vec<usize>>,
 }
 
-/// What the lines of a `.node` file hold, as its first line says, for readers that take the file in parts.
+/// Format of the lines of a `.node` file, as its first line says, for readers that take the file in parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NodeLines {
@@ -97,7 +97,7 @@ impl NodeLines {
     }
 }
 
-/// What the lines of a `.ele` file hold, as its first line says, for readers that take the file in parts.
+/// Format of the lines of a `.ele` file, as its first line says, for readers that take the file in parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TetLines {
@@ -169,7 +169,7 @@ impl TetLines {
     }
 }
 
-/// What errors call the node of a tetrahedron.
+/// The node of a tetrahedron, as errors call it.
 const NODE: &str = "the number of a node";
 
 /// A line without its comment, unless nothing is left.
