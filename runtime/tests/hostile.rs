@@ -421,12 +421,12 @@ fn elements_with_quadrature() {
         let (count, unknowns, all) = (hostile.0.below(3), 3 * nodes.min(10), points.min(3));
         let mut elements = Quadrature::new(nodes, points);
         let [positions, mut gradients] = [(); 2].map(|()| hostile.numbers(unknowns * count));
-        let [slopes, volumes, mut F, dP_dF] =
+        let [slopes, volumes, mut stresses, tangents] =
             [unknowns, 1, 9, 81].map(|size| hostile.numbers(size * all * count));
         let mut stiffnesses = hostile.numbers(unknowns * unknowns * count);
-        let _ = elements.deform(&positions, &slopes, &mut F);
-        let _ = elements.gradients(&slopes, &volumes, &F, &mut gradients);
-        let _ = elements.stiffnesses(&slopes, &volumes, &dP_dF, &mut stiffnesses);
+        let _ = elements.deform(&positions, &slopes, &mut stresses);
+        let _ = elements.gradients(&slopes, &volumes, &stresses, &mut gradients);
+        let _ = elements.stiffnesses(&slopes, &volumes, &tangents, &mut stiffnesses);
     });
 }
 
