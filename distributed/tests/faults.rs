@@ -247,8 +247,8 @@ fn files_read_in_parts_are_malformed_at_a_byte() -> TestResult {
         (nodes.into(), tets.replace("3 4 5", "3 4 6"), "tet.ele: node 6 is not among 5 nodes from 1 on"),
         (nodes.into(), tets.replace("2 4\n", "2 5\n"), "tetrahedra have 5 nodes; they must have 4 or 10"),
     ] {
-        std::fs::write(&file, nodes)?;
-        std::fs::write(file.with_extension("ele"), tets)?;
+        fs::write(&file, nodes)?;
+        fs::write(file.with_extension("ele"), tets)?;
         let folder = scratch.path().join("run");
         let options =
             format!("statics scramble --amplitude 0 --mesh {} --out {}", file.display(), folder.display());
