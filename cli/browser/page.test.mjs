@@ -8,9 +8,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { open, view } from "./viewer.mjs";
+import { grabTail, open, view } from "./viewer.mjs";
 
-const TIP_OF_TAIL = 5; // a vertex of the dinosaur's surface
 const shots = fileURLToPath(new URL("../../target/page/", import.meta.url));
 const patience = { timeout: 60_000 };
 const scratch = mkdtempSync(join(tmpdir(), "piola-page-"));
@@ -34,22 +33,6 @@ const until = (condition, value) => page.waitForFunction(condition, value, patie
 const shoot = (name) => page.screenshot({ path: `${shots}${name}.png` });
 const isAtRest = () => globalThis.piola.figures().from_rest < 1e-3 && globalThis.piola.figures().time > 2.5;
 
-/** Grabs the tip of the tail, which is on the screen somewhere. */
-async function grabTail() {
-  const place = await page.evaluate((vertex) => globalThis.piola.where(vertex), TIP_OF_TAIL);
-  const [x, y] = place.map(Math.round);
-  // The tip itself is a pixel; what is seen of the tail lies on its side towards the body.
-  for (const [dx, dy] of [[0, 0], [3, 2], [5, 4], [8, 6], [12, 8], [16, 10]]) {
-    const vertex = await page.evaluate(([x, y]) => globalThis.piola.vertexAt(x, y), [x + dx, y + dy]);
-    if (vertex !== null) {
-      await page.mouse.move(x + dx, y + dy);
-      await page.mouse.down();
-      return { vertex, at: [x + dx, y + dy] };
-    }
-  }
-  throw new Error(`there is nothing of the tail near ${x}, ${y}`);
-}
-
 test("the body comes to rest after the pull of its scene", async () => {
   await page.click("#real-time"); // as fast as possible
   await until(isAtRest);
@@ -62,7 +45,7 @@ test("the body comes to rest after the pull of its scene", async () => {
 
 test("a vertex follows the mouse and comes back when it is let go", async () => {
   const place = (vertex) => page.evaluate((vertex) => globalThis.piola.where(vertex), vertex);
-  const { vertex, at: [x, y] } = await grabTail();
+  const { vertex, at: [x, y] } = await grabTail(page);
   const before = await place(vertex);
   for (let k = 1; k <= 10; k++) await page.mouse.move(x - 4 * k, y + 16 * k);
   await until(([vertex, y]) => globalThis.piola.where(vertex)[1] > y + 100, [vertex, before[1]]);
@@ -81,7 +64,7 @@ test("pulled by its tail, several body heights far, it comes back", async () => 
   await page.mouse.move(x + 20, y + 20);
   for (let k = 0; k < 12; k++) await page.mouse.wheel(0, 120);
   await page.waitForTimeout(500);
-  const { at: [tailX, tailY] } = await grabTail();
+  const { at: [tailX, tailY] } = await grabTail(page);
   for (let k = 1; k <= 40; k++) {
     await page.mouse.move(tailX + (x + width - 30 - tailX) * k / 40, tailY + (y + 60 - tailY) * k / 40);
   }

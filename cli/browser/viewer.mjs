@@ -7,6 +7,7 @@ import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
+const TIP_OF_TAIL = 5; // a vertex of the dinosaur's surface
 const piola = process.env.PIOLA ?? fileURLToPath(new URL("../../target/debug/piola", import.meta.url));
 const browsers = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
@@ -53,4 +54,20 @@ export async function open(viewer) {
   await page.goto(viewer.address);
   await page.waitForFunction(() => globalThis.piola?.positions() && globalThis.piola.figures());
   return { browser, page, faults };
+}
+
+/** Grabs the tip of the dinosaur's tail, which is on the screen somewhere. */
+export async function grabTail(page) {
+  const place = await page.evaluate((vertex) => globalThis.piola.where(vertex), TIP_OF_TAIL);
+  const [x, y] = place.map(Math.round);
+  // The tip itself is a pixel; what is seen of the tail lies on its side towards the body.
+  for (const [dx, dy] of [[0, 0], [3, 2], [5, 4], [8, 6], [12, 8], [16, 10]]) {
+    const vertex = await page.evaluate(([x, y]) => globalThis.piola.vertexAt(x, y), [x + dx, y + dy]);
+    if (vertex !== null) {
+      await page.mouse.move(x + dx, y + dy);
+      await page.mouse.down();
+      return { vertex, at: [x + dx, y + dy] };
+    }
+  }
+  throw new Error(`there is nothing of the tail near ${x}, ${y}`);
 }

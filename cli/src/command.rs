@@ -9,14 +9,14 @@ use piola_scenes::options::{SceneOptions, scenes};
 use piola_scenes::output::Newton;
 use piola_scenes::run::{Existing, Output};
 use piola_scenes::settings::{Files, Settings};
+use piola_viewer::recording::Recording;
+use piola_viewer::state::State;
 
 use crate::bench::{Check, Curve, Fit};
 use crate::contract::Contract;
 use crate::declare::Declare;
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
-use crate::view::recording::Recording;
-use crate::view::state::State;
 use crate::view::{Begin, Options};
 
 /// Elastic bodies that collapse, invert and recover.

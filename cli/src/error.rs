@@ -8,7 +8,7 @@ use piola::material::MaterialError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::output::SealError;
+use piola_viewer::error::Error as ViewerError;
 
 /// Why the command ends without success.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +17,9 @@ pub enum Error {
     /// A scene cannot start or go on.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A viewer cannot take or write a file.
+    #[error(transparent)]
+    Viewer(ViewerError),
     /// A file that names its scene is given beside a scene or its options.
     #[error(
         "the file names its scene and options itself; leave out all but --load or --replay, --mesh and --surface of \
@@ -48,39 +51,6 @@ pub enum Error {
         /// Error of the system.
         source: io::Error,
     },
-    /// A file is not a saved state.
-    #[error("{}: is not a saved state: {source}", path.display())]
-    NotState {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        source: SealError,
-    },
-    /// A file is not a recording.
-    #[error("{}:{line}: is not a line of a recording: {reason}", path.display())]
-    NotRecording {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// Reason.
-        reason: String,
-    },
-    /// A recording is as long as one can be.
-    #[error("a recording has at most {0}")]
-    RecordingFull(
-        /// The limit.
-        &'static str,
-    ),
-    /// The file of a recording to be made holds something else.
-    #[error(
-        "{}: holds something else than a recording, and is left as it is; name another file with --record",
-        path.display()
-    )]
-    NotRecordedOver {
-        /// The file.
-        path: PathBuf,
-    },
     /// A file that is to be written is also read, or written by two.
     #[error("{} is named by {one} and by {other}, which would overwrite it; name another file", path.display())]
     NamedTwice {
@@ -94,16 +64,6 @@ pub enum Error {
     /// The system gives no random number for the page's token.
     #[error("cannot make a token for the page: {0}")]
     Random(#[source] getrandom::Error),
-    /// The text of an energy is longer than the viewer takes.
-    #[error(
-        "the text of an energy has at most {most} bytes here, and this one has {bytes}; put a longer one into a file, for `piola view --material FILE.rs`"
-    )]
-    LongText {
-        /// Its length, in bytes.
-        bytes: usize,
-        /// The greatest length, in bytes.
-        most: usize,
-    },
     /// A material breaks rules that all must keep.
     #[error("{material} does not keep the contract of a material:\n{violations}")]
     Contract {
@@ -112,9 +72,6 @@ pub enum Error {
         /// The rules that it breaks.
         violations: Violations,
     },
-    /// There is no state to go back to.
-    #[error("no state has been saved yet")]
-    NothingSaved,
     /// A file of measured points cannot be read.
     #[error("{} cannot be read: {source}; give a file, or `treloar`", path.display())]
     UnreadableData {
@@ -164,6 +121,15 @@ pub enum Error {
         /// Why.
         source: FitError,
     },
+}
+
+impl From<ViewerError> for Error {
+    fn from(error: ViewerError) -> Self {
+        match error {
+            ViewerError::Scene(error) => Self::Scene(error),
+            error => Self::Viewer(error),
+        }
+    }
 }
 
 impl Error {

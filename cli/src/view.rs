@@ -1,10 +1,8 @@
 //! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
 //!
-//! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
-//! acts; `driver` makes its steps on a thread of its own and waits for no page; `connection` passes between
-//! it and a page what [`protocol`] allows in one direction and `show` says in the other; `server`, `request`
-//! and `token` decide who comes in, `patience` how long one that is silent stays, and `page` is what they
-//! get. `typed` makes a material of what is typed there. [`state`] and [`recording`] are the files.
+//! The body with what can be done to it is `piola-viewer`. `driver` runs it on a thread of its own;
+//! `connection` passes between it and a page what the conversation of the two is; `server`, `request` and
+//! `token` decide who comes in, `patience` how long one that is silent stays, and `page` is what they get.
 //!
 //! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. A random token in the
 //! [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
@@ -14,15 +12,9 @@ mod connection;
 mod driver;
 mod page;
 mod patience;
-pub mod protocol;
-pub mod recording;
 mod request;
 mod server;
-pub mod session;
-mod show;
-pub mod state;
 mod token;
-mod typed;
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::PathBuf;
@@ -31,17 +23,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread::{self, JoinHandle};
 
-use driver::{Driver, Order};
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::settings::Settings;
+use piola_viewer::conversation::Conversation;
+use piola_viewer::driver::{Driver, Order};
+use piola_viewer::recording::{Recorder, Recording};
+use piola_viewer::session::Session;
+use piola_viewer::state::State;
+use piola_viewer::topology;
 
 use crate::error::Error;
+use driver::OwnThreads;
 use patience::Patience;
-use recording::{Recorder, Recording};
 use request::Door;
 use server::Server;
-use session::Session;
-use state::State;
 use token::Token;
 
 /// Orders that wait for the driver; connections with more of them wait themselves, in turn. A page waits
@@ -130,22 +125,23 @@ impl Viewer {
         let token = Token::new()?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
-        let topology = show::topology(session.geometry());
+        let topology = topology(session.geometry()).into();
         let recorded = replay.iter().flat_map(Recording::drags);
-        let first = connection::after(session.pulls().map(|(drag, _)| drag).chain(recorded));
+        let first = Conversation::after(session.pulls().map(|(drag, _)| drag).chain(recorded));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
         // It replaces an earlier recording, and so comes after everything that may fail but threads.
         let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
-        let driver = Driver::new(session, threads, options.save, recorder, replay);
+        let host = OwnThreads::new(threads);
+        let driver = Driver::new(host, session, options.save, recorder, replay);
         let patience = Patience::default();
         let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
             thread::Builder::new().name(name.into()).spawn(work).map_err(Error::Thread)
         };
         // The driver ends when the server and all its connections have.
-        start("driver", Box::new(move || driver.run(&taken)))?;
+        start("driver", Box::new(move || driver::run(driver, &taken)))?;
         let server = Some(start("server", Box::new(move || server.run()))?);
         Ok(Self { address, token, is_over, server })
     }

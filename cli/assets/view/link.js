@@ -1,6 +1,8 @@
 // The line to the program. Asks for one frame at a time, and drops nothing into a queue: of what a slider or the mouse
 // says while an answer is under way, the last word counts.
 
+import { openLine } from "./line.js";
+
 const AGAIN_AFTER = 1000; // ms, after the line has broken
 
 /**
@@ -13,12 +15,8 @@ export function connect(on) {
   let acts = false; // whether acts have been sent since the last frame
   const pending = new Map(); // by what they change, the last wins
 
-  // The secret of the address that the program has printed opens the line, too.
-  const token = new URLSearchParams(location.search).get("token") ?? "";
-
   const open = () => {
-    socket = new WebSocket(`ws://${location.host}/socket?token=${encodeURIComponent(token)}`);
-    socket.binaryType = "arraybuffer";
+    socket = openLine();
     socket.onopen = () => {
       looks = acts = false;
       on.line(true);

@@ -4,24 +4,20 @@
 //! in long ones.
 
 use std::io::Read;
-use std::ops::Range;
-use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
+use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
+use piola_viewer::conversation::{Conversation, Words};
+use piola_viewer::driver::Order;
 use tungstenite::handshake::server::{Response, write_response};
 use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
-use tungstenite::{Bytes, Error as SocketError, Message as Envelope, WebSocket};
+use tungstenite::{Bytes, Error as SocketError, Message as Envelope, Utf8Bytes, WebSocket};
 
-use super::driver::{Answer, Order};
 use super::patience::{Patience, TimedStream, is_silence};
-use super::protocol::{Act, Message};
 
 /// The longest message that makes sense is a declaration with its parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
-/// Bound of the numbers that a page gives its drags; that of its connection tells them from those of other
-/// pages.
-const DRAGS: u64 = 1 << 32;
 /// How long a page that waits for a frame waits longer than it must.
 const TURN: Duration = Duration::from_millis(3);
 /// How long a page that does not may wait for anything else.
@@ -49,44 +45,13 @@ pub(super) fn serve(
         .max_frame_size(Some(MAX_MESSAGE))
         .read_buffer_size(MAX_MESSAGE);
     let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
-    let (answer, answers) = channel();
-    let drags = number * DRAGS..(number + 1) * DRAGS;
-    let _leave = Leave { drags: drags.clone(), orders };
-    let mut connection = Connection {
-        socket,
-        patience,
-        heard: Instant::now(),
-        is_pinged: false,
-        drags,
-        orders,
-        answer,
-        answers,
-        waits: false,
-        seen: 0,
-        revision: 0,
-    };
+    let conversation = Conversation::new(number);
+    let mut connection =
+        Connection { socket, patience, heard: Instant::now(), is_pinged: false, orders, conversation };
     if connection.send(Envelope::Binary(topology)).is_ok() {
         let end = connection.talk();
         connection.part(end);
     }
-}
-
-/// Releases the drags of a page at the end of its connection.
-struct Leave<'a> {
-    drags: Range<u64>,
-    orders: &'a SyncSender<Order>,
-}
-
-impl Drop for Leave<'_> {
-    fn drop(&mut self) {
-        // Where the driver is gone, so are its pulls.
-        let _ = self.orders.send(Order::Leave { drags: self.drags.clone() });
-    }
-}
-
-/// The first number for a connection none of whose drags is among these.
-pub(super) fn after(drags: impl Iterator<Item = u64>) -> u64 {
-    drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
 }
 
 struct Connection<'a> {
@@ -96,15 +61,15 @@ struct Connection<'a> {
     heard: Instant,
     /// Whether it has been asked for a sign of life since then.
     is_pinged: bool,
-    drags: Range<u64>,
     orders: &'a SyncSender<Order>,
-    answer: Sender<Answer>,
-    answers: Receiver<Answer>,
-    /// Whether the page has asked for a frame that has not come.
-    waits: bool,
-    /// The state and the revision of the setup that the page has seen last.
-    seen: u64,
-    revision: u64,
+    conversation: Conversation,
+}
+
+impl Drop for Connection<'_> {
+    fn drop(&mut self) {
+        // Where the driver is gone, so are its pulls.
+        let _ = self.orders.send(self.conversation.leave());
+    }
 }
 
 /// Why a conversation ends.
@@ -126,7 +91,7 @@ impl Connection<'_> {
 
     /// Takes one message, or none in this turn.
     fn listen(&mut self) -> Result<(), End> {
-        let turn = if self.waits { TURN } else { LONG_TURN };
+        let turn = if self.conversation.waits() { TURN } else { LONG_TURN };
         self.socket.get_mut().allow(turn);
         let read = self.socket.read();
         if read.is_ok() {
@@ -134,10 +99,14 @@ impl Connection<'_> {
             self.is_pinged = false;
         }
         match read {
-            Ok(Envelope::Text(text)) => {
-                let message = Message::parse(&text);
-                self.order(message.map_err(|reason| End::Because(CloseCode::Policy, reason))?)
-            }
+            Ok(Envelope::Text(text)) => match self.conversation.order(&text) {
+                Ok(Some(order)) => self
+                    .orders
+                    .send(order)
+                    .map_err(|_| End::Because(CloseCode::Away, "the viewer ends".into())),
+                Ok(None) => Ok(()),
+                Err(reason) => Err(End::Because(CloseCode::Policy, reason)),
+            },
             Ok(Envelope::Binary(_)) => Err(End::Because(CloseCode::Unsupported, "messages are text".into())),
             Ok(Envelope::Ping(_) | Envelope::Pong(_) | Envelope::Close(_) | Envelope::Frame(_)) => Ok(()),
             Err(SocketError::Io(error)) if is_silence(&error) => Ok(()),
@@ -148,50 +117,13 @@ impl Connection<'_> {
         }
     }
 
-    fn order(&mut self, message: Message) -> Result<(), End> {
-        let answer = self.answer.clone();
-        let order = match message {
-            Message::Act(act) => Order::Act { act: self.as_own(act)?, answer },
-            Message::Run(run) => Order::Run(run),
-            // One frame is under way already.
-            Message::Look {} if self.waits => return Ok(()),
-            Message::Look {} => {
-                self.waits = true;
-                Order::Look { seen: self.seen, answer }
-            }
-        };
-        self.orders.send(order).map_err(|_| End::Because(CloseCode::Away, "the viewer ends".into()))
-    }
-
-    /// Numbers the drag so that it belongs to this page.
-    fn as_own(&self, act: Act) -> Result<Act, End> {
-        let own = |drag: u64| match drag < DRAGS {
-            true => Ok(self.drags.start + drag),
-            false => Err(End::Because(CloseCode::Policy, format!("the drag {drag} is not below {DRAGS}"))),
-        };
-        Ok(match act {
-            Act::Pull { drag, vertex, target } => Act::Pull { drag: own(drag)?, vertex, target },
-            Act::Release { drag } => Act::Release { drag: own(drag)? },
-            act => act,
-        })
-    }
-
     /// Passes on what has come for the page.
     fn reply(&mut self) -> Result<(), End> {
-        while let Ok(answer) = self.answers.try_recv() {
-            match answer {
-                Answer::Refused(text) => self.send(Envelope::Text(text))?,
-                Answer::Frame(frame) => {
-                    self.waits = false;
-                    self.seen = frame.state;
-                    if self.revision != frame.revision {
-                        self.revision = frame.revision;
-                        self.send(Envelope::Text(frame.setup))?;
-                    }
-                    self.send(Envelope::Text(frame.figures))?;
-                    self.send(Envelope::Binary(frame.positions))?;
-                }
-            }
+        for words in self.conversation.words() {
+            self.send(match words {
+                Words::Text(text) => Envelope::Text(Utf8Bytes::from(&*text)),
+                Words::Binary(numbers) => Envelope::Binary(Bytes::from_owner(numbers)),
+            })?;
         }
         Ok(())
     }

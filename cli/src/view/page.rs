@@ -14,6 +14,7 @@ const FILES: &[(&str, &str)] = files![
     "style.css",
     "page.js",
     "link.js",
+    "line.js",
     "stage.js",
     "orbit.js",
     "drag.js",

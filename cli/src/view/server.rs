@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::thread;
 
+use piola_viewer::driver::Order;
 use tungstenite::Bytes;
 
 use super::connection;
-use super::driver::Order;
 use super::page;
 use super::patience::{Patience, TimedStream};
 use super::request::{self, Denied, Door, Request};

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::Path;
 
-use piola_cli::error::Error;
-use piola_cli::view::protocol::Act;
-use piola_cli::view::recording::{Recorder, Recording};
-use piola_cli::view::session::Session;
-use piola_cli::view::state::State;
 use piola_scenes::output::Sealer;
 use piola_scenes::settings::Files;
+use piola_viewer::error::Error;
+use piola_viewer::protocol::Act;
+use piola_viewer::recording::{Recorder, Recording};
+use piola_viewer::session::Session;
+use piola_viewer::state::State;
 use serde_json::{Value, json};
 
 use crate::{TAIL, bits, pull, session, settings, steps};

@@ -6,11 +6,11 @@ mod page;
 mod playback;
 mod sockets;
 
-use piola_cli::view::protocol::Act;
-use piola_cli::view::session::Session;
 use piola_cli::view::{Begin, Options, Viewer};
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
+use piola_viewer::protocol::Act;
+use piola_viewer::session::Session;
 
 /// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
 const TAIL: usize = 5;

@@ -1,9 +1,9 @@
 //! Bodies that are pulled, without sockets.
 
-use piola_cli::view::protocol::Act;
-use piola_cli::view::session::Session;
 use piola_scenes::measure;
 use piola_scenes::output::Summary;
+use piola_viewer::protocol::Act;
+use piola_viewer::session::Session;
 
 use crate::{BACK, LEG, TAIL, bits, pull, session, steps};
 

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use piola_cli::view::protocol::Act;
-use piola_cli::view::recording::{Recorder, Recording};
-use piola_cli::view::state::State;
 use piola_cli::view::{Begin, Options, Viewer};
+use piola_viewer::protocol::Act;
+use piola_viewer::recording::{Recorder, Recording};
+use piola_viewer::state::State;
 use serde_json::{Value, json};
 
 use crate::page::Page;

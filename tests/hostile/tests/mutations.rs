@@ -10,13 +10,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use piola::random::Random;
-use piola_cli::view::protocol::Act;
-use piola_cli::view::recording::Recorder;
-use piola_cli::view::session::Session;
 use piola_hostile::mutation::mutated;
 use piola_hostile::{FORMATS, Format, seeds};
 use piola_scenes::scene::HORSE;
 use piola_scenes::settings::{Files, Settings};
+use piola_viewer::protocol::Act;
+use piola_viewer::recording::Recorder;
+use piola_viewer::session::Session;
 
 /// Longer than any small file may take, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(10);

@@ -8,7 +8,7 @@ use piola_tidy::tokens::mentions;
 use piola_tidy::{Crate, crates, files, forbid};
 
 /// Crates that nothing in a folder may name, its tests included.
-const FORBIDDEN: [(&str, &[&str]); 7] = [
+const FORBIDDEN: [(&str, &[&str]); 8] = [
     ("macros/core/src", &["nalgebra", "piola_materials", "faer"]),
     ("runtime/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
     ("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]),
@@ -17,7 +17,8 @@ const FORBIDDEN: [(&str, &[&str]); 7] = [
         &["piola_materials", "piola_laboratory", "piola_scenes", "piola_tests", "nalgebra", "faer"],
     ),
     ("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
-    ("scenes/src", &["piola_cli", "piola_tests", "piola_codegen"]),
+    ("scenes/src", &["piola_viewer", "piola_cli", "piola_tests", "piola_codegen"]),
+    ("viewer/src", &["piola_cli", "piola_tests", "piola_codegen"]),
     ("cli/src", &["piola_tests", "piola_codegen"]),
 ];
 

@@ -1,14 +1,9 @@
 //! Messages to a page: the surface's triangles once, then frames as it asks for them.
 //!
-//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`. Binary
-//! messages begin with three unsigned numbers of 32 bits, little-endian as all that follows:
-//!
-//! ```text
-//! 0, triangles, edges    then three vertices for each triangle, two nodes for each edge of the cage, as u32
-//! 1, vertices, nodes     then three coordinates for each, m, as f32
-//! ```
+//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use piola::material::Parameter;
 use piola::step::Energies;
@@ -19,44 +14,51 @@ use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
 use rayon::prelude::*;
 use serde_json::json;
-use tungstenite::{Bytes, Utf8Bytes};
 
-use super::protocol::Act;
-use super::session::Session;
+use crate::protocol::Act;
+use crate::session::Session;
 
 /// The body at one moment, for a page.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
+pub struct Frame {
     /// Counts states; a page that has seen this one waits for another.
-    pub(super) state: u64,
+    pub(crate) state: u64,
     /// Counts changes of the setup; a page that knows this one needs no other.
-    pub(super) revision: u64,
-    pub(super) setup: Utf8Bytes,
-    pub(super) figures: Utf8Bytes,
-    pub(super) positions: Bytes,
+    pub(crate) revision: u64,
+    pub(crate) setup: Arc<str>,
+    pub(crate) figures: Arc<str>,
+    pub(crate) positions: Arc<[u8]>,
 }
 
 /// Figures of the last steps, measured by the driver.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FrameStats {
-    pub(super) paused: bool,
-    pub(super) real_time: bool,
+pub(crate) struct FrameStats {
+    pub(crate) paused: bool,
+    pub(crate) real_time: bool,
     /// Whether a recording decides what happens.
-    pub(super) replays: bool,
+    pub(crate) replays: bool,
     /// Steps per second of the solver's own time; `None` before the first.
-    pub(super) steps_per_second: Option<f64>,
+    pub(crate) steps_per_second: Option<f64>,
     /// Newton iterations of the last step.
-    pub(super) newton_iterations: usize,
+    pub(crate) newton_iterations: usize,
     /// Energies after the last step, J.
-    pub(super) energies: Energies,
+    pub(crate) energies: Energies,
     /// Why the last step failed, or an act of a recording was refused.
-    pub(super) trouble: Option<String>,
+    pub(crate) trouble: Option<String>,
     /// Why nothing is recorded any more.
-    pub(super) recording_ended: Option<String>,
+    pub(crate) recording_ended: Option<String>,
 }
 
-/// Triangles of the surface and edges of the tetrahedra, as a binary message.
-pub(super) fn topology(geometry: &Geometry) -> Bytes {
+/// Triangles of the surface and edges of the tetrahedra, as a binary message: the first for a page.
+///
+/// Binary messages begin with three unsigned numbers of 32 bits, little-endian as all that follows:
+///
+/// ```text
+/// 0, triangles, edges    then three vertices for each triangle, two nodes for each edge of the cage, as u32
+/// 1, vertices, nodes     then three coordinates for each, m, as f32
+/// ```
+#[must_use]
+pub fn topology(geometry: &Geometry) -> Vec<u8> {
     let mut edges = BTreeSet::new();
     for &[a, b, c, d] in &geometry.mesh.tets {
         for (one, other) in [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)] {
@@ -70,7 +72,7 @@ pub(super) fn topology(geometry: &Geometry) -> Bytes {
 }
 
 /// Positions of the surface and the nodes, as a binary message.
-pub(super) fn positions(session: &Session) -> Bytes {
+pub(crate) fn positions(session: &Session) -> Arc<[u8]> {
     let nodes = session.play().simulation().positions();
     let vertices = session.geometry().surface_at(nodes);
     let header = [1, vertices.len() as u32, nodes.len() as u32];
@@ -80,7 +82,7 @@ pub(super) fn positions(session: &Session) -> Bytes {
 }
 
 /// The scene and its material, which change with acts only.
-pub(super) fn setup(session: &Session, file: Option<&str>) -> Utf8Bytes {
+pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
     let settings = session.settings();
     let mesh = &session.geometry().mesh;
     let bounds = mesh.bounds();
@@ -138,7 +140,7 @@ fn text(material: &MaterialSpec) -> &str {
 }
 
 /// Figures that change with each step.
-pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
+pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
     let mesh = &session.geometry().mesh;
     let (play, positions) = (session.play(), session.play().simulation().positions());
     let figures = json!({
@@ -162,7 +164,7 @@ pub(super) fn figures(session: &Session, stats: &FrameStats) -> Utf8Bytes {
 }
 
 /// The reason why an act was refused, and the mistakes of a text with their places.
-pub(super) fn refused(act: &Act, reason: &str, mistakes: &[Mistake]) -> Utf8Bytes {
+pub(crate) fn refused(act: &Act, reason: &str, mistakes: &[Mistake]) -> Arc<str> {
     let mistake = |Mistake { message, place }: &Mistake| {
         let place = place.map(|place| [place.line, place.column, place.length]);
         json!({ "message": message, "place": place })

@@ -1,7 +1,7 @@
 //! Messages of a page: JSON in one of the forms of [`Message`], and nothing else.
 //!
 //! ```
-//! use piola_cli::view::protocol::{Act, Message};
+//! use piola_viewer::protocol::{Act, Message};
 //!
 //! let text = r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
 //! let pull = Act::Pull { drag: 1, vertex: 7, target: [0.0, 1.0, 0.5] };

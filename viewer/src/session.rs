@@ -14,10 +14,10 @@ use piola_scenes::moment::Moment;
 use piola_scenes::play::Play;
 use piola_scenes::settings::Settings;
 
-use super::protocol::Act;
-use super::state::{Drag, MAX_DRAG, State};
-use super::typed;
 use crate::error::Error;
+use crate::protocol::Act;
+use crate::state::{Drag, MAX_DRAG, State};
+use crate::typed;
 
 /// Most pulls at a time; people have fewer fingers.
 const MAX_PULLS: usize = 64;

@@ -19,7 +19,7 @@ const MOST_TRIED: usize = 6;
 ///
 /// # Errors
 /// [`SceneError::Declaration`], or an error of the material.
-pub(super) fn material(
+pub(crate) fn material(
     text: &str,
     given: &BTreeMap<String, Vec<f64>>,
     present: &MaterialSpec,

@@ -17,9 +17,9 @@ use crate::error::Error;
 /// The first field of a file, which names its format and version.
 const FORMAT: &str = "piola state 2";
 /// The longest file that is written or read, in bytes: a state of two million nodes, or hours of acts.
-pub(super) const MAX_LENGTH: u64 = 256 << 20;
+pub(crate) const MAX_LENGTH: u64 = 256 << 20;
 /// Bound of the numbers of drags in files, above which there are others for drags to come.
-pub(super) const MAX_DRAG: u64 = 1 << 62;
+pub(crate) const MAX_DRAG: u64 = 1 << 62;
 
 /// A state that determines all steps to come, to the last bit, with the pulls of pages at it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -49,7 +49,7 @@ pub struct Drag {
 /// Stands in a file for [`FORMAT`].
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub(super) struct Format;
+pub(crate) struct Format;
 
 impl From<Format> for String {
     fn from(_: Format) -> Self {
@@ -69,7 +69,7 @@ impl TryFrom<String> for Format {
 }
 
 impl State {
-    pub(super) fn new(moment: Moment, material_at_start: MaterialSpec, pulls: BTreeMap<u64, Drag>) -> Self {
+    pub(crate) fn new(moment: Moment, material_at_start: MaterialSpec, pulls: BTreeMap<u64, Drag>) -> Self {
         Self { format: Format, moment, material_at_start, pulls }
     }
 
@@ -113,7 +113,7 @@ impl State {
 }
 
 /// Content of a state or a recording.
-pub(super) fn text_of(path: &Path) -> Result<String, Error> {
+pub(crate) fn text_of(path: &Path) -> Result<String, Error> {
     let mut text = String::new();
     let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
     let read = read.and_then(|length| match length as u64 > MAX_LENGTH {

@@ -16,9 +16,9 @@ use piola_scenes::settings::Files;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-use super::protocol::Act;
-use super::state::{MAX_DRAG, MAX_LENGTH, State, text_of};
 use crate::error::Error;
+use crate::protocol::Act;
+use crate::state::{MAX_DRAG, MAX_LENGTH, State, text_of};
 
 /// Time between marks: at most this much of the end is lost if a viewer is ended from outside.
 const MARKS: Duration = Duration::from_secs(1);

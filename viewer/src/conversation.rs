@@ -1,0 +1,112 @@
+//! A page's share in a driver: its messages become orders, and answers become messages for it.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use crate::driver::{Answer, Order};
+use crate::protocol::{Act, Message};
+
+/// Bound of the numbers that a page gives its drags; that of its conversation tells them from those of other
+/// pages.
+const DRAGS: u64 = 1 << 32;
+
+/// A message for a page.
+#[derive(Clone, Debug)]
+pub enum Words {
+    /// JSON.
+    Text(Arc<str>),
+    /// Numbers, as [`topology`](crate::topology) describes them.
+    Binary(Arc<[u8]>),
+}
+
+/// The conversation with one page.
+#[derive(Debug)]
+pub struct Conversation {
+    drags: Range<u64>,
+    answer: Sender<Answer>,
+    answers: Receiver<Answer>,
+    /// Whether the page has asked for a frame that has not come.
+    waits: bool,
+    /// The state and the revision of the setup that the page has seen last.
+    seen: u64,
+    revision: u64,
+}
+
+impl Conversation {
+    /// A conversation with a number that no other of the driver has.
+    #[must_use]
+    pub fn new(number: u64) -> Self {
+        let (answer, answers) = channel();
+        let drags = number * DRAGS..(number + 1) * DRAGS;
+        Self { drags, answer, answers, waits: false, seen: 0, revision: 0 }
+    }
+
+    /// The first number for a conversation none of whose drags is among these.
+    #[must_use]
+    pub fn after(drags: impl Iterator<Item = u64>) -> u64 {
+        drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
+    }
+
+    /// Whether the page has asked for a frame that has not come.
+    #[must_use]
+    pub fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// The order that ends all drags of the page.
+    #[must_use]
+    pub fn leave(&self) -> Order {
+        Order::Leave { drags: self.drags.clone() }
+    }
+
+    /// The order that a message of the page is; `None` if it asks once more for the frame that is under way.
+    ///
+    /// # Errors
+    /// The reason why it is not a message.
+    pub fn order(&mut self, text: &str) -> Result<Option<Order>, String> {
+        let answer = self.answer.clone();
+        Ok(match Message::parse(text)? {
+            Message::Act(act) => Some(Order::Act { act: self.as_own(act)?, answer }),
+            Message::Run(run) => Some(Order::Run(run)),
+            Message::Look {} if self.waits => None,
+            Message::Look {} => {
+                self.waits = true;
+                Some(Order::Look { seen: self.seen, answer })
+            }
+        })
+    }
+
+    /// Messages for the page in the answers that have come.
+    pub fn words(&mut self) -> Vec<Words> {
+        let mut words = Vec::new();
+        while let Ok(answer) = self.answers.try_recv() {
+            match answer {
+                Answer::Refused(text) => words.push(Words::Text(text)),
+                Answer::Frame(frame) => {
+                    self.waits = false;
+                    self.seen = frame.state;
+                    if self.revision != frame.revision {
+                        self.revision = frame.revision;
+                        words.push(Words::Text(frame.setup));
+                    }
+                    words.extend([Words::Text(frame.figures), Words::Binary(frame.positions)]);
+                }
+            }
+        }
+        words
+    }
+
+    /// Numbers the drag so that it belongs to this page.
+    fn as_own(&self, act: Act) -> Result<Act, String> {
+        let own = |drag: u64| match drag < DRAGS {
+            true => Ok(self.drags.start + drag),
+            false => Err(format!("the drag {drag} is not below {DRAGS}")),
+        };
+        Ok(match act {
+            Act::Pull { drag, vertex, target } => Act::Pull { drag: own(drag)?, vertex, target },
+            Act::Release { drag } => Act::Release { drag: own(drag)? },
+            act => act,
+        })
+    }
+}

@@ -1,0 +1,341 @@
+//! The body in motion: takes orders between steps, steps in real time, and answers pages that ask for frames.
+//!
+//! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one
+//! that does not ask nothing is made and nothing is kept.
+
+use std::borrow::Cow;
+use std::collections::VecDeque;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::time::Duration;
+
+use piola::step::StepReport;
+use piola_scenes::error::Error as SceneError;
+
+use crate::error::Error;
+use crate::protocol::{Act, Run};
+use crate::recording::{Recorder, Recording};
+use crate::session::Session;
+use crate::show::{self, Frame, FrameStats};
+
+/// How long orders may be taken between two steps, and acts of a recording between two looks at the orders. A
+/// single one takes as long as it takes.
+pub const TURN: Duration = Duration::from_millis(20);
+/// Number of steps over which the speed is averaged.
+const TIMED: usize = 32;
+/// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real
+/// time is played slowly, and does not race when it could.
+const LAG: Duration = Duration::from_millis(100);
+
+/// Surroundings of a driver: a clock, and what makes steps.
+pub trait Host {
+    /// Time since some moment that stays the same.
+    fn now(&self) -> Duration;
+
+    /// Makes a step.
+    ///
+    /// # Errors
+    /// That of [`Session::step`].
+    fn step(&self, session: &mut Session) -> Result<StepReport, SceneError> {
+        session.step()
+    }
+}
+
+/// A request of a [conversation](crate::conversation).
+#[derive(Debug)]
+pub enum Order {
+    /// A change of the body, its material or its time step.
+    Act {
+        /// The change.
+        act: Act,
+        /// Where to say why it is refused.
+        answer: Sender<Answer>,
+    },
+    /// A change of when steps are made.
+    Run(Run),
+    /// A frame is wanted, of a later state than the one with this number.
+    Look {
+        /// The number of the state.
+        seen: u64,
+        /// Where to send the frame.
+        answer: Sender<Answer>,
+    },
+    /// A page has gone; its pulls, which are those with these drags, end too.
+    Leave {
+        /// The numbers of its drags.
+        drags: Range<u64>,
+    },
+}
+
+/// The answer to an order.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// The body at one moment.
+    Frame(Frame),
+    /// An act was refused; a message for the page.
+    Refused(Arc<str>),
+}
+
+/// A session, with everything that drives it.
+#[derive(Debug)]
+pub struct Driver<H> {
+    host: H,
+    session: Session,
+    /// File for saved states.
+    save: Option<PathBuf>,
+    recorder: Option<Recorder>,
+    /// A recording that is played back; acts of pages are refused meanwhile.
+    replay: Option<Recording>,
+    stats: FrameStats,
+    /// When the step before was due.
+    before: Duration,
+    /// Times of the last steps.
+    times: VecDeque<Duration>,
+    /// Pages that wait for a frame, and the state that each has seen.
+    lookers: Vec<(u64, Sender<Answer>)>,
+    /// Counts the states that could be seen.
+    state: u64,
+    revision: u64,
+    /// Scene and material in words, and whether they have changed since.
+    setup: Arc<str>,
+    is_setup_stale: bool,
+}
+
+impl<H: Host> Driver<H> {
+    /// A driver of a session, with a file for saved states, a recording to be made, and one to be played back
+    /// before pages take over.
+    pub fn new(
+        host: H,
+        session: Session,
+        save: Option<PathBuf>,
+        recorder: Option<Recorder>,
+        replay: Option<Recording>,
+    ) -> Self {
+        Self {
+            before: host.now(),
+            host,
+            session,
+            save,
+            recorder,
+            replay,
+            stats: FrameStats { real_time: true, ..FrameStats::default() },
+            times: VecDeque::with_capacity(TIMED),
+            lookers: Vec::new(),
+            state: 1,
+            revision: 0,
+            setup: Arc::from(""),
+            is_setup_stale: true,
+        }
+    }
+
+    /// Makes a step if one is due, or does what a recording asks for before it, and answers the pages.
+    pub fn turn(&mut self) {
+        if self.is_replay_due() {
+            self.play_back();
+        } else if !self.stats.paused && self.due().is_some_and(|due| due <= self.host.now()) {
+            self.step();
+        }
+        self.answer();
+    }
+
+    /// How long there is nothing to do without an order; `None` if that is for ever.
+    #[must_use]
+    pub fn rest(&self) -> Option<Duration> {
+        if self.is_replay_due() {
+            return Some(Duration::ZERO);
+        }
+        let due = if self.stats.paused { None } else { self.due() };
+        due.map(|due| due.saturating_sub(self.host.now()))
+    }
+
+    /// When the next step is due; `None` if that is beyond all clocks.
+    fn due(&self) -> Option<Duration> {
+        if !self.stats.real_time {
+            return Some(self.before);
+        }
+        let dt = Duration::try_from_secs_f64(self.session.settings().dt).ok()?;
+        self.before.checked_add(dt)
+    }
+
+    /// Does what it is told between two steps.
+    pub fn obey(&mut self, order: Order) {
+        match order {
+            Order::Act { act, answer } => {
+                let result = match self.replay {
+                    Some(_) => {
+                        Err(("a recording is played back; take over, or wait for its end".into(), Vec::new()))
+                    }
+                    None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| match error {
+                        Error::Scene(SceneError::Declaration(mistakes)) => (mistakes.to_string(), mistakes.list),
+                        error => (for_page(&error), Vec::new()),
+                    }),
+                };
+                if let Err((reason, mistakes)) = result {
+                    // A page that has gone needs no answer.
+                    let _ = answer.send(Answer::Refused(show::refused(&act, &reason, &mistakes)));
+                }
+            }
+            Order::Run(Run::Pause { paused }) => {
+                self.stats.paused = paused;
+                self.stats.trouble = None;
+                self.before = self.host.now();
+            }
+            Order::Run(Run::Step {}) => {
+                self.stats.paused = true;
+                self.stats.trouble = None;
+                // Before the step come the acts that were recorded before it.
+                self.play_back();
+                if !self.is_replay_due() {
+                    self.step();
+                }
+            }
+            Order::Run(Run::Pace { real_time }) => self.stats.real_time = real_time,
+            Order::Run(Run::TakeOver {}) => self.replay = None,
+            Order::Look { seen, answer } => {
+                self.lookers.push((seen, answer));
+                return;
+            }
+            Order::Leave { drags } => {
+                let left = self.session.pulls().map(|(drag, _)| drag);
+                let left: Vec<_> = left.filter(|drag| drags.contains(drag)).collect();
+                if self.replay.is_none() {
+                    for drag in left {
+                        // A release cannot fail.
+                        let _ = self.act(&Act::Release { drag });
+                    }
+                }
+            }
+        }
+        self.state += 1;
+    }
+
+    /// Does an act, and records it.
+    fn act(&mut self, act: &Act) -> Result<(), Error> {
+        self.session.apply(act)?;
+        let steps = self.session.steps();
+        self.record(|recorder| recorder.act(steps, act));
+        let is_another_body =
+            matches!(act, Act::Material { .. } | Act::Energy { .. } | Act::Parameter { .. });
+        if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {
+            self.stats.trouble = None;
+        }
+        self.is_setup_stale |= !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {});
+        Ok(())
+    }
+
+    /// Writes the state that a page has saved. Acts of a recording write no files.
+    fn save(&self, act: &Act) -> Result<(), Error> {
+        match (act, &self.save, self.session.saved()) {
+            (Act::Save {}, Some(path), Some(state)) => state.write(path),
+            _ => Ok(()),
+        }
+    }
+
+    fn step(&mut self) {
+        let start = self.host.now();
+        let result = self.host.step(&mut self.session);
+        let took = self.host.now().saturating_sub(start);
+        match result {
+            Ok(report) => {
+                if self.times.len() == TIMED {
+                    self.times.pop_front();
+                }
+                self.times.push_back(took);
+                let total: Duration = self.times.iter().sum();
+                self.stats.steps_per_second = Some(self.times.len() as f64 / total.as_secs_f64());
+                self.stats.newton_iterations = report.newton.iterations;
+                self.stats.energies = report.energies;
+            }
+            Err(error) => {
+                self.stats.paused = true;
+                self.stats.trouble = Some(error.to_string());
+            }
+        }
+        let steps = self.session.steps();
+        self.record(|recorder| recorder.stepped(steps));
+        self.state += 1;
+
+        let now = self.host.now();
+        let due = self.due().unwrap_or(now);
+        self.before = if self.stats.real_time && due + LAG > now { due } else { now };
+    }
+
+    /// Whether a recording has acts to be done before the step to come, or has come to its end.
+    fn is_replay_due(&self) -> bool {
+        let steps = self.session.steps();
+        self.replay.as_ref().is_some_and(|recording| recording.is_due(steps) || recording.is_over(steps))
+    }
+
+    /// Does recorded acts before the step to come, as many as a page can wait for, and pauses at the end of
+    /// the recording.
+    fn play_back(&mut self) {
+        let Some(mut recording) = self.replay.take() else { return };
+        let (steps, end) = (self.session.steps(), self.host.now() + TURN);
+        while self.host.now() < end
+            && let Some(act) = recording.next_before(steps)
+        {
+            if let Err(error) = self.act(&act) {
+                self.stats.trouble =
+                    Some(format!("the recording asks for what is refused: {}", for_page(&error)));
+            }
+        }
+        if recording.is_over(steps) {
+            self.stats.paused = true;
+        } else {
+            self.replay = Some(recording);
+        }
+        self.state += 1;
+    }
+
+    fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), Error>) {
+        if let Some(recorder) = &mut self.recorder
+            && let Err(error) = write(recorder)
+        {
+            self.recorder = None;
+            self.stats.recording_ended = Some(format!("the recording ends here: {}", for_page(&error)));
+        }
+    }
+
+    /// Sends the present state to the pages that have not seen it.
+    fn answer(&mut self) {
+        if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
+            return;
+        }
+        if self.is_setup_stale {
+            // The page is told no more of this machine than the name of its file.
+            let file = self.save.as_deref().map(name_of);
+            self.setup = show::setup(&self.session, file.as_deref());
+            self.revision += 1;
+            self.is_setup_stale = false;
+        }
+        self.stats.replays = self.replay.is_some();
+        let frame = Frame {
+            state: self.state,
+            revision: self.revision,
+            setup: self.setup.clone(),
+            figures: show::figures(&self.session, &self.stats),
+            positions: show::positions(&self.session),
+        };
+        for (_, looker) in self.lookers.extract_if(.., |&mut (seen, _)| seen != self.state) {
+            // A page that has gone needs no frame.
+            let _ = looker.send(Answer::Frame(frame.clone()));
+        }
+    }
+}
+
+/// Message of an error for a page: of a file the name, and of the system's error the kind, which names no
+/// path.
+fn for_page(error: &Error) -> String {
+    match error {
+        Error::Scene(SceneError::Write { path, source }) => {
+            format!("cannot write {}: {}", name_of(path), source.kind())
+        }
+        error => error.to_string(),
+    }
+}
+
+fn name_of(path: &Path) -> Cow<'_, str> {
+    path.file_name().unwrap_or_default().to_string_lossy()
+}
