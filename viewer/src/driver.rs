@@ -168,7 +168,9 @@ impl<H: Host> Driver<H> {
                         Err(("a recording is played back; take over, or wait for its end".into(), Vec::new()))
                     }
                     None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| match error {
-                        Error::Scene(SceneError::Declaration(mistakes)) => (mistakes.to_string(), mistakes.list),
+                        Error::Scene(SceneError::Declaration(mistakes)) => {
+                            (mistakes.to_string(), mistakes.list)
+                        }
                         error => (for_page(&error), Vec::new()),
                     }),
                 };

@@ -1,0 +1,151 @@
+//! The viewer of piola behind a page without a server: the driver and the conversation of `piola view`, in
+//! WebAssembly.
+//!
+//! What passes the border is text and numbers, as `piola-viewer` describes them. The page asks for
+//! [`room`] and writes there what it has to say, a scene for [`begin`] or a message for [`hear`]; and lets
+//! the driver work with [`turn`], which says for how long there is nothing to do. What the page is told waits
+//! in a queue: [`next`] takes the first message, whose bytes are at [`message`], as many as [`length`] says.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use piola_scenes::scene::Scene;
+use piola_scenes::settings::Settings;
+use piola_viewer::conversation::{Conversation, Words};
+use piola_viewer::driver::{Driver, Host};
+use piola_viewer::error::Error;
+use piola_viewer::session::Session;
+use piola_viewer::topology;
+
+/// Kinds of messages, as [`next`] gives them.
+const NOTHING: u32 = 0;
+const TEXT: u32 = 1;
+const NUMBERS: u32 = 2;
+
+/// All that is between two calls.
+#[derive(Default)]
+struct Border {
+    /// What the page has written.
+    heard: Vec<u8>,
+    behind: Option<(Driver<Browser>, Conversation)>,
+    /// Messages for the page that wait.
+    words: VecDeque<Words>,
+    /// The message that it reads.
+    said: Option<Words>,
+}
+
+thread_local! {
+    static BORDER: RefCell<Border> = RefCell::default();
+}
+
+// SAFETY: the page gives a function of this type, or the module cannot be instantiated.
+#[link(wasm_import_module = "browser")]
+unsafe extern "C" {
+    /// Milliseconds since some moment that stays the same.
+    safe fn now() -> f64;
+}
+
+struct Browser;
+
+impl Host for Browser {
+    fn now(&self) -> Duration {
+        // A clock that is no number, or runs backwards, stands still.
+        Duration::try_from_secs_f64(1e-3 * now()).unwrap_or_default()
+    }
+}
+
+/// Makes room for so many bytes, and says where.
+#[unsafe(no_mangle)]
+pub extern "C" fn room(length: usize) -> *mut u8 {
+    BORDER.with_borrow_mut(|border| {
+        border.heard.clear();
+        border.heard.resize(length, 0);
+        border.heard.as_mut_ptr()
+    })
+}
+
+/// Begins the scene whose name has been written, and says whether there is one: if not, the next message is
+/// the reason.
+#[unsafe(no_mangle)]
+pub extern "C" fn begin() -> bool {
+    BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
+        Ok(session) => {
+            border.words = [Words::Binary(topology(session.geometry()).into())].into();
+            border.behind = Some((Driver::new(Browser, session, None, None, None), Conversation::new(0)));
+            true
+        }
+        Err(error) => {
+            border.words = [Words::Text(error.to_string().into())].into();
+            false
+        }
+    })
+}
+
+fn session(scene: &str) -> Result<Session, Error> {
+    Session::new(Settings::new(Scene::find(scene)?))
+}
+
+/// Hears the message that has been written, and says whether it is one: if not, the next message is the
+/// reason.
+#[unsafe(no_mangle)]
+pub extern "C" fn hear() -> bool {
+    BORDER.with_borrow_mut(|Border { heard, behind, words, .. }| {
+        let Some((driver, conversation)) = behind else { return false };
+        match conversation.order(&String::from_utf8_lossy(heard)) {
+            Ok(order) => {
+                order.into_iter().for_each(|order| driver.obey(order));
+                true
+            }
+            Err(reason) => {
+                *words = [Words::Text(reason.into())].into();
+                false
+            }
+        }
+    })
+}
+
+/// Makes a step if one is due, and says after how many milliseconds the next one is; ∞ if none is.
+#[unsafe(no_mangle)]
+pub extern "C" fn turn() -> f64 {
+    BORDER.with_borrow_mut(|Border { behind, words, .. }| {
+        let Some((driver, conversation)) = behind else { return f64::INFINITY };
+        driver.turn();
+        words.extend(conversation.words());
+        driver.rest().map_or(f64::INFINITY, |rest| 1e3 * rest.as_secs_f64())
+    })
+}
+
+/// Takes the next message from the queue, and says of which kind it is: 0 for none, 1 for text, 2 for
+/// numbers.
+#[unsafe(no_mangle)]
+pub extern "C" fn next() -> u32 {
+    BORDER.with_borrow_mut(|border| {
+        border.said = border.words.pop_front();
+        match border.said {
+            None => NOTHING,
+            Some(Words::Text(_)) => TEXT,
+            Some(Words::Binary(_)) => NUMBERS,
+        }
+    })
+}
+
+/// Where the message that was taken last begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn message() -> *const u8 {
+    said(|bytes| bytes.as_ptr())
+}
+
+/// Length of the message that was taken last, in bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn length() -> usize {
+    said(<[u8]>::len)
+}
+
+fn said<T>(read: impl FnOnce(&[u8]) -> T) -> T {
+    BORDER.with_borrow(|border| match &border.said {
+        None => read(&[]),
+        Some(Words::Text(text)) => read(text.as_bytes()),
+        Some(Words::Binary(numbers)) => read(numbers),
+    })
+}
