@@ -6,7 +6,7 @@
 //! * [`data`]: measured curves, and how well an energy agrees with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
 //! * [`ranking`]: several energies beside the same measurements, in the order of their agreement;
-//! * [`chart`]: all of these in pictures;
+//! * [`chart`]: all of these in pictures, with the feature `charts`, which is on unless you turn it off;
 //! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!
 //! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that an
@@ -14,6 +14,7 @@
 //! deformed homogeneously and slowly, so that neither buckling nor viscosity, softening or friction at the
 //! plates is seen.
 
+#[cfg(feature = "charts")]
 pub mod chart;
 pub mod curve;
 pub mod data;

@@ -31,6 +31,7 @@
 pub mod constant_volume;
 pub mod criteria;
 mod display;
+#[cfg(feature = "charts")]
 mod map;
 mod path;
 pub mod wave;
@@ -41,6 +42,7 @@ use piola::message::number;
 use crate::Specimen;
 use criteria::{Criterion, Judgement};
 
+#[cfg(feature = "charts")]
 pub use map::{MapError, Plane, map};
 pub use path::{Path, Walk};
 
