@@ -141,6 +141,8 @@ fn mistakes_are_told_at_their_places() {
     check_mistake("mu*(trC - 3)", &any, "trC", "write `I1`");
     check_mistake("mu*(I1 - 3) + log(J)", &any, "log", "natural logarithm");
     check_mistake("mu/2*(I1b - 3)\n  + K*(J - 1)^2\n  + l1", &any, "l1", "are exchanged");
+    check_mistake("mu/2*(I1b - 3)\r\n  + K*(J - 1)^2\r\n  + l1", &any, "l1", "are exchanged");
+    check_mistake("mu/2*(I1 - 3) + lambd\r\na*ln(J) + lambd\r\n[]/2", &any, "]", "expected an expression");
     check_mistake("mu*(J - 1)^2 where J", &any, "J", "a condition is a comparison");
     check_mistake("mu*abs(I1b - 3)", &any, "abs", "has a kink");
     let known = any.with_parameters(Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]));

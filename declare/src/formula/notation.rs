@@ -56,11 +56,12 @@ impl Notation {
     }
 
     fn origin(&self, formula: &str, Place { line, column, length }: Place) -> Option<Place> {
-        let before: usize = self.text.lines().take(line - 1).map(|line| line.chars().count() + 1).sum();
+        // A line ends at its line feed, as for the compiler, and a carriage return before that is part of it.
+        let before: usize = self.text.split('\n').take(line - 1).map(|line| line.chars().count() + 1).sum();
         let [first, last] = [column - 1, column + length - 2].map(|k| self.origins.get(before + k));
         let (first, last) = (*first?, *last?);
         let place = Place::at(formula, first)?;
-        let rest = formula.lines().nth(place.line - 1)?.chars().count() + 1 - place.column;
+        let rest = formula.split('\n').nth(place.line - 1)?.chars().count() + 1 - place.column;
         Some(Place { length: (last - first + 1).clamp(1, rest.max(1)), ..place })
     }
 }
