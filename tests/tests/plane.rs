@@ -16,7 +16,8 @@ use piola_materials::{CATALOGUE, DECLARATIONS};
 const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
 
 /// Runs a check on every material of the catalogue in every treatment of inversion, each read from its
-/// declaration: its bits are those of the compiled one, and 55 of those take a minute to compile.
+/// declaration: `declare/tests/catalogue.rs` sees that it has the bits of the compiled one, which takes long
+/// to build.
 fn everywhere(mut check: impl FnMut(&str, &Interpreted)) {
     for (entry, declaration) in CATALOGUE.iter().zip(DECLARATIONS) {
         assert_eq!(entry.name, declaration.name);

@@ -5,9 +5,9 @@
 //! [`protocol`] allows a page to say into orders for it, and its answers into messages. [`state`] and
 //! [`recording`] are the files.
 //!
-//! The crate opens no socket and starts no thread. The time, by which steps are due, it learns from its
-//! [`Host`](driver::Host): a server on this machine, or a page without one. Only a recording that is being
-//! made looks at the clock itself.
+//! The crate opens no socket and has no thread of its own. The time, by which steps are due, it learns from
+//! its [`Host`](driver::Host): a server on this machine, or a page without one. Only a recording that is
+//! being made looks at the clock itself.
 
 pub mod conversation;
 pub mod driver;

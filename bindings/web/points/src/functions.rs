@@ -1,4 +1,4 @@
-//! Every function of lanes at random bits, on every back end: equal checksums mean equal bits.
+//! Functions of lanes at random bits, on every back end: equal checksums mean equal bits.
 
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 
