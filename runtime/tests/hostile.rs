@@ -19,8 +19,8 @@ use piola::step::{
     NewtonSettings, NodeBlocks, Simulation, SimulationSettings, SparseSolver, Spring, StagedSteps, Term,
 };
 use piola::system::{
-    BlockMatrix, Body, Cholesky, CsrPlaces, ElasticResponse, LinearError, LowerTriangle, NodalStiffness,
-    Part, Pattern, Pins, StiffnessOperator,
+    BlockMatrix, Body, Cholesky, CsrPlaces, DiscreteGradient, ElasticResponse, LinearError, LowerTriangle,
+    NodalStiffness, Part, Pattern, Pins, StiffnessOperator,
 };
 use piola::{Inversion, StatusCell, material};
 
@@ -461,6 +461,11 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
         }
         let _ = response.difference_noise(&body);
+        let mut between = DiscreteGradient::new(&body);
+        let _ = between.begin(&body, &positions);
+        let _ = between.evaluate(&body, &product);
+        let _ = between.linearise(&body);
+        let _ = between.add_gradient(&body, &mut product);
         let integrator = Integrator::GeneralizedAlpha { spectral_radius: hostile.number() };
         if let Ok(mut steps) = StagedSteps::new(integrator, body.rest()) {
             let _ = steps.set_state(&positions, &product);

@@ -1,38 +1,28 @@
-//! Steps that keep energy and momenta: Newton's method for an equation that no function's minimum solves.
+//! Steps that keep energy and momenta, whose equation no function's minimum solves.
 //!
-//! The stage is that of the midpoint rule, with the [discrete gradient](crate::system::discrete_gradient) ∇̄Ψ
+//! The stage is that of the midpoint rule, with the [discrete gradient](crate::system::DiscreteGradient) ∇̄Ψ
 //! between the states before and after the step in the place of ∇Ψ in the middle:
 //!
 //! ```text
 //! r(x) = M a(x) + D v(x) + ∇̄Ψ(xₙ, 2 x − xₙ) − M g − f + ∇ terms(x) = 0
 //! ```
 //!
-//! Its Jacobian J is not symmetric, and there is no function to decrease. Newton's method goes along d = −J⁻¹
-//! r, as far as the next correction with the same Jacobian gets shorter: ‖J⁻¹ r(x + t d)‖ ≤ (1 − t/4) ‖d‖,
-//! the natural monotonicity test \[Deu04, 3.3\], which does not depend on how equations are scaled, as the
-//! norm of r does between large elements and small or flat ones.
-//!
-//! It starts from the positions before the step, as slow motions demand that are stiff beside their inertia.
-//! Where that fails it starts from where velocities alone would take the body, and where that fails too the
-//! equation is first solved for a shorter step, whose inertia is larger: the middle of the whole step is
-//! reached by continuation, with solutions of shorter ones extended along a line.
+//! Its Jacobian J is not symmetric. The equation of a share s of the step has its lengths τ and σ times s:
+//! inertia is larger. See [`super::equation`] for the method that solves it.
 //!
 //! Systems are solved by a sparse LU factorisation, faer's, whose symbolic part is kept as long as the same
 //! entries come.
-//!
-//! \[Deu04\] Deuflhard, *Newton Methods for Nonlinear Problems*, 2004.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
-use crate::system::Body;
-use crate::system::LinearError;
-use crate::system::discrete_gradient::DiscreteGradient;
+use crate::system::{Body, DiscreteGradient, DiscreteGradientError, LinearError};
 
+use super::equation::{StepEquation, StepStart, solve_step};
 use super::line_search::LineSearchSettings;
-use super::newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
+use super::newton::{NewtonError, NewtonReport, NewtonSettings};
 use super::objective::Objective;
 
 /// Memory of the method.
@@ -52,12 +42,6 @@ pub(super) struct Conservation {
     /// The solution for the share of the step that was solved for last.
     solution: Vec<[f64; 3]>,
 }
-
-/// Share of the first residual below which the rest counts as rounding, where it falls by less than half.
-const ROUNDING: f64 = 1e-8;
-
-/// The smallest share of a step by which continuation goes on.
-const SMALLEST_SHARE: f64 = 1.0 / 256.0;
 
 impl Conservation {
     pub(super) fn new(body: &Body) -> Self {
@@ -86,41 +70,14 @@ impl Conservation {
         settings: &NewtonSettings,
         line_search: &LineSearchSettings,
     ) -> Result<NewtonReport, NewtonError> {
-        self.gradient.begin(objective.body, x).map_err(|element| NewtonError::Inverted { element })?;
+        self.gradient.begin(objective.body, x).map_err(inverted)?;
         self.before.copy_from_slice(x);
         for (x, d) in x.iter_mut().zip(pins_move.into_iter().flatten()) {
             (0..3).for_each(|c| x[c] += d[c]);
         }
         self.start.copy_from_slice(x);
-        let mut report: Option<NewtonReport> = None;
-        let (mut done, mut more, mut is_first) = (0.0, 1.0, true);
-        loop {
-            let share = f64::min(done + more, 1.0);
-            for &node in free.iter().filter(|_| !is_first) {
-                let start = self.start[node];
-                x[node] = if done == 0.0 {
-                    let way = objective.quadratic.stage.extrapolation(node, start, 0.0);
-                    std::array::from_fn(|c| start[c] + share * way[c])
-                } else {
-                    std::array::from_fn(|c| start[c] + share / done * (self.solution[node][c] - start[c]))
-                };
-            }
-            let equation = Equation { memory: self, objective, free, share, settings, line_search };
-            match equation.solve(x) {
-                Ok(found) => {
-                    let all = found.after(report.take());
-                    if share == 1.0 {
-                        return Ok(all);
-                    }
-                    report = Some(all);
-                    self.solution.copy_from_slice(x);
-                    (done, more) = (share, 2.0 * more);
-                }
-                Err(_) if is_first => is_first = false,
-                Err(_) if more > SMALLEST_SHARE => more *= 0.5,
-                Err(error) => return Err(error),
-            }
-        }
+        let mut equation = Equation { memory: self, objective, free, x, share: 1.0 };
+        solve_step(&mut equation, settings, line_search)
     }
 }
 
@@ -129,55 +86,86 @@ struct Equation<'a, 'b> {
     memory: &'a mut Conservation,
     objective: &'a mut Objective<'b>,
     free: &'a [usize],
+    x: &'a mut [[f64; 3]],
     share: f64,
-    settings: &'a NewtonSettings,
-    line_search: &'a LineSearchSettings,
+}
+
+impl StepEquation for Equation<'_, '_> {
+    type Jacobian = Lu<usize, f64>;
+    type Error = NewtonError;
+
+    fn start(&mut self, share: f64, start: StepStart) -> Result<f64, NewtonError> {
+        self.share = share;
+        for &node in self.free {
+            let before = self.memory.start[node];
+            self.x[node] = match start {
+                StepStart::Before => before,
+                StepStart::Velocities => {
+                    let way = self.objective.quadratic.stage.extrapolation(node, before, 0.0);
+                    std::array::from_fn(|c| before[c] + share * way[c])
+                }
+                StepStart::Kept { share: kept } => {
+                    let solution = self.memory.solution[node];
+                    std::array::from_fn(|c| before[c] + share / kept * (solution[c] - before[c]))
+                }
+            };
+        }
+        if let Some(term) = self.objective.terms.refusing(self.x) {
+            return Err(NewtonError::TermRefuses { term });
+        }
+        self.memory.trial.copy_from_slice(self.x);
+        self.residual().map_err(inverted)
+    }
+
+    fn linearise(&mut self) -> Result<Lu<usize, f64>, NewtonError> {
+        self.assemble()?;
+        self.memory.matrix.factor(3 * self.free.len()).map_err(NewtonError::Linear)
+    }
+
+    fn correct(&mut self, factor: &Lu<usize, f64>) -> Result<f64, NewtonError> {
+        let Conservation { residual, correction, .. } = &mut *self.memory;
+        let mut b = Mat::from_fn(3 * self.free.len(), 1, |row, _| -residual[self.free[row / 3]][row % 3]);
+        factor.solve_in_place(b.as_mut());
+        correction.fill([0.0; 3]);
+        for (unknown, &node) in self.free.iter().enumerate() {
+            correction[node] = std::array::from_fn(|c| b[(3 * unknown + c, 0)]);
+        }
+        let norm = norm(self.free, correction);
+        if norm.is_finite() { Ok(norm) } else { Err(NewtonError::NotFinite) }
+    }
+
+    fn turn(&mut self) -> f64 {
+        std::mem::swap(&mut self.memory.direction, &mut self.memory.correction);
+        self.objective.terms.longest_step(self.x, &self.memory.direction)
+    }
+
+    fn try_step(&mut self, step: f64) -> Result<Option<f64>, NewtonError> {
+        for node in 0..self.x.len() {
+            let d = self.memory.direction[node];
+            self.memory.trial[node] = std::array::from_fn(|c| self.x[node][c] + step * d[c]);
+        }
+        Ok(match self.objective.terms.refusing(&self.memory.trial) {
+            None => self.residual().ok().filter(|residual| residual.is_finite()),
+            Some(_) => None,
+        })
+    }
+
+    fn accept(&mut self) {
+        self.x.copy_from_slice(&self.memory.trial);
+    }
+
+    fn keep(&mut self) {
+        self.memory.solution.copy_from_slice(self.x);
+    }
+
+    fn is_final(_: &NewtonError) -> bool {
+        false
+    }
 }
 
 impl Equation<'_, '_> {
-    /// Moves `x` to a solution.
-    fn solve(mut self, x: &mut [[f64; 3]]) -> Result<NewtonReport, NewtonError> {
-        if let Some(term) = self.objective.terms.refusing(x) {
-            return Err(NewtonError::TermRefuses { term });
-        }
-        self.memory.trial.copy_from_slice(x);
-        let mut residual = self.residual().map_err(|element| NewtonError::Inverted { element })?;
-        let mut report = NewtonReport { first_residual: residual, ..NewtonReport::before(self.settings) };
-        loop {
-            report.residual = residual;
-            if !residual.is_finite() {
-                return Err(NewtonError::NotFinite);
-            }
-            if residual <= self.settings.tolerance * report.first_residual {
-                report.convergence = Convergence::Tolerance;
-                return Ok(report);
-            }
-            if report.iterations == self.settings.max_iterations {
-                return Err(NewtonError::NotSolved { iterations: report.iterations, residual });
-            }
-            let rounding = ROUNDING * report.first_residual;
-            report.iterations += 1;
-            match self.iterate(x, &mut report)? {
-                Some(next) => {
-                    let is_idle = next > 0.5 * residual && next <= rounding;
-                    residual = next;
-                    if is_idle {
-                        (report.convergence, report.residual) = (Convergence::Rounding, next);
-                        return Ok(report);
-                    }
-                }
-                None if residual <= rounding => {
-                    report.convergence = Convergence::Rounding;
-                    return Ok(report);
-                }
-                None => return Err(NewtonError::NotSolved { iterations: report.iterations, residual }),
-            }
-        }
-    }
-
-    /// Evaluates r at the positions to be tried and returns its norm over the free nodes; the error is the
-    /// tag of an element that is inverted after the step.
-    fn residual(&mut self) -> Result<f64, usize> {
+    /// Evaluates r at the positions to be tried and returns its norm over the free nodes.
+    fn residual(&mut self) -> Result<f64, DiscreteGradientError> {
         let more = self.more_inertia();
         let Conservation { gradient, before, displacement, residual, trial, .. } = &mut *self.memory;
         for (node, d) in displacement.iter_mut().enumerate() {
@@ -186,7 +174,7 @@ impl Equation<'_, '_> {
         gradient.evaluate(self.objective.body, displacement)?;
         self.objective.quadratic_gradient(trial, residual);
         self.objective.terms.add_gradient(trial, residual);
-        gradient.add_gradient(self.objective.body, residual);
+        gradient.add_gradient(self.objective.body, residual)?;
         if self.share < 1.0 {
             // With a share of the lengths, τ and σ, a is greater.
             for &node in self.free {
@@ -208,55 +196,26 @@ impl Equation<'_, '_> {
         (self.share * self.share).recip() - 1.0
     }
 
-    /// An iteration from `x`, where r was evaluated last; returns ‖r‖ at its end, `None` where no step along
-    /// the direction is good.
-    fn iterate(&mut self, x: &mut [[f64; 3]], report: &mut NewtonReport) -> Result<Option<f64>, NewtonError> {
-        self.linearise(x)?;
-        let factor = self.memory.matrix.factor(3 * self.free.len()).map_err(NewtonError::Linear)?;
-        let length = self.correct(&factor)?;
-        std::mem::swap(&mut self.memory.direction, &mut self.memory.correction);
-        let mut step = self.objective.terms.longest_step(x, &self.memory.direction);
-        for _ in 0..self.line_search.max_trials {
-            for node in 0..x.len() {
-                let d = self.memory.direction[node];
-                self.memory.trial[node] = std::array::from_fn(|c| x[node][c] + step * d[c]);
-            }
-            let residual = match self.objective.terms.refusing(&self.memory.trial) {
-                None => self.residual().ok().filter(|residual| residual.is_finite()),
-                Some(_) => None,
-            };
-            if let Some(residual) = residual {
-                if self.line_search.accepts_increase || self.correct(&factor)? <= (1.0 - 0.25 * step) * length
-                {
-                    x.copy_from_slice(&self.memory.trial);
-                    report.step_lengths.push(step);
-                    return Ok(Some(residual));
-                }
-            } else {
-                report.refused_trials += 1;
-            }
-            step *= self.line_search.shrink;
-        }
-        Ok(None)
-    }
-
-    /// Takes the Jacobian at `x`, where r was evaluated last.
-    fn linearise(&mut self, x: &[[f64; 3]]) -> Result<(), NewtonError> {
+    /// Assembles the Jacobian at x, where r was evaluated last.
+    fn assemble(&mut self) -> Result<(), NewtonError> {
         let more = self.more_inertia();
-        let Self { memory: Conservation { gradient, matrix, .. }, objective, .. } = self;
+        let Self { memory: Conservation { gradient, matrix, .. }, objective, x, .. } = self;
         objective.terms.linearise(x, objective.blocks);
         if let Some(node) = objective.blocks.missing() {
             return Err(NewtonError::NoSuchNode { node, nodes: x.len() });
         }
-        gradient.linearise(objective.body).map_err(|element| NewtonError::ElementNotFinite { element })?;
+        gradient
+            .linearise(objective.body)
+            .map_err(|error| NewtonError::ElementNotFinite { element: tag(error) })?;
         let mut unknowns = vec![None; x.len()];
         for (unknown, &node) in self.free.iter().enumerate() {
             unknowns[node] = Some(3 * unknown);
         }
         matrix.begin();
-        for (index, element) in objective.body.elements().iter().enumerate() {
+        let tangents = gradient.tangents(objective.body);
+        for (index, (element, tangent)) in objective.body.elements().iter().zip(tangents).enumerate() {
             // The state after the step moves twice as far as the middle.
-            let mut tangent = gradient.tangent(objective.body, index).map(|row| row.map(|entry| 2.0 * entry));
+            let mut tangent = tangent.map(|row| row.map(|entry| 2.0 * entry));
             if let Some(viscosity) = objective.viscosity {
                 viscosity.add_element_to(index, &mut tangent);
             }
@@ -277,18 +236,17 @@ impl Equation<'_, '_> {
         }
         Ok(())
     }
+}
 
-    /// Replaces the correction by −J⁻¹ r, zero at pinned nodes, and returns its norm.
-    fn correct(&mut self, factor: &Lu<usize, f64>) -> Result<f64, NewtonError> {
-        let Conservation { residual, correction, .. } = &mut *self.memory;
-        let mut b = Mat::from_fn(3 * self.free.len(), 1, |row, _| -residual[self.free[row / 3]][row % 3]);
-        factor.solve_in_place(b.as_mut());
-        correction.fill([0.0; 3]);
-        for (unknown, &node) in self.free.iter().enumerate() {
-            correction[node] = std::array::from_fn(|c| b[(3 * unknown + c, 0)]);
-        }
-        let norm = norm(self.free, correction);
-        if norm.is_finite() { Ok(norm) } else { Err(NewtonError::NotFinite) }
+fn inverted(error: DiscreteGradientError) -> NewtonError {
+    NewtonError::Inverted { element: tag(error) }
+}
+
+/// The element that is to blame: all lengths are those of the body.
+fn tag(error: DiscreteGradientError) -> usize {
+    match error {
+        DiscreteGradientError::Element { tag } => tag,
+        DiscreteGradientError::Length(_) => usize::MAX,
     }
 }
 

@@ -18,6 +18,10 @@ use super::spring::Spring;
 ///
 /// for the s, w, τ and σ of its [`Stage`].
 ///
+/// [`Integrator::EnergyMomentum`] has the stage of the midpoint rule, with another force: the
+/// [gradient](crate::system::DiscreteGradient) between the [positions](StagedSteps::positions) xₙ before and
+/// those after, 2 x − xₙ, takes the place of ∇Ψ(x). [`solve_step`](super::solve_step) solves its equation.
+///
 /// ```
 /// use piola::step::{Integrator, StagedSteps};
 ///
@@ -50,12 +54,9 @@ impl StagedSteps {
     /// Nodes at rest at these positions, m.
     ///
     /// # Errors
-    /// [`SetupError::Setting`] for a parameter of the integrator that is out of range, and for the
-    /// energy–momentum method, whose steps are no minima.
+    /// [`SetupError::Setting`] for a parameter of the integrator that is out of range.
     pub fn new(integrator: Integrator, positions: &[[f64; 3]]) -> Result<Self, SetupError> {
-        let no_minimum = (integrator == Integrator::EnergyMomentum)
-            .then_some("steps of the energy–momentum method are no minimisations");
-        if let Some(rule) = integrator.broken_rule().or(no_minimum) {
+        if let Some(rule) = integrator.broken_rule() {
             return Err(SetupError::Setting { rule });
         }
         let state = State::at_rest(positions);
@@ -273,13 +274,14 @@ mod tests {
         Simulation::new(body, pins, settings).expect("a simulation")
     }
 
-    fn integrators() -> [Integrator; 7] {
+    fn integrators() -> [Integrator; 8] {
         [
             Integrator::ImplicitEuler,
             Integrator::Bdf2,
             Integrator::Sdirk2,
             Integrator::Sdirk3,
             Integrator::ImplicitMidpoint,
+            Integrator::EnergyMomentum,
             Integrator::Newmark,
             Integrator::GeneralizedAlpha { spectral_radius: 0.6 },
         ]
@@ -323,7 +325,7 @@ mod tests {
         for integrator in integrators() {
             let mut simulation = simulation(integrator, &Pins::none());
             let rest = simulation.positions().to_vec();
-            let mut steps = StagedSteps::new(integrator, &rest).expect("a method of minima");
+            let mut steps = StagedSteps::new(integrator, &rest).expect("an integrator");
             for _ in 0..3 {
                 simulation.step(DT).expect("a step");
                 fall(&mut steps, &[], &rest);
@@ -339,7 +341,7 @@ mod tests {
             let pins = Pins::at(0..8);
             let mut simulation = simulation(integrator, &pins);
             let mut targets = simulation.positions().to_vec();
-            let mut steps = StagedSteps::new(integrator, &targets).expect("a method of minima");
+            let mut steps = StagedSteps::new(integrator, &targets).expect("an integrator");
             for _ in 0..3 {
                 for node in 0..8 {
                     targets[node][0] += 0.01;
@@ -355,10 +357,8 @@ mod tests {
     }
 
     #[test]
-    fn wrong_lengths_and_steps_that_are_no_minima_are_refused() {
-        let refused = StagedSteps::new(Integrator::EnergyMomentum, &[]).expect_err("no minimum");
-        assert!(matches!(refused, SetupError::Setting { .. }), "{refused}");
-        let mut steps = StagedSteps::new(Integrator::Newmark, &[[0.0; 3]]).expect("a method of minima");
+    fn wrong_lengths_are_refused() {
+        let mut steps = StagedSteps::new(Integrator::Newmark, &[[0.0; 3]]).expect("an integrator");
         let expected = Err(SetupError::Length { expected: 1, found: 2 });
         assert_eq!(steps.set_state(&[[0.0; 3]; 2], &[[0.0; 3]]), expected);
         assert_eq!(steps.set_accelerations(&[[0.0; 3]; 2]), expected);

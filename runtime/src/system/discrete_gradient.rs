@@ -50,10 +50,12 @@
 
 #![expect(non_snake_case, reason = "F, S, E as in the literature")]
 
+use std::fmt;
 use std::ops::Range;
 
 use super::body::Body;
 use super::element::Tetrahedron;
+use super::response::same;
 use crate::batch::{Batch, LengthError};
 use crate::point::Matrix3;
 use crate::point::measures::{Measure, voigt};
@@ -62,9 +64,48 @@ use crate::status::Survey;
 /// Gauss points on the line between two strains.
 const POINTS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
-/// The discrete gradient of a body's elastic energy, with memory for it: 1.3 kB for each element.
+/// A gradient of the energy of deformation between two states of a body, for an integrator of one's own that
+/// keeps energy and momenta: its product with the displacement is the change of the energy, and its forces
+/// and torques about the state in the middle add up to zero. For states that are close it is the gradient
+/// there.
+///
+/// It is used in this order: [`begin`](DiscreteGradient::begin) with the state before, then for each state
+/// after that is tried [`evaluate`](DiscreteGradient::evaluate) and
+/// [`add_gradient`](DiscreteGradient::add_gradient), and, where its derivative is asked for,
+/// [`linearise`](DiscreteGradient::linearise) and [`tangents`](DiscreteGradient::tangents). Memory: 1.3 kB
+/// for each element.
+///
+/// ```
+/// use piola::mesh::tetrahedral_box;
+/// use piola::system::{Body, DiscreteGradient, ElasticResponse};
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let body = Body::new(&tetrahedral_box([2, 1, 1], [0.2, 0.1, 0.1])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+/// let before = body.rest().to_vec();
+/// let displacement: Vec<[f64; 3]> = before.iter().map(|&[x, y, _]| [0.5 * x, 0.3 * x * y, 0.0]).collect();
+/// let mut between = DiscreteGradient::new(&body);
+/// between.begin(&body, &before)?;
+/// between.evaluate(&body, &displacement)?;
+/// let mut gradient = vec![[0.0; 3]; before.len()];
+/// between.add_gradient(&body, &mut gradient)?;
+/// let work: f64 = gradient.iter().flatten().zip(displacement.iter().flatten()).map(|(g, d)| g * d).sum();
+///
+/// let moved = before.iter().zip(&displacement).map(|(x, d)| [x[0] + d[0], x[1] + d[1], x[2]]);
+/// let after: Vec<[f64; 3]> = moved.collect();
+/// let (energy, _) = ElasticResponse::new(&body).energy(&body, &after)?;
+/// assert!((work - energy).abs() < 1e-12 * energy);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone)]
-pub(crate) struct DiscreteGradient {
+pub struct DiscreteGradient {
+    nodes: usize,
     /// F of each element before.
     before: Vec<Matrix3<f64>>,
     energies_before: Vec<f64>,
@@ -95,11 +136,48 @@ struct Mean {
     correction: Option<([f64; 6], f64)>,
 }
 
+/// Reason why a [`DiscreteGradient`] cannot be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DiscreteGradientError {
+    /// An element is inverted in the state before or after, or has no finite energy, stress or tangent there
+    /// or between.
+    Element {
+        /// Tag of the element.
+        tag: usize,
+    },
+    /// A slice or the body does not have the length of the body that the memory was made for.
+    Length(LengthError),
+}
+
+impl fmt::Display for DiscreteGradientError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Element { tag } => write!(
+                f,
+                "element {tag} is inverted, or its energy is not finite, in a state or between the two; take states that are \
+                 closer"
+            ),
+            Self::Length(error) => error.fmt(f),
+        }
+    }
+}
+
+crate::chained::wraps!(DiscreteGradientError { Length(LengthError) });
+
+impl fmt::Debug for DiscreteGradient {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "DiscreteGradient {{ nodes: {}, elements: {} }}", self.nodes, self.elements.len())
+    }
+}
+
 /// Derivative of the gradient in the four nodes of an element, by those in the same nodes after: N/m.
-pub(crate) type NodalTangent = [[f64; 12]; 12];
+type NodalTangent = [[f64; 12]; 12];
 
 impl DiscreteGradient {
-    pub(crate) fn new(body: &Body) -> Self {
+    /// Allocates the memory for a body.
+    #[must_use]
+    pub fn new(body: &Body) -> Self {
         let elements = body.elements().len();
         let samples = || Samples {
             F: vec![0.0; 9 * elements],
@@ -107,6 +185,7 @@ impl DiscreteGradient {
             dS_dE: vec![0.0; 36 * elements],
         };
         Self {
+            nodes: body.rest().len(),
             before: vec![[[0.0; 3]; 3]; elements],
             energies_before: vec![0.0; elements],
             between: [samples(), samples()],
@@ -116,8 +195,12 @@ impl DiscreteGradient {
         }
     }
 
-    /// Sets the state before. The error is the tag of an element that is inverted or has no energy.
-    pub(crate) fn begin(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(), usize> {
+    /// Sets the state before: positions of the nodes, m.
+    ///
+    /// # Errors
+    /// [`DiscreteGradientError`].
+    pub fn begin(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(), DiscreteGradientError> {
+        self.fit(body, "positions", positions.len())?;
         for (F, element) in self.before.iter_mut().zip(body.elements()) {
             *F = element.deformation_gradient(positions);
         }
@@ -126,15 +209,18 @@ impl DiscreteGradient {
         tag_of(body, energies_of(body, F, energies))
     }
 
-    /// Evaluates the stress between the state before and the one displaced from it. The error is the tag of
-    /// an element that is inverted there or has no energy.
-    pub(crate) fn evaluate(&mut self, body: &Body, displacement: &[[f64; 3]]) -> Result<(), usize> {
-        let Self { before, energies_before, between, after, energies_after, elements } = self;
+    /// Evaluates the stress between the state before and the one with the nodes displaced from it, m.
+    ///
+    /// # Errors
+    /// [`DiscreteGradientError`].
+    pub fn evaluate(&mut self, body: &Body, displacement: &[[f64; 3]]) -> Result<(), DiscreteGradientError> {
+        self.fit(body, "displacement", displacement.len())?;
+        let Self { before, energies_before, between, after, energies_after, elements, .. } = self;
         for (index, element) in body.elements().iter().enumerate() {
             let (F, change) = (&before[index], element.deformation_gradient(displacement));
             let F_after = sum(F, 1.0, &change);
             if !is_upright(&F_after) {
-                return Err(element.tag);
+                return Err(DiscreteGradientError::Element { tag: element.tag });
             }
             let mean = &mut elements[index];
             mean.middle = sum(F, 0.5, &change);
@@ -142,7 +228,8 @@ impl DiscreteGradient {
             mean.strain = voigt::from_stress(&strain);
             let squares = symmetric_product(F, F);
             for (samples, s) in between.iter_mut().zip(POINTS) {
-                let root = cholesky(&sum(&squares, 2.0 * s, &strain)).ok_or(element.tag)?;
+                let root = cholesky(&sum(&squares, 2.0 * s, &strain))
+                    .ok_or(DiscreteGradientError::Element { tag: element.tag })?;
                 samples.F[9 * index..9 * index + 9].copy_from_slice(root.as_flattened());
             }
             after.F[9 * index..9 * index + 9].copy_from_slice(F_after.as_flattened());
@@ -172,8 +259,12 @@ impl DiscreteGradient {
         Ok(())
     }
 
-    /// Adds the gradient, N.
-    pub(crate) fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) {
+    /// Adds the gradient, where it was evaluated last, to `total`, N.
+    ///
+    /// # Errors
+    /// [`LengthError`].
+    pub fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) -> Result<(), LengthError> {
+        self.fit(body, "total", total.len())?;
         for (element, mean) in body.elements().iter().zip(&self.elements) {
             let P = product(&mean.middle, &voigt::to_stress(&mean.stress));
             for (&node, G) in element.nodes.iter().zip(shape_gradients(element)) {
@@ -182,20 +273,31 @@ impl DiscreteGradient {
                 }
             }
         }
+        Ok(())
     }
 
-    /// Evaluates the tangents where the stress was evaluated last. The error is the tag of an element whose
-    /// tangent is not finite.
-    pub(crate) fn linearise(&mut self, body: &Body) -> Result<(), usize> {
+    /// Evaluates what tangents need where the stress was evaluated last.
+    ///
+    /// # Errors
+    /// [`DiscreteGradientError`].
+    pub fn linearise(&mut self, body: &Body) -> Result<(), DiscreteGradientError> {
+        self.fit(body, "positions", self.nodes)?;
         for samples in &mut self.between {
             tag_of(body, samples.tangents(body))?;
         }
         tag_of(body, self.after.stresses(body))
     }
 
-    /// The tangent of an element, after [`DiscreteGradient::linearise`].
-    pub(crate) fn tangent(&self, body: &Body, index: usize) -> NodalTangent {
-        let (element, mean) = (&body.elements()[index], &self.elements[index]);
+    /// The derivative of the gradient by positions after, in the twelve coordinates of the nodes of each
+    /// element, N/m: not symmetric. The elements are those of the body, in its order, where the gradient was
+    /// [linearised](DiscreteGradient::linearise) last.
+    pub fn tangents(&self, body: &Body) -> impl ExactSizeIterator<Item = [[f64; 12]; 12]> {
+        let elements = if self.elements.len() == body.elements().len() { body.elements() } else { &[] };
+        elements.iter().enumerate().map(|(index, element)| self.tangent(element, index))
+    }
+
+    fn tangent(&self, element: &Tetrahedron, index: usize) -> NodalTangent {
+        let mean = &self.elements[index];
         let D = self.stress_tangent(index);
         let F_after: Matrix3<f64> =
             std::array::from_fn(|a| std::array::from_fn(|b| self.after.F[9 * index + 3 * a + b]));
@@ -220,6 +322,13 @@ impl DiscreteGradient {
             }
         }
         tangent
+    }
+
+    /// Whether the body and a slice of vectors of its nodes have the lengths that the memory was made for.
+    fn fit(&self, body: &Body, slice: &'static str, found: usize) -> Result<(), LengthError> {
+        same("elements", body.elements().len(), self.elements.len(), 1)?;
+        same("nodes", body.rest().len(), self.nodes, 1)?;
+        same(slice, found, self.nodes, 1)
     }
 
     /// dS/dE', which takes strains with doubled shears to stresses.
@@ -290,8 +399,8 @@ fn first_of_all(
     })
 }
 
-fn tag_of(body: &Body, index: Option<usize>) -> Result<(), usize> {
-    index.map_or(Ok(()), |index| Err(body.elements()[index].tag))
+fn tag_of(body: &Body, index: Option<usize>) -> Result<(), DiscreteGradientError> {
+    index.map_or(Ok(()), |index| Err(DiscreteGradientError::Element { tag: body.elements()[index].tag }))
 }
 
 /// Gradients of the shape functions of the four nodes, 1/m.

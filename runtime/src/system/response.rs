@@ -209,7 +209,12 @@ impl ElasticResponse {
 }
 
 /// Checks that a slice holds `components` for each of `points`.
-fn same(slice: &'static str, found: usize, points: usize, components: usize) -> Result<(), LengthError> {
+pub(super) fn same(
+    slice: &'static str,
+    found: usize,
+    points: usize,
+    components: usize,
+) -> Result<(), LengthError> {
     if found == components * points {
         return Ok(());
     }
