@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
+import { isAtRest, testPulls } from "./pulls.mjs";
 import { grabTail, open, view } from "./viewer.mjs";
 
 const shots = fileURLToPath(new URL("../../target/page/", import.meta.url));
@@ -31,32 +32,10 @@ after(async () => {
 const figures = () => page.evaluate(() => globalThis.piola.figures());
 const until = (condition, value) => page.waitForFunction(condition, value, patience);
 const shoot = (name) => page.screenshot({ path: `${shots}${name}.png` });
-const isAtRest = () => globalThis.piola.figures().from_rest < 1e-3 && globalThis.piola.figures().time > 2.5;
 
-test("the body comes to rest after the pull of its scene", async () => {
-  await page.click("#real-time"); // as fast as possible
-  await until(isAtRest);
-  await page.click("#real-time");
-  assert.equal(await page.textContent("#scene"), "dinosaur");
-  assert.ok((await page.locator("#material option").count()) >= 55, "the whole catalogue can be chosen");
-  assert.notEqual(await page.textContent("#speed"), "–");
-  await shoot("rest");
-});
+testPulls(() => page, until, shoot);
 
-test("a vertex follows the mouse and comes back when it is let go", async () => {
-  const place = (vertex) => page.evaluate((vertex) => globalThis.piola.where(vertex), vertex);
-  const { vertex, at: [x, y] } = await grabTail(page);
-  const before = await place(vertex);
-  for (let k = 1; k <= 10; k++) await page.mouse.move(x - 4 * k, y + 16 * k);
-  await until(([vertex, y]) => globalThis.piola.where(vertex)[1] > y + 100, [vertex, before[1]]);
-  assert.equal((await figures()).pulls.length, 1);
-  await shoot("pulled");
-  await page.mouse.up();
-  await until(() => globalThis.piola.figures().pulls.length === 0);
-  await until(isAtRest);
-  const after = await place(vertex);
-  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 2, "it is back within two pixels");
-});
+test("the speed of the steps is shown", async () => assert.notEqual(await page.textContent("#speed"), "–"));
 
 test("pulled by its tail, several body heights far, it comes back", async () => {
   // From farther away, so that several body lengths fit into the window.

@@ -11,7 +11,8 @@ import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { grabTail, open } from "../../../cli/browser/viewer.mjs";
+import { testPulls } from "../../../cli/browser/pulls.mjs";
+import { open } from "../../../cli/browser/viewer.mjs";
 import { load } from "../page/program.js";
 
 const { SITE, PIOLA } = process.env;
@@ -43,7 +44,6 @@ after(async () => {
 const figures = () => page.evaluate(() => globalThis.piola.figures());
 const until = (condition, value) => page.waitForFunction(condition, value, patience);
 const shoot = (name) => page.screenshot({ path: `${shots}static-${name}.png` });
-const isAtRest = () => globalThis.piola.figures().from_rest < 1e-3 && globalThis.piola.figures().time > 2.5;
 
 /** A response with the program, as a server gives it. */
 const program = () =>
@@ -93,29 +93,7 @@ test("nonsense is refused with its reason", async () => {
   assert.throws(() => running.hear(JSON.stringify({ leap: {} })), /leap/);
 });
 
-test("the body comes to rest after the pull of its scene", async () => {
-  await page.click("#real-time"); // as fast as possible
-  await until(isAtRest);
-  await page.click("#real-time");
-  assert.equal(await page.textContent("#scene"), "dinosaur");
-  assert.ok((await page.locator("#material option").count()) >= 55, "the whole catalogue can be chosen");
-  await shoot("rest");
-});
-
-test("a vertex follows the mouse and comes back when it is let go", async () => {
-  const place = (vertex) => page.evaluate((vertex) => globalThis.piola.where(vertex), vertex);
-  const { vertex, at: [x, y] } = await grabTail(page);
-  const before = await place(vertex);
-  for (let k = 1; k <= 10; k++) await page.mouse.move(x - 4 * k, y + 16 * k);
-  await until(([vertex, y]) => globalThis.piola.where(vertex)[1] > y + 100, [vertex, before[1]]);
-  assert.equal((await figures()).pulls.length, 1);
-  await shoot("pulled");
-  await page.mouse.up();
-  await until(() => globalThis.piola.figures().pulls.length === 0);
-  await until(isAtRest);
-  const after = await place(vertex);
-  assert.ok(Math.hypot(after[0] - before[0], after[1] - before[1]) < 2, "it is back within two pixels");
-});
+testPulls(() => page, until, shoot);
 
 test("an energy is typed, a mistake is marked, and the scene begins anew", async () => {
   const field = page.locator("#energy-text");
