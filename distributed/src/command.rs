@@ -113,7 +113,7 @@ pub struct RunOptions {
     pub checkpoint_every: usize,
 
     /// Method by which steps advance in time: implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint,
-    /// newmark, or generalized-alpha=R for a spectral radius R.
+    /// energy-momentum, newmark, or generalized-alpha=R for a spectral radius R.
     #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
     integrator: Integrator,
 
@@ -168,6 +168,12 @@ struct Choice {
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 
+    /// Parameters of each tetrahedron by itself: a table of values separated by commas, whose first line has
+    /// `element`, for numbers of tetrahedra in the mesh, and names of parameters. Groups with a --part keep
+    /// theirs.
+    #[arg(long, value_name = "FILE.csv")]
+    vary: Option<PathBuf>,
+
     /// Nodes that are moved: BOX|GROUP=X,Y,Z@T, steadily by X, Y, Z in m until the time T in s, and held
     /// there; in statics at once. May be repeated.
     #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
@@ -183,6 +189,8 @@ pub struct Task {
     pub groups: Vec<String>,
     /// The materials of these groups.
     pub materials: Vec<MaterialPart>,
+    /// A table with parameters of elements.
+    pub table: Option<PathBuf>,
     /// Motions of nodes.
     pub moves: Vec<Move>,
 }
@@ -211,6 +219,10 @@ impl RunOptions {
         settings.tolerance = self.tolerance;
         settings.newton = self.newton;
         settings.check()?;
+        if self.integrator == Integrator::EnergyMomentum && self.newton == Newton::Single {
+            let reason = "--integrator energy-momentum keeps the energy as far as its equation is solved: add --newton full";
+            return Err(Error::Options(reason.to_owned()));
+        }
         Ok(task)
     }
 
@@ -256,8 +268,8 @@ impl Choice {
     fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let mut task =
-            Task { settings, groups: Vec::new(), materials: Vec::new(), moves: self.moves.clone() };
+        let (table, moves) = (self.vary.clone(), self.moves.clone());
+        let mut task = Task { settings, groups: Vec::new(), materials: Vec::new(), table, moves };
         for text in &self.parts {
             let (group, material) = part(text, &task.settings)?;
             task.groups.push(group);
@@ -292,7 +304,7 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
     };
     let material = with_values(material, parameters);
     material.build()?;
-    Ok((group.to_owned(), MaterialPart { material, density }))
+    Ok((group.to_owned(), MaterialPart { material, varied: None, density }))
 }
 
 fn numbers(text: &str) -> Result<Vec<f64>, String> {
@@ -333,12 +345,13 @@ fn integrator(text: &str) -> Result<Integrator, String> {
         "sdirk2" => Ok(Integrator::Sdirk2),
         "sdirk3" => Ok(Integrator::Sdirk3),
         "implicit-midpoint" => Ok(Integrator::ImplicitMidpoint),
+        "energy-momentum" => Ok(Integrator::EnergyMomentum),
         "newmark" => Ok(Integrator::Newmark),
         _ => {
             let radius = text.strip_prefix("generalized-alpha=").and_then(|radius| radius.parse().ok());
             let radius = radius.filter(|radius| (0.0..=1.0).contains(radius)).ok_or(
-                "write implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint, newmark, or generalized-alpha=R with R from 0 \
-                 to 1",
+                "write implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint, energy-momentum, newmark, or \
+                 generalized-alpha=R with R from 0 to 1",
             )?;
             Ok(Integrator::GeneralizedAlpha { spectral_radius: radius })
         }

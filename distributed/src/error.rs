@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::step::SetupError;
+use piola::step::{NewtonError, SetupError};
 use piola::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
@@ -102,6 +102,18 @@ pub enum Error {
         residual: f64,
         /// Number of trials that left the domain of a material.
         refused: usize,
+    },
+    /// The equation of an energy–momentum step has no solution that Newton's method finds.
+    #[error(transparent)]
+    Newton(#[from] NewtonError),
+    /// The linear solver does not solve a system of an energy–momentum step.
+    #[error(
+        "the linear solver has not solved a system of an energy–momentum step in {iterations} iterations; take shorter steps, or \
+         options of PETSc for another preconditioner, such as -pc_type bjacobi -sub_pc_type ilu"
+    )]
+    Unsolved {
+        /// Number of iterations.
+        iterations: usize,
     },
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]

@@ -3,15 +3,17 @@
 //!
 //! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
 //! and steps as [`piola::step`] says. What is here is how a mesh is divided ([`portion`], [`share`]), what
-//! ranks tell each other ([`team`], [`petsc`]), and Newton's method with sums over ranks ([`newton`]).
+//! ranks tell each other ([`team`], [`petsc`]), and Newton's method with sums over ranks ([`newton`],
+//! [`conservation`]).
 //!
 //! Every rank calls every function, in one order. An error that concerns one rank is told to all, and ends
 //! them together.
 //!
-//! There is no contact, no surface embedded in the tetrahedra, and no step of an energy–momentum method.
+//! There is no contact, and no surface embedded in the tetrahedra.
 
 pub mod checkpoint;
 pub mod command;
+pub mod conservation;
 pub mod elastic;
 pub mod error;
 pub mod newton;
@@ -25,3 +27,4 @@ pub mod simulation;
 pub mod system;
 pub mod team;
 pub mod tetgen;
+pub mod varied;

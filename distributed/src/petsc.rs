@@ -507,17 +507,23 @@ pub enum Ending {
 }
 
 impl Krylov {
-    /// A solver for a matrix: conjugate gradients, or what the options say whose names begin with `prefix`.
+    /// A solver for a matrix: of this kind, such as `cg`, or what the options say whose names begin with
+    /// `prefix`.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not know.
-    pub fn new(library: &Library, matrix: Rc<RefCell<Matrix>>, prefix: &str) -> Result<Self, PetscError> {
+    pub fn new(
+        library: &Library,
+        matrix: Rc<RefCell<Matrix>>,
+        kind: &str,
+        prefix: &str,
+    ) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the answer goes to a variable that outlives the call.
         check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
         let mat = matrix.borrow().raw;
         let solver = Self { raw, matrix };
-        let (kind, prefix) = (string("cg")?, string(prefix)?);
+        let (kind, prefix) = (string(kind)?, string(prefix)?);
         // SAFETY: solver and matrix exist, and both texts are strings of C, which PETSc copies.
         unsafe {
             check(ffi::KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::newton::NewtonReport;
 use crate::output::{self, Summary};
 use crate::portion::Portion;
-use crate::setting::{Setting, materials};
+use crate::setting::Setting;
 use crate::share::Share;
 use crate::simulation::{Simulation, SimulationSettings};
 use crate::team::Team;
@@ -96,7 +96,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let material = MaterialSpec::new("stable neo-Hookean")
         .with_parameter("mu", [moduli.mu])
         .with_parameter("lambda", [moduli.lambda]);
-    let parts = [MaterialPart { material, density: 1000.0 }];
+    let parts = [MaterialPart { material, varied: None, density: 1000.0 }];
     let clock = Instant::now();
     let share = Share::of(team, Portion::of_cube(team, cells, 1.0))?;
     let settings = SimulationSettings {
@@ -163,7 +163,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = setting(team, &task)?;
     output::prepare(team, &folder, options.force)?;
     let mut simulation = simulation(team, &task, &setting, newton)?;
     // Motions are complete where there is no time.
@@ -197,7 +197,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
     let folder = folder(&options.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = setting(team, &task)?;
     if !options.resume {
         output::prepare(team, &folder, options.force)?;
     }
@@ -255,6 +255,14 @@ fn folder(out: &Option<PathBuf>, task: &Task) -> PathBuf {
     out.clone().unwrap_or_else(|| Path::new("out").join(task.settings.scene.name))
 }
 
+fn setting(team: &Team, task: &Task) -> Result<Setting, Error> {
+    let mut setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    if let Some(table) = &task.table {
+        setting.vary(team, table)?;
+    }
+    Ok(setting)
+}
+
 fn simulation(
     team: &Team,
     task: &Task,
@@ -273,7 +281,8 @@ fn simulation(
     };
     let (gravity, integrator) = (settings.gravity, settings.integrator);
     let settings = SimulationSettings { gravity, damping, integrator, newton };
-    Simulation::new(team, setting.share.clone(), &materials(&task.settings, &task.materials), settings)
+    let materials = setting.materials(&task.settings, &task.materials);
+    Simulation::new(team, setting.share.clone(), &materials, settings)
 }
 
 /// A run between its first step and its last.
@@ -318,11 +327,13 @@ impl Course<'_> {
 
     /// What the motion depends on.
     fn settings(&self) -> Result<String, Error> {
-        let Task { settings, groups, materials, moves } = self.task;
+        let Task { settings, groups, materials, moves, .. } = self.task;
         let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
         let materials: Vec<_> =
             groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
-        serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))
+        let table = self.setting.table();
+        serde_json::to_string(&(lasting, materials, table, moves))
+            .map_err(|error| Error::Options(error.to_string()))
     }
 
     fn about(&self, clock: Option<Clock>) -> Result<About, Error> {

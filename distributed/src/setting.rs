@@ -1,6 +1,7 @@
 //! The setting of a run: a scene's body, read and divided, and what acts on it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use piola::mesh::Bounds;
 use piola::step::Spring;
@@ -18,6 +19,7 @@ use crate::error::Error;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
+use crate::varied::Varied;
 
 mod parts;
 
@@ -42,6 +44,8 @@ pub struct Setting {
     /// The springs of each pull at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
+    /// Parameters of elements by themselves.
+    varied: Option<Arc<Varied>>,
 }
 
 /// What all ranks know of the body.
@@ -119,7 +123,32 @@ impl Setting {
             bounds: body.bounds,
             stiffness: body.stiffnesses[number],
         });
-        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
+        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), varied: None, share, body })
+    }
+
+    /// Gives each element of the settings' material its parameters in a table. Every rank reads all of it,
+    /// and keeps the rows of its elements.
+    ///
+    /// # Errors
+    /// [`Error::OnRank`] for a table that is malformed.
+    pub fn vary(&mut self, team: &Team, table: &Path) -> Result<(), Error> {
+        let tags = self.share.elements.iter().map(|&(_, tag, _)| tag).collect();
+        self.varied = Some(Arc::new(team.agree(Varied::read(table, &tags))?));
+        Ok(())
+    }
+
+    /// Checksum of that table.
+    #[must_use]
+    pub fn table(&self) -> Option<u32> {
+        self.varied.as_ref().map(|varied| varied.checksum())
+    }
+
+    /// The materials of a run: that of the settings, and those of groups with their density.
+    #[must_use]
+    pub fn materials(&self, settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
+        let (material, varied) = (settings.material.clone(), self.varied.clone());
+        let first = MaterialPart { material, varied, density: settings.density };
+        std::iter::once(first).chain(groups.iter().cloned()).collect()
     }
 
     /// The springs at owned nodes at the end of a stretch of time, s.
@@ -207,11 +236,4 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
     Ok((places, elements.collect(), facts))
-}
-
-/// The materials of a run: that of the settings, and those of groups with their density.
-#[must_use]
-pub fn materials(settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
-    let first = MaterialPart { material: settings.material.clone(), density: settings.density };
-    std::iter::once(first).chain(groups.iter().cloned()).collect()
 }

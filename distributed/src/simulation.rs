@@ -4,12 +4,13 @@ use piola::step::{
     Integrator, Pace, Repeatable, SetupError, Spring, Stage, StagedSteps, Term, advance_within, on_the_way,
 };
 
+use crate::conservation;
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
 use crate::newton::{NewtonReport, NewtonSettings, Objective, minimize};
 use crate::petsc::{GhostedVector, PetscError};
 use crate::share::Share;
-use crate::system::LinearSystem;
+use crate::system::{Kind, LinearSystem};
 use crate::team::Team;
 
 /// Number of units of regularisation, in statics, for a body that may move as a whole.
@@ -88,7 +89,7 @@ impl Simulation {
         let pinned = share.pinned();
         Ok(Self {
             pins: team.count(share.owned - share.free),
-            system: LinearSystem::new(team, &share, &elastic)?,
+            system: LinearSystem::new(team, &share, &elastic, kind(settings.integrator, false))?,
             team: team.clone(),
             settings,
             elastic,
@@ -160,6 +161,11 @@ impl Simulation {
         if self.steps.needs_accelerations() {
             self.accelerate()?;
         }
+        let is_static = dt == f64::INFINITY;
+        let kind = kind(self.settings.integrator, is_static);
+        if kind != self.system.kind() {
+            self.system = LinearSystem::new(&self.team, &self.share, &self.elastic, kind)?;
+        }
         let mut reports = Vec::new();
         for stage in 0..self.steps.begin(dt) {
             let moves = self.steps.begin_stage(stage, &self.pinned, &self.targets);
@@ -168,7 +174,6 @@ impl Simulation {
             let pairs = self.springs.iter().zip(&self.targets_before);
             let springs = pairs.map(|(&spring, &before)| Stage::pulled(spring, before, share)).collect();
             let mut x = self.steps.start().to_vec();
-            let is_static = dt == f64::INFINITY;
             let [tau, sigma] = self.steps.stage().lengths();
             let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
             let may_drift = is_static && self.pins < 3;
@@ -186,7 +191,11 @@ impl Simulation {
                 guard: if may_drift { DRIFT * regularisation } else { 0.0 },
             };
             let pins_move = moves.then_some(self.steps.pins_move());
-            reports.push(minimize(objective, &mut self.system, &self.settings.newton, &mut x, pins_move)?);
+            let (system, newton) = (&mut self.system, &self.settings.newton);
+            reports.push(match kind {
+                Kind::Stiffness => minimize(objective, system, newton, &mut x, pins_move)?,
+                Kind::Between => conservation::solve(objective, system, newton, &mut x, pins_move)?,
+            });
             self.steps.end_stage(stage, &x);
         }
         let ends_with_last_stage = self.steps.ends_with_last_stage();
@@ -292,6 +301,11 @@ impl Simulation {
             self.team.sum([self.elastic.energy(), kinetic, gravity, springs]);
         Energies { elastic: if is_admissible { elastic } else { f64::NAN }, kinetic, gravity, springs }
     }
+}
+
+/// The matrix of a step.
+fn kind(integrator: Integrator, is_static: bool) -> Kind {
+    if integrator == Integrator::EnergyMomentum && !is_static { Kind::Between } else { Kind::Stiffness }
 }
 
 /// The time that a simulation is advanced over, and what moves evenly meanwhile.

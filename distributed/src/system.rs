@@ -27,8 +27,18 @@ const DEFAULTS: &[(&str, &str)] = &[
 /// An old preconditioner may take so many times the iterations that it took for its own matrix.
 const PATIENCE: f64 = 2.0;
 
+/// What the matrix of a [`LinearSystem`] is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The stiffness of the elements, symmetric: solved by conjugate gradients.
+    Stiffness,
+    /// The tangents between two states, not symmetric: solved by GMRES.
+    Between,
+}
+
 /// The unknowns of free nodes, matrix and solver.
 pub struct LinearSystem {
+    kind: Kind,
     matrix: Rc<RefCell<Matrix>>,
     krylov: Krylov,
     fallback: Krylov,
@@ -48,17 +58,25 @@ impl LinearSystem {
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not know.
-    pub fn new(team: &Team, share: &Share, elastic: &Elastic) -> Result<Self, Error> {
+    pub fn new(team: &Team, share: &Share, elastic: &Elastic, kind: Kind) -> Result<Self, Error> {
         let library = team.library();
         let mut blocks = Vec::new();
-        elastic.blocks(|row, column, _| {
-            if let Some((row, column)) = share.free_numbers[row].zip(share.free_numbers[column]) {
-                blocks.push([row, column]);
+        let mut block = |row: usize, column: usize| {
+            blocks.extend(share.free_numbers[row].zip(share.free_numbers[column]).map(<[usize; 2]>::from));
+        };
+        match kind {
+            Kind::Stiffness => elastic.blocks(|row, column, _| {
+                block(row, column);
                 if row != column {
-                    blocks.push([column, row]);
+                    block(column, row);
+                }
+            }),
+            Kind::Between => {
+                for nodes in elastic.elements() {
+                    nodes.iter().for_each(|&row| nodes.iter().for_each(|&column| block(row, column)));
                 }
             }
-        });
+        }
         let diagonal = share.free_numbers[..share.free].iter().flatten();
         let entries = |[row, column]: [usize; 2]| {
             (0..9).map(move |entry| [Some(3 * row + entry / 3), Some(3 * column + entry % 3)])
@@ -66,7 +84,9 @@ impl LinearSystem {
         let on_diagonal = |&node: &usize| (0..3).map(move |c| [Some(3 * node + c); 2]);
         let places = blocks.iter().copied().flat_map(entries).chain(diagonal.flat_map(on_diagonal));
         let mut matrix = Matrix::new(library, 3 * share.free, 3, places)?;
-        matrix.set_symmetric()?;
+        if kind == Kind::Stiffness {
+            matrix.set_symmetric()?;
+        }
         let values = vec![0.0; 9 * blocks.len() + 3 * share.free];
         drop(blocks);
         for (name, value) in DEFAULTS {
@@ -74,9 +94,14 @@ impl LinearSystem {
         }
         let matrix = Rc::new(RefCell::new(matrix));
         let vector = || Vector::new(library, share.free);
+        let method = match kind {
+            Kind::Stiffness => "cg",
+            Kind::Between => "gmres",
+        };
         Ok(Self {
-            krylov: Krylov::new(library, matrix.clone(), "")?,
-            fallback: Krylov::new(library, matrix.clone(), "fallback_")?,
+            kind,
+            krylov: Krylov::new(library, matrix.clone(), method, "")?,
+            fallback: Krylov::new(library, matrix.clone(), method, "fallback_")?,
             matrix,
             right: vector()?,
             solution: vector()?,
@@ -88,8 +113,15 @@ impl LinearSystem {
         })
     }
 
-    /// Assembles the stiffness that the elements have taken last, plus a diagonal of each free node, N/m; the
-    /// nodes are at `positions`, m.
+    /// What the matrix is made of.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Assembles what the elements have taken last, their stiffness or tangents between two states, the
+    /// latter by the positions in the middle, plus a diagonal of each free node, N/m; the nodes are at
+    /// `positions`, m.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -106,14 +138,28 @@ impl LinearSystem {
             here.copy_from_slice(entries.as_flattened());
             rest = after;
         };
-        elastic.blocks(|row, column, entries| {
-            if share.free_numbers[row].is_some() && share.free_numbers[column].is_some() {
-                put(*entries);
-                if row != column {
-                    put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
+        let is_free = |node: usize| share.free_numbers[node].is_some();
+        match self.kind {
+            Kind::Stiffness => elastic.blocks(|row, column, entries| {
+                if is_free(row) && is_free(column) {
+                    put(*entries);
+                    if row != column {
+                        put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
+                    }
+                }
+            }),
+            Kind::Between => {
+                for (nodes, tangent) in elastic.elements().zip(elastic.tangents_between()) {
+                    let pairs = (0..16).map(|pair| (pair / 4, pair % 4));
+                    for (i, j) in pairs.filter(|&(i, j)| is_free(nodes[i]) && is_free(nodes[j])) {
+                        // The state after the step moves twice as far as the middle.
+                        put(std::array::from_fn(|r| {
+                            std::array::from_fn(|c| 2.0 * tangent[3 * i + r][3 * j + c])
+                        }));
+                    }
                 }
             }
-        });
+        }
         for (node, entries) in rest.chunks_exact_mut(3).enumerate() {
             entries.fill(diagonal(node));
         }

@@ -38,6 +38,8 @@ fn wrong_options_are_named_once() -> TestResult {
         ("box --elements 6 --newton-tolerance 2", "--newton-tolerance 2"),
         ("run no-such-scene", "there is no scene `no-such-scene`"),
         ("run horse --mesh no-such-file.msh", "no-such-file.msh"),
+        ("run horse --vary no-such-table.csv", "--vary no-such-table.csv: "),
+        ("run horse --integrator energy-momentum", "add --newton full"),
         ("run horse --frames 1 --dt 0.1 --resume --out no-such-folder", "cannot go on from no-such-folder"),
     ] {
         check_failure(&finish(command(3, words(options)))?, expected);
@@ -207,7 +209,7 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     let library = Library::start(&[])?;
     let team = Team::new(&library);
     let material = MaterialSpec::matching("neo-Hookean", soft_moduli());
-    let parts = [MaterialPart { material, density: 1000.0 }];
+    let parts = [MaterialPart { material, varied: None, density: 1000.0 }];
     let share = Share::of(&team, Portion::of_cube(&team, 4, 1.0))?;
     let first = share.elements.first().map_or(0, |&(_, tag, _)| tag as usize);
     let tag = team.all(first)[3] as u64;
