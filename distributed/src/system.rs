@@ -21,6 +21,9 @@ const DEFAULTS: &[(&str, &str)] = &[
     ("mg_levels_ksp_type", "chebyshev"),
     ("mg_levels_ksp_max_it", "2"),
     ("mg_levels_pc_type", "jacobi"),
+    // Tangents between two states may be far from definite, where GMRES needs a long memory.
+    ("ksp_gmres_restart", "200"),
+    ("fallback_ksp_gmres_restart", "200"),
     ("fallback_pc_type", "jacobi"),
 ];
 
