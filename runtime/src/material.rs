@@ -27,6 +27,8 @@ mod fittable;
 mod mixed;
 mod normalised;
 mod parameter;
+#[cfg(feature = "batch")]
+pub(crate) mod properties;
 mod response;
 
 pub use combine::{Scaled, Sum};

@@ -2,9 +2,13 @@
 
 use super::tile::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
-use crate::material::{Blocks, Curvature, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
+#[cfg(feature = "bodies")]
+use crate::material::properties::largest_rest_stiffness;
+use crate::material::{Blocks, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
 use crate::status::Status;
+
+pub use crate::material::properties::Properties;
 
 /// The material of a batch's points: the same for all, or one for each.
 trait Points: Send + Sync {
@@ -18,6 +22,15 @@ trait Points: Send + Sync {
 
     /// Number of points with a material of their own; `None` if one serves any number of points.
     fn count(&self) -> Option<usize>;
+
+    fn properties(&self) -> Properties {
+        Properties::of(self.materials(), self.count())
+    }
+
+    #[cfg(feature = "bodies")]
+    fn rest_stiffness(&self) -> f64 {
+        largest_rest_stiffness(self.materials())
+    }
 }
 
 impl<M: Material> Points for M {
@@ -68,6 +81,15 @@ impl<M: Graded> Points for PerElement<M> {
 
     fn count(&self) -> Option<usize> {
         Some(self.per_point().materials().len())
+    }
+
+    fn properties(&self) -> Properties {
+        self.properties
+    }
+
+    #[cfg(feature = "bodies")]
+    fn rest_stiffness(&self) -> f64 {
+        self.rest_stiffness
     }
 }
 
@@ -170,21 +192,11 @@ macro_rules! tile_responses {
 
             #[cfg(feature = "bodies")]
             fn rest_stiffness(&self) -> f64 {
-                let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
-                self.materials().iter().map(stiffness).fold(0.0, f64::max)
+                Points::rest_stiffness(self)
             }
 
             fn properties(&self) -> Properties {
-                let materials = self.materials();
-                Properties {
-                    has_invariants: materials.iter().all(Material::has_invariants),
-                    has_second_invariant: materials.iter().any(Material::has_second_invariant),
-                    curvature: materials.iter().map(Material::curvature_by_invariants).fold(Curvature::Volume, Curvature::and),
-                    has_energy_by_invariants: materials.iter().all(Material::has_energy_by_invariants),
-                    has_pole: materials.iter().any(Material::has_pole),
-                    ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),
-                    points: self.count(),
-                }
+                Points::properties(self)
             }
         }
     };
@@ -211,30 +223,12 @@ tile_responses! {
     tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
     3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
-    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what [`Curvature::leaves_out`].
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what the material's
+    /// [`CURVATURE_BY_INVARIANTS`](Material::CURVATURE_BY_INVARIANTS) leaves out.
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
     9 rows by |derivatives| derivatives, without row k if
     P::Material::CURVATURE_BY_INVARIANTS.leaves_out(k, P::Material::HAS_SECOND_INVARIANT);
     finite where |at, _| anywhere(at);
-}
-
-/// Properties of a batch's materials that no deformation decides.
-#[derive(Clone, Copy, Debug)]
-pub struct Properties {
-    /// Whether ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
-    pub(crate) has_invariants: bool,
-    /// Whether ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
-    pub(crate) has_second_invariant: bool,
-    /// Second derivatives of ψ by invariants that do not vanish: [`Material::CURVATURE_BY_INVARIANTS`].
-    pub(crate) curvature: Curvature,
-    /// Whether ψ is taken from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
-    pub(crate) has_energy_by_invariants: bool,
-    /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].
-    pub(crate) has_pole: bool,
-    /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
-    pub(crate) ends_at_zero_volume: bool,
-    /// Number of points with a material of their own; `None` if one serves any number of points.
-    pub(crate) points: Option<usize>,
 }
 
 /// Hands a whole tile to the material. Gives the points inside the domain as bits.

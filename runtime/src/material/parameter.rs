@@ -10,6 +10,10 @@ use std::sync::Arc;
 #[cfg(doc)]
 use super::Inversion;
 use super::Material;
+#[cfg(feature = "batch")]
+use super::properties::Properties;
+#[cfg(feature = "bodies")]
+use super::properties::largest_rest_stiffness;
 use crate::lanes::Real;
 
 /// How a declared material keeps a parameter.
@@ -171,7 +175,14 @@ impl<'a, M: Graded> PerPoint<'a, M> {
 /// # fn main() {}
 /// ```
 #[derive(Clone, Debug)]
-pub struct PerElement<M>(Arc<[M]>);
+pub struct PerElement<M> {
+    materials: Arc<[M]>,
+    /// Properties of all materials together, kept because each group of elements asks for them.
+    #[cfg(feature = "batch")]
+    pub(crate) properties: Properties,
+    #[cfg(feature = "bodies")]
+    pub(crate) rest_stiffness: f64,
+}
 
 impl<M: Graded> PerElement<M> {
     /// A material for each element; all must do the same outside their domain.
@@ -180,13 +191,19 @@ impl<M: Graded> PerElement<M> {
     /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
     pub fn new(materials: Vec<M>) -> Result<Self, PerPointError> {
         PerPoint::new(&materials)?;
-        Ok(Self(materials.into()))
+        Ok(Self {
+            #[cfg(feature = "batch")]
+            properties: Properties::of(&materials, Some(materials.len())),
+            #[cfg(feature = "bodies")]
+            rest_stiffness: largest_rest_stiffness(&materials),
+            materials: materials.into(),
+        })
     }
 
     /// The materials as those of the points of a batch.
     #[must_use]
     pub fn per_point(&self) -> PerPoint<'_, M> {
-        PerPoint(&self.0)
+        PerPoint(&self.materials)
     }
 }
 
