@@ -7,8 +7,8 @@
 //! r(x) = M a(x) + D v(x) + ∇̄Ψ(xₙ, 2 x − xₙ) − M g − f + ∇ terms(x) = 0
 //! ```
 //!
-//! Its Jacobian J is not symmetric. The equation of a share s of the step has its lengths τ and σ times s:
-//! inertia is larger. See [`super::equation`] for the method that solves it.
+//! Its Jacobian J is not symmetric. The equation of a share of the step has the accelerations of a shorter
+//! one, and all else as in the whole. See [`super::equation`] for the method that solves it.
 //!
 //! Systems are solved by a sparse LU factorisation, faer's, whose symbolic part is kept as long as the same
 //! entries come.
@@ -23,7 +23,7 @@ use crate::system::{Body, DiscreteGradient, DiscreteGradientError, LinearError};
 use super::equation::{StepEquation, StepStart, solve_step};
 use super::line_search::LineSearchSettings;
 use super::newton::{NewtonError, NewtonReport, NewtonSettings};
-use super::objective::Objective;
+use super::objective::{Objective, Quadratic};
 
 /// Memory of the method.
 #[derive(Clone)]
@@ -98,17 +98,8 @@ impl StepEquation for Equation<'_, '_> {
         self.share = share;
         for &node in self.free {
             let before = self.memory.start[node];
-            self.x[node] = match start {
-                StepStart::Before => before,
-                StepStart::Velocities => {
-                    let way = self.objective.quadratic.stage.extrapolation(node, before, 0.0);
-                    std::array::from_fn(|c| before[c] + share * way[c])
-                }
-                StepStart::Kept { share: kept } => {
-                    let solution = self.memory.solution[node];
-                    std::array::from_fn(|c| before[c] + share / kept * (solution[c] - before[c]))
-                }
-            };
+            let ahead = self.objective.quadratic.stage.ahead(node, before);
+            self.x[node] = start.position(share, before, ahead, self.memory.solution[node]);
         }
         if let Some(term) = self.objective.terms.refusing(self.x) {
             return Err(NewtonError::TermRefuses { term });
@@ -130,11 +121,10 @@ impl StepEquation for Equation<'_, '_> {
         for (unknown, &node) in self.free.iter().enumerate() {
             correction[node] = std::array::from_fn(|c| b[(3 * unknown + c, 0)]);
         }
-        let norm = norm(self.free, correction);
-        if norm.is_finite() { Ok(norm) } else { Err(NewtonError::NotFinite) }
+        Ok(norm(self.free, correction))
     }
 
-    fn turn(&mut self) -> f64 {
+    fn take_direction(&mut self) -> f64 {
         std::mem::swap(&mut self.memory.direction, &mut self.memory.correction);
         self.objective.terms.longest_step(self.x, &self.memory.direction)
     }
@@ -145,7 +135,7 @@ impl StepEquation for Equation<'_, '_> {
             self.memory.trial[node] = std::array::from_fn(|c| self.x[node][c] + step * d[c]);
         }
         Ok(match self.objective.terms.refusing(&self.memory.trial) {
-            None => self.residual().ok().filter(|residual| residual.is_finite()),
+            None => self.residual().ok(),
             Some(_) => None,
         })
     }
@@ -154,19 +144,14 @@ impl StepEquation for Equation<'_, '_> {
         self.x.copy_from_slice(&self.memory.trial);
     }
 
-    fn keep(&mut self) {
+    fn keep_solution(&mut self) {
         self.memory.solution.copy_from_slice(self.x);
-    }
-
-    fn is_final(_: &NewtonError) -> bool {
-        false
     }
 }
 
 impl Equation<'_, '_> {
     /// Evaluates r at the positions to be tried and returns its norm over the free nodes.
     fn residual(&mut self) -> Result<f64, DiscreteGradientError> {
-        let more = self.more_inertia();
         let Conservation { gradient, before, displacement, residual, trial, .. } = &mut *self.memory;
         for (node, d) in displacement.iter_mut().enumerate() {
             *d = std::array::from_fn(|c| 2.0 * (trial[node][c] - before[node][c]));
@@ -176,22 +161,19 @@ impl Equation<'_, '_> {
         self.objective.terms.add_gradient(trial, residual);
         gradient.add_gradient(self.objective.body, residual)?;
         if self.share < 1.0 {
-            // With a share of the lengths, τ and σ, a is greater.
+            let Quadratic { stage, masses, .. } = self.objective.quadratic;
             for &node in self.free {
-                let stage = self.objective.quadratic.stage;
-                let way = stage.extrapolation(node, trial[node], 0.0);
-                let rest = stage.extrapolation(node, stage.start[node], 0.0);
+                let [whole, shorter] =
+                    [1.0, self.share].map(|share| stage.acceleration(node, trial[node], share));
                 for c in 0..3 {
-                    let kept = way[c] - (1.0 - self.share) * rest[c];
-                    let inertia = self.objective.quadratic.inertia(node);
-                    residual[node][c] += inertia * (way[c] - (1.0 + more) * kept);
+                    residual[node][c] += masses[node] * (shorter[c] - whole[c]);
                 }
             }
         }
         Ok(norm(self.free, &self.memory.residual))
     }
 
-    /// 1/share² − 1.
+    /// By how much the second derivative of inertia is greater than in the whole step, 1/share² − 1.
     fn more_inertia(&self) -> f64 {
         (self.share * self.share).recip() - 1.0
     }
@@ -242,7 +224,7 @@ fn inverted(error: DiscreteGradientError) -> NewtonError {
     NewtonError::Inverted { element: tag(error) }
 }
 
-/// The element that is to blame: all lengths are those of the body.
+/// The element that has no gradient between two states. Lengths are all those of the body.
 fn tag(error: DiscreteGradientError) -> usize {
     match error {
         DiscreteGradientError::Element { tag } => tag,

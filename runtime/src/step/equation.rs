@@ -37,8 +37,26 @@ pub enum StepStart {
     },
 }
 
-/// The equation r(x) = 0 of a step that is no minimum, for [`solve_step`]: it holds x, a direction and a
-/// correction, in memory of its own, which may be divided among machines.
+impl StepStart {
+    /// Position of a free node at the start, m, for a share of the step: `before` is where it is before the
+    /// step, `ahead` its displacement by its velocity alone in the whole step, and `kept` where it is in the
+    /// solution that was kept last.
+    #[must_use]
+    pub fn position(self, share: f64, before: [f64; 3], ahead: [f64; 3], kept: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|c| match self {
+            Self::Before => before[c],
+            Self::Velocities => before[c] + share * ahead[c],
+            Self::Kept { share: solved } => before[c] + share / solved * (kept[c] - before[c]),
+        })
+    }
+}
+
+/// The equation r(x) = 0 of a step that is no minimum, for [`solve_step`].
+///
+/// It keeps x, a direction and a correction, vectors of all unknowns, in memory of its own, which may be
+/// divided among machines. For a share of the step, less than one, its solution must be nearer to the state
+/// before: that of an energy–momentum step has the [accelerations](super::Stage::acceleration) of a shorter
+/// stage, so that inertia is greater, and damping and forces as they are.
 pub trait StepEquation {
     /// The Jacobian J of r, or what solves systems with it.
     type Jacobian;
@@ -57,16 +75,18 @@ pub trait StepEquation {
     /// An error of this attempt.
     fn linearise(&mut self) -> Result<Self::Jacobian, Self::Error>;
 
-    /// Replaces the correction by −J⁻¹ r, for the r that was evaluated last. Returns its norm in m.
+    /// Replaces the correction by −J⁻¹ r, for the r that was evaluated last. Returns its norm in m; one that
+    /// is not finite ends the attempt.
     ///
     /// # Errors
     /// An error of this attempt.
     fn correct(&mut self, jacobian: &Self::Jacobian) -> Result<f64, Self::Error>;
 
     /// Makes the correction the direction. Returns the share of it, 1 or less, to be tried first.
-    fn turn(&mut self) -> f64;
+    fn take_direction(&mut self) -> f64;
 
-    /// Evaluates r at x plus `step` times the direction, and returns ‖r‖ in N; `None` where r does not exist.
+    /// Evaluates r at x plus `step` times the direction, and returns ‖r‖ in N; `None` where r does not exist,
+    /// or is not finite.
     ///
     /// # Errors
     /// An error that ends the attempt.
@@ -75,15 +95,28 @@ pub trait StepEquation {
     /// Moves x to where r was evaluated last.
     fn accept(&mut self);
 
-    /// Keeps x, which solves the equation of a share.
-    fn keep(&mut self);
+    /// Keeps x, which solves the equation of a share, for [`StepStart::Kept`].
+    fn keep_solution(&mut self);
 
     /// Whether no other attempt can help after this error.
-    fn is_final(error: &Self::Error) -> bool;
+    fn is_final(error: &Self::Error) -> bool {
+        let _ = error;
+        false
+    }
 }
 
-/// Solves the equation of a step by Newton's method, up to the tolerance and the number of iterations of its
-/// settings; its other settings are not looked at.
+/// Solves the equation of a step, whose Jacobian J need not be symmetric, by Newton's method.
+///
+/// It goes along d = −J⁻¹ r, as far as the next correction with the same J gets shorter, ‖J⁻¹ r(x + t d)‖ ≤
+/// (1 − t/4) ‖d‖, the natural monotonicity test \[Deu04, 3.3\]. It starts from the positions before the step,
+/// or, where that fails, from where velocities take the body; where that fails too, shares of the step are
+/// solved first, each from the solution of the one before.
+///
+/// Each attempt ends at the [tolerance](NewtonSettings::tolerance), fails after
+/// [`max_iterations`](NewtonSettings::max_iterations), and shortens steps as the line search says; other
+/// settings have no part in it.
+///
+/// \[Deu04\] Deuflhard, *Newton Methods for Nonlinear Problems*, 2004.
 ///
 /// # Errors
 /// [`NewtonError::NotSolved`] and [`NewtonError::NotFinite`], and errors of the equation.
@@ -103,7 +136,7 @@ pub fn solve_step<E: StepEquation>(
                     return Ok(all);
                 }
                 report = Some(all);
-                equation.keep();
+                equation.keep_solution();
                 (done, more, start) = (share, 2.0 * more, StepStart::Kept { share });
             }
             Err(error) if E::is_final(&error) => return Err(error),
@@ -162,14 +195,14 @@ fn iterate<E: StepEquation>(
     report: &mut NewtonReport,
 ) -> Result<Option<f64>, E::Error> {
     let jacobian = equation.linearise()?;
-    let length = equation.correct(&jacobian)?;
-    let mut step = equation.turn();
+    let length = correct(equation, &jacobian)?;
+    let mut step = equation.take_direction();
     for _ in 0..line_search.max_trials {
-        match equation.try_step(step)? {
+        match equation.try_step(step)?.filter(|residual| residual.is_finite()) {
             None => report.refused_trials += 1,
             residual => {
                 if line_search.accepts_increase
-                    || equation.correct(&jacobian)? <= (1.0 - 0.25 * step) * length
+                    || correct(equation, &jacobian)? <= (1.0 - 0.25 * step) * length
                 {
                     equation.accept();
                     report.step_lengths.push(step);
@@ -180,6 +213,11 @@ fn iterate<E: StepEquation>(
         step *= line_search.shrink;
     }
     Ok(None)
+}
+
+fn correct<E: StepEquation>(equation: &mut E, jacobian: &E::Jacobian) -> Result<f64, E::Error> {
+    let length = equation.correct(jacobian)?;
+    if length.is_finite() { Ok(length) } else { Err(NewtonError::NotFinite.into()) }
 }
 
 #[cfg(test)]
@@ -222,11 +260,7 @@ mod tests {
         fn start(&mut self, share: f64, start: StepStart) -> Result<f64, NewtonError> {
             self.starts.push((share, start));
             self.share = share;
-            self.x = match start {
-                StepStart::Before => 0.0,
-                StepStart::Velocities => 10.0 * share,
-                StepStart::Kept { share: kept } => share / kept * self.kept,
-            };
+            [self.x, ..] = start.position(share, [0.0; 3], [10.0; 3], [self.kept; 3]);
             self.tried = self.x;
             if self.breaks { Err(NewtonError::NotFinite) } else { Ok(self.residual().abs()) }
         }
@@ -240,21 +274,21 @@ mod tests {
             Ok(self.correction.abs())
         }
 
-        fn turn(&mut self) -> f64 {
+        fn take_direction(&mut self) -> f64 {
             self.direction = self.correction;
             1.0
         }
 
         fn try_step(&mut self, step: f64) -> Result<Option<f64>, NewtonError> {
             self.tried = self.x + step * self.direction;
-            Ok(Some(self.residual().abs()).filter(|residual| residual.is_finite()))
+            Ok(Some(self.residual().abs()))
         }
 
         fn accept(&mut self) {
             self.x = self.tried;
         }
 
-        fn keep(&mut self) {
+        fn keep_solution(&mut self) {
             self.kept = self.x;
         }
 

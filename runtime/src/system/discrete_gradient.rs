@@ -155,8 +155,8 @@ impl fmt::Display for DiscreteGradientError {
         match self {
             Self::Element { tag } => write!(
                 f,
-                "element {tag} is inverted, or its energy is not finite, in a state or between the two; take states that are \
-                 closer"
+                "element {tag} is inverted, or its energy is not finite, before or after or between: begin with a state whose \
+                 elements are all upright, and try one that is closer to it"
             ),
             Self::Length(error) => error.fmt(f),
         }
@@ -281,7 +281,7 @@ impl DiscreteGradient {
     /// # Errors
     /// [`DiscreteGradientError`].
     pub fn linearise(&mut self, body: &Body) -> Result<(), DiscreteGradientError> {
-        self.fit(body, "positions", self.nodes)?;
+        self.fit(body, "nodes", body.rest().len())?;
         for samples in &mut self.between {
             tag_of(body, samples.tangents(body))?;
         }
@@ -290,7 +290,7 @@ impl DiscreteGradient {
 
     /// The derivative of the gradient by positions after, in the twelve coordinates of the nodes of each
     /// element, N/m: not symmetric. The elements are those of the body, in its order, where the gradient was
-    /// [linearised](DiscreteGradient::linearise) last.
+    /// [linearised](DiscreteGradient::linearise) last; none of a body of another number of elements.
     pub fn tangents(&self, body: &Body) -> impl ExactSizeIterator<Item = [[f64; 12]; 12]> {
         let elements = if self.elements.len() == body.elements().len() { body.elements() } else { &[] };
         elements.iter().enumerate().map(|(index, element)| self.tangent(element, index))
