@@ -113,7 +113,8 @@ pub struct RunOptions {
     pub checkpoint_every: usize,
 
     /// Method by which steps advance in time: implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint,
-    /// energy-momentum, newmark, or generalized-alpha=R for a spectral radius R.
+    /// energy-momentum (with --newton full; nothing is filtered), newmark, or generalized-alpha=R for a
+    /// spectral radius R.
     #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
     integrator: Integrator,
 
@@ -168,9 +169,9 @@ struct Choice {
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 
-    /// Parameters of each tetrahedron by itself: a table of values separated by commas, whose first line has
-    /// `element`, for numbers of tetrahedra in the mesh, and names of parameters. Groups with a --part keep
-    /// theirs.
+    /// Parameters of each tetrahedron by itself: a table whose first line is `element,PARAM,…`, with a line
+    /// for each tetrahedron: its number in the file of the mesh, and values as of --param, lists in quotes.
+    /// Groups with a --part need no lines.
     #[arg(long, value_name = "FILE.csv")]
     vary: Option<PathBuf>,
 

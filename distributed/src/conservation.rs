@@ -20,6 +20,9 @@ use crate::system::LinearSystem;
 /// length of the next correction.
 const LINEAR_TOLERANCE: f64 = 1e-6;
 
+/// Iterations of the linear solver after which a shorter step is solved first.
+const MAX_LINEAR_ITERATIONS: usize = 2000;
+
 /// Moves `x`, m, of the nodes of each rank from the positions before the step to those in its middle, the
 /// pinned ones by `pins_move` where it is given.
 ///
@@ -56,7 +59,7 @@ pub fn solve(
         residual: vec![[0.0; 3]; owned],
         share: 1.0,
         tolerance: settings.linear_tolerance.min(LINEAR_TOLERANCE),
-        max_iterations: settings.max_linear_iterations,
+        max_iterations: settings.max_linear_iterations.min(MAX_LINEAR_ITERATIONS),
         linear_iterations: Vec::new(),
         objective,
         system,
@@ -112,17 +115,8 @@ impl StepEquation for Equation<'_, '_> {
         let free = self.objective.share.free_numbers.iter().enumerate().filter(|(_, free)| free.is_some());
         for (node, _) in free {
             let before = self.start[node];
-            self.x[node] = match start {
-                StepStart::Velocities => {
-                    let ahead = ahead(&self.objective, node, share);
-                    std::array::from_fn(|c| before[c] + ahead[c])
-                }
-                StepStart::Kept { share: kept } => {
-                    let solution = self.kept[node];
-                    std::array::from_fn(|c| before[c] + share / kept * (solution[c] - before[c]))
-                }
-                _ => before,
-            };
+            let ahead = self.objective.stage.ahead(node, before);
+            self.x[node] = start.position(share, before, ahead, self.kept[node]);
         }
         self.trial.copy_from_slice(&self.x);
         self.evaluate()?.map_err(|tag| NewtonError::Inverted { element: tag as usize }.into())
@@ -155,7 +149,7 @@ impl StepEquation for Equation<'_, '_> {
         Ok(objective.product(owned, owned).sqrt())
     }
 
-    fn turn(&mut self) -> f64 {
+    fn take_direction(&mut self) -> f64 {
         std::mem::swap(&mut self.direction, &mut self.correction);
         1.0
     }
@@ -164,20 +158,19 @@ impl StepEquation for Equation<'_, '_> {
         for (node, trial) in self.trial.iter_mut().enumerate() {
             *trial = std::array::from_fn(|c| self.x[node][c] + step * self.direction[node][c]);
         }
-        Ok(self.evaluate()?.ok().filter(|residual| residual.is_finite()))
+        Ok(self.evaluate()?.ok())
     }
 
     fn accept(&mut self) {
         self.x.copy_from_slice(&self.trial);
     }
 
-    fn keep(&mut self) {
+    fn keep_solution(&mut self) {
         self.kept.copy_from_slice(&self.x);
     }
 
-    /// Other ranks may know nothing of it.
     fn is_final(error: &Error) -> bool {
-        !error.is_common()
+        error.is_final()
     }
 }
 
@@ -185,7 +178,6 @@ impl Equation<'_, '_> {
     /// Evaluates r at the positions to be tried; ‖r‖ over the free nodes of all ranks, or the tag of an
     /// element that is inverted after the step.
     fn evaluate(&mut self) -> Result<Result<f64, u64>, Error> {
-        let more = self.more_inertia();
         let Self { objective, before, trial, displacement, residual, .. } = self;
         for (node, d) in displacement.iter_mut().enumerate() {
             *d = std::array::from_fn(|c| 2.0 * (trial[node][c] - before[node][c]));
@@ -197,28 +189,19 @@ impl Equation<'_, '_> {
         objective.springs.add_gradient(trial, residual);
         objective.add_quadratic_gradient(trial, residual);
         if self.share < 1.0 {
-            // With a share of the lengths, τ and σ, a is greater.
             for node in 0..objective.share.free {
-                let inertia = objective.inertia(node);
-                let ([whole, shorter], start) =
-                    ([1.0, self.share].map(|share| ahead(objective, node, share)), objective.stage.start());
+                let [whole, shorter] =
+                    [1.0, self.share].map(|share| objective.stage.acceleration(node, trial[node], share));
                 for c in 0..3 {
-                    let gone = trial[node][c] - start[node][c];
-                    residual[node][c] += inertia * ((1.0 + more) * (gone - shorter[c]) - (gone - whole[c]));
+                    residual[node][c] += objective.masses[node] * (shorter[c] - whole[c]);
                 }
             }
         }
         Ok(Ok(objective.product(residual, residual).sqrt()))
     }
 
-    /// 1/share² − 1.
+    /// By how much the second derivative of inertia is greater than in the whole step, 1/share² − 1.
     fn more_inertia(&self) -> f64 {
         (self.share * self.share).recip() - 1.0
     }
-}
-
-/// Displacement of a node by its velocity alone in a share of the step to its middle, m.
-fn ahead(objective: &Objective<'_>, node: usize, share: f64) -> [f64; 3] {
-    let [tau, _] = objective.stage.lengths();
-    objective.stage.velocities()[node].map(|w| share * tau * w)
 }

@@ -51,7 +51,7 @@ struct Piece {
     /// Made by the first step that needs it.
     between: Option<DiscreteGradient>,
     energy: f64,
-    /// Tag of the first element without an energy where it was evaluated last.
+    /// Tag of the first element that has no energy, gradient or tangent where one was evaluated last.
     refused: Option<usize>,
 }
 
@@ -104,7 +104,8 @@ impl Elastic {
         self.border.iter_mut().for_each(|piece| piece.evaluate(positions));
     }
 
-    /// The smallest tag of an element of this rank without an energy where it was evaluated last.
+    /// The smallest tag of an element of this rank that has no energy, gradient or tangent where one was
+    /// evaluated last.
     #[must_use]
     pub fn refused(&self) -> Option<usize> {
         self.pieces().filter_map(|piece| piece.refused).min()
@@ -210,7 +211,7 @@ impl Elastic {
         })
     }
 
-    /// Takes the tangents of the gradient where it was evaluated last.
+    /// Takes the tangents of the gradient between two states, where it was evaluated last.
     pub fn linearise_between(&mut self) {
         for piece in self.pieces_mut() {
             let Piece { between, body, .. } = piece;
@@ -219,14 +220,15 @@ impl Elastic {
         }
     }
 
-    /// Nodes of the share of each element, in an order that does not change.
+    /// Nodes of each element, by their places in the share, in an order that does not change.
     pub fn elements(&self) -> impl Iterator<Item = [usize; 4]> {
         self.pieces().flat_map(|Piece { body, nodes, .. }| {
             body.elements().iter().map(|element| element.nodes.map(|node| nodes[node]))
         })
     }
 
-    /// Tangents of the gradient, taken last, of each element in that order, N/m.
+    /// The tangent, N/m, of the gradient between two states of each element, in the order of
+    /// [`Elastic::elements`], where tangents were taken last.
     pub fn tangents_between(&self) -> impl Iterator<Item = [[f64; 12]; 12]> {
         self.pieces()
             .filter_map(|Piece { between, body, .. }| Some(between.as_ref()?.tangents(body)))

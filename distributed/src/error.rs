@@ -103,7 +103,7 @@ pub enum Error {
         /// Number of trials that left the domain of a material.
         refused: usize,
     },
-    /// The equation of an energy–momentum step has no solution that Newton's method finds.
+    /// Newton's method fails to solve the equation of an energy–momentum step.
     #[error(transparent)]
     Newton(#[from] NewtonError),
     /// The linear solver does not solve a system of an energy–momentum step.
@@ -134,6 +134,12 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether no shorter step can help: other ranks may know nothing of it, or it is about options.
+    #[must_use]
+    pub fn is_final(&self) -> bool {
+        !self.is_common() || matches!(self, Self::UnusedOptions { .. })
+    }
+
     /// Whether all ranks have it, so that each can end in its turn.
     #[must_use]
     pub fn is_common(&self) -> bool {

@@ -61,7 +61,7 @@ pub struct NewtonReport {
     pub filtered: usize,
     /// Largest multiple of inertia that had to be added for a positive definite matrix.
     pub shift: f64,
-    /// Number of iterations of the linear solver in each system.
+    /// Number of iterations of the linear solver in each system, those of attempts that failed included.
     pub linear_iterations: Vec<usize>,
     /// Number of linear systems that were given up before their tolerance.
     pub truncated: usize,
@@ -100,7 +100,7 @@ impl Objective<'_> {
         self.masses[node] * (1.0 / sigma + self.damping) / tau
     }
 
-    /// The part of inertia alone.
+    /// Second derivative of inertia alone in each coordinate of a node.
     pub(crate) fn inertia(&self, node: usize) -> f64 {
         let [tau, sigma] = self.stage.lengths();
         self.masses[node] / (tau * sigma)
@@ -126,7 +126,7 @@ impl Objective<'_> {
         self.refused()
     }
 
-    /// The smallest tag of an element of any rank without an energy, or without a stiffness.
+    /// The smallest tag of an element of any rank that what was evaluated last does not exist of.
     pub(crate) fn refused(&self) -> Option<u64> {
         let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
         tag.is_finite().then_some(tag as u64)

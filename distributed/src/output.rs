@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use piola::step::Integrator;
 use piola_scenes::material::Parameters;
@@ -29,6 +29,9 @@ pub struct Summary {
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
+    /// Table with parameters of elements in place of these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<PathBuf>,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.

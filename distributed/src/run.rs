@@ -33,6 +33,9 @@ pub struct About {
     pub settings: String,
     /// Checksum of the mesh.
     pub body: u32,
+    /// Checksum of the table with parameters of elements.
+    #[serde(default)]
+    pub table: Option<u32>,
     /// Number of steps done.
     pub frame: usize,
     /// The clock then; `None` in statics.
@@ -113,8 +116,14 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
         output::prepare(team, folder, true)?;
-        let about =
-            About { settings: String::new(), body: 0, frame: 0, clock: None, progress: Progress::new() };
+        let about = About {
+            settings: String::new(),
+            body: 0,
+            table: None,
+            frame: 0,
+            clock: None,
+            progress: Progress::new(),
+        };
         checkpoint::write(team, &checkpoint::file_in(folder), &simulation, &about)?;
     }
     if report.convergence == Convergence::Limit {
@@ -163,9 +172,9 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
-    let setting = setting(team, &task)?;
+    let mut setting = setting(team, &task)?;
     output::prepare(team, &folder, options.force)?;
-    let mut simulation = simulation(team, &task, &setting, newton)?;
+    let mut simulation = simulation(team, &task, &mut setting, newton)?;
     // Motions are complete where there is no time.
     let share = setting.share.clone();
     simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY));
@@ -197,11 +206,11 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
     let folder = folder(&options.out, &task);
-    let setting = setting(team, &task)?;
+    let mut setting = setting(team, &task)?;
     if !options.resume {
         output::prepare(team, &folder, options.force)?;
     }
-    let simulation = simulation(team, &task, &setting, newton)?;
+    let simulation = simulation(team, &task, &mut setting, newton)?;
     let progress = Progress::new();
     let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 0 };
     let mut clock = Clock::new(task.settings.dt);
@@ -266,7 +275,7 @@ fn setting(team: &Team, task: &Task) -> Result<Setting, Error> {
 fn simulation(
     team: &Team,
     task: &Task,
-    setting: &Setting,
+    setting: &mut Setting,
     newton: crate::newton::NewtonSettings,
 ) -> Result<Simulation, Error> {
     let settings = piola_scenes::play::step_settings(&task.settings);
@@ -331,15 +340,14 @@ impl Course<'_> {
         let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
         let materials: Vec<_> =
             groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
-        let table = self.setting.table();
-        serde_json::to_string(&(lasting, materials, table, moves))
-            .map_err(|error| Error::Options(error.to_string()))
+        serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))
     }
 
     fn about(&self, clock: Option<Clock>) -> Result<About, Error> {
         Ok(About {
             settings: self.settings()?,
             body: self.setting.body.checksum,
+            table: self.setting.table(),
             frame: self.frame,
             clock,
             progress: self.progress.clone(),
@@ -347,10 +355,13 @@ impl Course<'_> {
     }
 
     fn resume(&mut self, file: &Path) -> Result<Clock, Error> {
-        let (settings, body) = (self.settings()?, self.setting.body.checksum);
+        let (settings, body, table) = (self.settings()?, self.setting.body.checksum, self.setting.table());
         let check = |about: &About| {
             if about.body != body {
                 return Err("it is of another mesh".to_owned());
+            }
+            if about.table != table {
+                return Err("it was begun with another table for --vary, or without one".to_owned());
             }
             if about.settings != settings || about.clock.is_none() {
                 return Err(format!("it was begun with other options: {}", about.settings));
@@ -384,6 +395,7 @@ impl Course<'_> {
             scene: settings.scene.name.to_owned(),
             material: info.as_ref().map_or_else(String::new, |info| info.name.to_string()),
             parameters: info.map(|info| info.parameters).unwrap_or_default(),
+            table: self.task.table.clone(),
             tets: share.totals[1],
             nodes: share.totals[0],
             ranks: team.size(),

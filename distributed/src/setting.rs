@@ -44,8 +44,9 @@ pub struct Setting {
     /// The springs of each pull at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
-    /// Parameters of elements by themselves.
+    /// Parameters of elements by themselves, until their materials are made.
     varied: Option<Arc<Varied>>,
+    table: Option<u32>,
 }
 
 /// What all ranks know of the body.
@@ -123,30 +124,39 @@ impl Setting {
             bounds: body.bounds,
             stiffness: body.stiffnesses[number],
         });
-        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), varied: None, share, body })
+        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), varied: None, table: None, share, body })
     }
 
     /// Gives each element of the settings' material its parameters in a table. Every rank reads all of it,
     /// and keeps the rows of its elements.
     ///
     /// # Errors
-    /// [`Error::OnRank`] for a table that is malformed.
+    /// [`Error::OnRank`] for a table that is malformed, [`Error::Options`] where ranks read different ones.
     pub fn vary(&mut self, team: &Team, table: &Path) -> Result<(), Error> {
         let tags = self.share.elements.iter().map(|&(_, tag, _)| tag).collect();
-        self.varied = Some(Arc::new(team.agree(Varied::read(table, &tags))?));
+        let varied = team.agree(Varied::read(table, &tags))?;
+        let checksum = varied.checksum();
+        if team.all(checksum as usize).iter().any(|&other| other != checksum as usize) {
+            return Err(Error::Options(format!(
+                "--vary {}: the file is not the same on all ranks",
+                table.display()
+            )));
+        }
+        (self.varied, self.table) = (Some(Arc::new(varied)), Some(checksum));
         Ok(())
     }
 
-    /// Checksum of that table.
+    /// Checksum of the table with parameters of elements.
     #[must_use]
     pub fn table(&self) -> Option<u32> {
-        self.varied.as_ref().map(|varied| varied.checksum())
+        self.table
     }
 
-    /// The materials of a run: that of the settings, and those of groups with their density.
+    /// The materials of a run: that of the settings, with the table's parameters the first time, and those of
+    /// groups with their density.
     #[must_use]
-    pub fn materials(&self, settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
-        let (material, varied) = (settings.material.clone(), self.varied.clone());
+    pub fn materials(&mut self, settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
+        let (material, varied) = (settings.material.clone(), self.varied.take());
         let first = MaterialPart { material, varied, density: settings.density };
         std::iter::once(first).chain(groups.iter().cloned()).collect()
     }

@@ -85,7 +85,10 @@ impl Simulation {
         let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
 
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
-        let steps = StagedSteps::new(settings.integrator, &start)?;
+        let steps = match settings.integrator {
+            Integrator::EnergyMomentum => StagedSteps::energy_momentum(&start),
+            integrator => StagedSteps::new(integrator, &start)?,
+        };
         let pinned = share.pinned();
         Ok(Self {
             pins: team.count(share.owned - share.free),
@@ -357,8 +360,7 @@ impl Repeatable for Course<'_> {
         Ok(())
     }
 
-    /// Other ranks may know nothing of it.
     fn is_final(error: &Error) -> bool {
-        !error.is_common()
+        error.is_final()
     }
 }

@@ -9,9 +9,9 @@ use crate::petsc::{Ending, Krylov, Matrix, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
-/// Options of PETSc unless the user sets others: conjugate gradients with smoothed aggregation, two steps of
-/// Chebyshev's iteration and Jacobi's diagonal on each level, and the aggregates of the first system for all
-/// later ones.
+/// Options of PETSc unless the user sets others: smoothed aggregation for conjugate gradients or GMRES, two
+/// steps of Chebyshev's iteration and Jacobi's diagonal on each level, and the aggregates of the first system
+/// for all later ones.
 const DEFAULTS: &[(&str, &str)] = &[
     ("pc_type", "gamg"),
     ("pc_gamg_type", "agg"),
@@ -122,9 +122,9 @@ impl LinearSystem {
         self.kind
     }
 
-    /// Assembles what the elements have taken last, their stiffness or tangents between two states, the
-    /// latter by the positions in the middle, plus a diagonal of each free node, N/m; the nodes are at
-    /// `positions`, m.
+    /// Assembles what the elements have taken last, plus a diagonal of each free node, N/m: their stiffness,
+    /// or twice their tangents between two states, the derivative by positions in the middle of the step. The
+    /// nodes are at `positions`, m.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -178,8 +178,8 @@ impl LinearSystem {
     }
 
     /// Solves for the displacement, m, that balances a gradient, N: of the free nodes, with which both slices
-    /// begin. A matrix that `is_semidefinite` by its making goes to the fallback where rounding says
-    /// otherwise.
+    /// begin. A system that `may_fall_back` goes to the fallback where the matrix, or the preconditioner
+    /// made of it, is found indefinite.
     ///
     /// # Errors
     /// [`Error::Petsc`], [`Error::UnusedOptions`] after the first system.
@@ -190,7 +190,7 @@ impl LinearSystem {
         direction: &mut [[f64; 3]],
         tolerance: f64,
         max_iterations: usize,
-        is_semidefinite: bool,
+        may_fall_back: bool,
     ) -> Result<(Ending, usize), Error> {
         let free = self.free;
         self.right.with(|right| {
@@ -198,7 +198,7 @@ impl LinearSystem {
         })?;
         self.solution.with(|solution| solution.fill([0.0; 3]))?;
         let (mut ending, mut iterations) = self.solve_at_pace(tolerance, max_iterations)?;
-        if is_semidefinite && matches!(ending, Ending::Indefinite | Ending::Failed) {
+        if may_fall_back && matches!(ending, Ending::Indefinite | Ending::Failed) {
             let Self { fallback, right, solution, .. } = self;
             solution.with(|solution| solution.fill([0.0; 3]))?;
             let again = fallback.solve(right, solution, tolerance, max_iterations)?;

@@ -43,6 +43,11 @@ impl Varied {
         })?;
         let others = |(place, cell): (usize, &str)| (place != column).then(|| cell.to_owned());
         let parameters: Vec<String> = titles.iter().enumerate().filter_map(others).collect();
+        if let Some(twice) =
+            titles.iter().find(|&title| titles.iter().filter(|&other| other == title).count() > 1)
+        {
+            return Err(wrong(format!("two columns have the title `{twice}`")));
+        }
         let mut rows = HashMap::with_capacity(tags.len());
         for row in table.records() {
             let row = row.map_err(|error| wrong(error.to_string()))?;
@@ -83,7 +88,9 @@ impl Varied {
                 self.rows.get(&tag).ok_or_else(|| wrong(format!("there is no row of element {tag}")))?;
             let in_line = |reason: String| wrong(format!("line {line}: {reason}"));
             let given = self.parameters.iter().zip(cells);
-            let given = given.map(|(name, cell)| parameter(&format!("{name}={cell}")).map_err(in_line));
+            let given = given.map(|(name, cell)| {
+                parameter(&format!("{name}={cell}")).map_err(|reason| in_line(format!("{name}: {reason}")))
+            });
             let given: Vec<_> = given.collect::<Result<_, _>>()?;
             let material = with_values(material.clone(), given);
             material.interpreted().map_err(|error| in_line(error.to_string()))
@@ -140,7 +147,8 @@ mod tests {
             ("element,mu\n3,1e5\n", "no row of element 5"),
             ("element,mu\n3,1e5\nfive,1e5\n", "line 3: `five` is no number of an element"),
             ("element,mu\n3,1e5\n3,1e5\n", "element 3 has two rows, in lines 2 and 3"),
-            ("element,mu\n3,1e5\n5,soft\n", "line 3: "),
+            ("element,mu\n3,1e5\n5,soft\n", "line 3: mu: "),
+            ("element,mu,mu\n3,1e5,1e5\n5,1e5,2e5\n", "two columns have the title `mu`"),
             ("element,mu\n3,1e5\n5,-1\n", "line 3: "),
             ("element,stiffness\n3,1e5\n5,1\n", "stiffness"),
             ("element,mu\n3,1e5\n5\n", "found record with 1 fields"),

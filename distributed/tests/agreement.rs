@@ -7,9 +7,9 @@ mod common;
 
 use std::path::Path;
 
-use common::{TestResult, checkpoint_in, state_after};
+use common::{TestResult, checkpoint_in, msh, state_after};
 use piola::material::{Moduli, PerElement};
-use piola::mesh::{Bounds, TetMesh, tetrahedral_box};
+use piola::mesh::{Bounds, tetrahedral_box};
 use piola::point::Filter;
 use piola::step::{
     Convergence, Damping, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
@@ -409,24 +409,6 @@ fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
     }
     Ok(())
-}
-
-/// A mesh with one group of tetrahedra, in Gmsh's format 2.2.
-fn msh(mesh: &TetMesh, upper: &[usize]) -> String {
-    let mut text =
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 2 \"upper\"\n$EndPhysicalNames\n"
-            .to_owned();
-    text += &format!("$Nodes\n{}\n", mesh.positions.len());
-    for (node, [x, y, z]) in mesh.positions.iter().enumerate() {
-        text += &format!("{} {x:?} {y:?} {z:?}\n", node + 1);
-    }
-    text += &format!("$EndNodes\n$Elements\n{}\n", mesh.tets.len());
-    for (tet, nodes) in mesh.tets.iter().enumerate() {
-        let group = if upper.contains(&tet) { 2 } else { 1 };
-        let [a, b, c, d] = nodes.map(|node| node + 1);
-        text += &format!("{} 4 2 {group} {group} {a} {b} {c} {d}\n", tet + 1);
-    }
-    text + "$EndElements\n"
 }
 
 /// A bar in TetGen's files, which ranks read in parts: with markers and regions, a stray node among the

@@ -31,10 +31,16 @@ fn check_failure(output: &Output, expected: &str) {
 
 #[test]
 fn wrong_options_are_named_once() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let folder = scratch.path().join("run");
     for (options, expected) in [
         ("box --elemens 6", "--elemens"),
         ("box --elements 60 -ksp_typ cg", "PETSc has no use for -ksp_typ:"),
         ("box --elements 60 -ksp_type nonsense", "piola-mpi: PETSc:"),
+        (
+            "run dinosaur --integrator energy-momentum --newton full -ksp_typ cg --out FOLDER",
+            "PETSc has no use for -ksp_typ:",
+        ),
         ("box --elements 6 --newton-tolerance 2", "--newton-tolerance 2"),
         ("run no-such-scene", "there is no scene `no-such-scene`"),
         ("run horse --mesh no-such-file.msh", "no-such-file.msh"),
@@ -42,7 +48,8 @@ fn wrong_options_are_named_once() -> TestResult {
         ("run horse --integrator energy-momentum", "add --newton full"),
         ("run horse --frames 1 --dt 0.1 --resume --out no-such-folder", "cannot go on from no-such-folder"),
     ] {
-        check_failure(&finish(command(3, words(options)))?, expected);
+        let options = options.replace("FOLDER", folder.to_str().ok_or("UTF-8")?);
+        check_failure(&finish(command(3, words(&options)))?, expected);
     }
     Ok(())
 }
@@ -223,6 +230,37 @@ fn elements_are_judged_on_their_rank() -> TestResult {
         }
         other => return Err(format!("no rank has refused: {:?}", other.map(|_| ())).into()),
     }
+    Ok(())
+}
+
+/// One of the ranks has the element whose value the material does not admit; a table that has changed is
+/// noticed when a run goes on.
+#[test]
+fn tables_of_parameters_are_judged() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let (table, folder) = (scratch.path().join("mu.csv"), scratch.path().join("run"));
+    let write = |odd: &str| {
+        let rows = (1..=6 * 8).map(|tet| format!("{tet},{}\n", if tet == 17 { odd } else { "1e5" }));
+        fs::write(&table, "element,mu\n".to_owned() + &rows.collect::<String>())
+    };
+    let mesh = scratch.path().join("cube.msh");
+    fs::write(&mesh, common::msh(&piola::mesh::tetrahedral_box([2; 3], [1.0; 3])?, &[]))?;
+    let run = |options: &str| {
+        let options = format!(
+            "run scramble --amplitude 0.1 --mesh {} --material neo-Hookean --vary {} --out {} {options}",
+            mesh.display(),
+            table.display(),
+            folder.display()
+        );
+        finish(command(3, words(&options)))
+    };
+    write("-1")?;
+    check_failure(&run("--frames 1")?, "line 18: ");
+    write("2e5")?;
+    let output = run("--frames 1")?;
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    write("3e5")?;
+    check_failure(&run("--frames 2 --resume")?, "another table for --vary");
     Ok(())
 }
 
