@@ -48,7 +48,7 @@ struct Piece {
     positions: Vec<[f64; 3]>,
     gradient: Vec<[f64; 3]>,
     stiffness: NodalStiffness,
-    /// Made by the first step that needs it.
+    /// The gradient between two states, made by the first step that needs it.
     between: Option<DiscreteGradient>,
     energy: f64,
     /// Tag of the first element that has no energy, gradient or tangent where one was evaluated last.

@@ -108,8 +108,8 @@ pub enum Error {
     Newton(#[from] NewtonError),
     /// The linear solver does not solve a system of an energy–momentum step.
     #[error(
-        "the linear solver has not solved a system of an energy–momentum step in {iterations} iterations; take shorter steps, or \
-         options of PETSc for another preconditioner, such as -pc_type bjacobi -sub_pc_type ilu"
+        "the linear solver has not solved a system of an energy–momentum step in {iterations} iterations; take shorter steps, or, \
+         for a small body, a direct solver: -pc_type lu -pc_factor_mat_solver_type mumps"
     )]
     Unsolved {
         /// Number of iterations.
@@ -134,7 +134,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether no shorter step can help: other ranks may know nothing of it, or it is about options.
+    /// Whether no shorter step can help against this error: it may be of one rank alone, or is about options.
     #[must_use]
     pub fn is_final(&self) -> bool {
         !self.is_common() || matches!(self, Self::UnusedOptions { .. })

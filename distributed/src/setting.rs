@@ -46,6 +46,7 @@ pub struct Setting {
     moves: Vec<Move>,
     /// Parameters of elements by themselves, until their materials are made.
     varied: Option<Arc<Varied>>,
+    /// Checksum of the table with these parameters.
     table: Option<u32>,
 }
 

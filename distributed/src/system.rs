@@ -30,7 +30,7 @@ const DEFAULTS: &[(&str, &str)] = &[
 /// An old preconditioner may take so many times the iterations that it took for its own matrix.
 const PATIENCE: f64 = 2.0;
 
-/// What the matrix of a [`LinearSystem`] is made of.
+/// The source of the entries of a [`LinearSystem`]'s matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The stiffness of the elements, symmetric: solved by conjugate gradients.
@@ -116,7 +116,7 @@ impl LinearSystem {
         })
     }
 
-    /// What the matrix is made of.
+    /// The source of the entries of the matrix.
     #[must_use]
     pub fn kind(&self) -> Kind {
         self.kind

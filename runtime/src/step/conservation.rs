@@ -173,7 +173,7 @@ impl Equation<'_, '_> {
         Ok(norm(self.free, &self.memory.residual))
     }
 
-    /// By how much the second derivative of inertia is greater than in the whole step, 1/share² − 1.
+    /// Inertia that a share adds, beside that of the whole step: 1/share² − 1 times as much.
     fn more_inertia(&self) -> f64 {
         (self.share * self.share).recip() - 1.0
     }
