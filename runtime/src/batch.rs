@@ -67,7 +67,7 @@
 
 use std::fmt;
 
-use crate::lanes::{Backend, NonTemporal};
+use crate::lanes::Backend;
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 

@@ -87,49 +87,60 @@ fn slices_are_copied_past_the_caches_within_their_ends() {
     for_each(check::<f64>, check::<f32>);
 }
 
-struct Transpose<'a, E> {
-    size: [usize; 2],
+/// Brings points to a line, or the first points of a line to their places.
+struct Turn<'a, E, const N: usize> {
     from: &'a [E],
     to: &'a mut [E],
-    strides: [usize; 2],
+    points: usize,
+    is_to_line: bool,
 }
 
-impl<E: Scalar> Kernel<E> for Transpose<'_, E> {
+impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
-        let [from_stride, to_stride] = self.strides;
-        R::transpose(self.size, self.from, from_stride, self.to, to_stride);
+        if self.is_to_line {
+            R::points_to_line::<N>(self.from, self.to);
+        } else {
+            R::line_to_points::<N>(self.from, self.points, self.to);
+        }
     }
 }
 
 #[test]
-fn matrices_are_transposed_within_their_slices() {
-    fn check<E: Scalar + Debug>(backend: Backend) {
-        for (rows, columns) in (1..=20).flat_map(|rows| (1..=20).map(move |columns| (rows, columns))) {
-            for (more_from, more_to) in [(0, 0), (3, 1)] {
-                let strides = [columns + more_from, rows + more_to];
-                // Without what follows the last entry.
-                let from = counted::<E>((rows - 1) * strides[0] + columns);
-                let mut to = vec![E::default(); (columns - 1) * strides[1] + rows].into_boxed_slice();
-                let size = [rows, columns];
-                let transposed = outcome(backend, Transpose { size, from: &from, to: &mut to, strides });
-                assert!(transposed.is_some(), "{backend}: {rows}×{columns}");
-                for i in 0..rows {
-                    for j in 0..columns {
-                        assert_eq!(to[j * strides[1] + i], from[i * strides[0] + j], "{backend}: {size:?}");
-                    }
-                }
-                // In allocations of their own.
+fn points_and_lines_are_turned_into_each_other_within_their_slices() {
+    fn check<E: Scalar + Debug, const N: usize>(backend: Backend) {
+        for (points, is_to_line) in (1..=E::LINE).flat_map(|points| [(points, true), (points, false)]) {
+            // The line without what follows its last entry.
+            let (of_line, of_points) = ((N - 1) * E::LINE + points, points * N);
+            let (from, to) = if is_to_line { (of_points, of_line) } else { (of_line, of_points) };
+            let (from, mut to) = (counted::<E>(from), vec![E::default(); to].into_boxed_slice());
+            let turned = outcome(backend, Turn::<E, N> { from: &from, to: &mut to, points, is_to_line });
+            assert!(turned.is_some(), "{backend}: {N} of {points}");
+            for (p, k) in (0..points).flat_map(|p| (0..N).map(move |k| (p, k))) {
+                let (in_points, in_line) = (p * N + k, k * E::LINE + p);
+                let (is, was) = if is_to_line { (in_line, in_points) } else { (in_points, in_line) };
+                assert_eq!(to[is], from[was], "{backend}: {k} of {N} of {p} of {points}, {is_to_line}");
+            }
+            // In allocations of their own.
+            let mut short: Box<[E]> = to[..to.len() - 1].into();
+            let cut = Turn::<E, N> { from: &from, to: &mut short, points, is_to_line };
+            assert!(outcome(backend, cut).is_none(), "{backend}: {N} of {points} into too few");
+            if !is_to_line {
                 let few: Box<[E]> = from[..from.len() - 1].into();
-                let mut short: Box<[E]> = to[..to.len() - 1].into();
-                let cut = Transpose { size, from: &few, to: &mut to, strides };
-                assert!(outcome(backend, cut).is_none(), "{backend}: {size:?} of too few");
-                let cut = Transpose { size, from: &from, to: &mut short, strides };
-                assert!(outcome(backend, cut).is_none(), "{backend}: {size:?} into too few");
+                let cut = Turn::<E, N> { from: &few, to: &mut to, points, is_to_line };
+                assert!(outcome(backend, cut).is_none(), "{backend}: {N} of {points} of too few");
             }
         }
     }
-    for_each(check::<f64>, check::<f32>);
+    fn check_all<E: Scalar + Debug>(backend: Backend) {
+        check::<E, 1>(backend);
+        check::<E, 3>(backend);
+        check::<E, 6>(backend);
+        check::<E, 9>(backend);
+        check::<E, 16>(backend);
+        check::<E, 81>(backend);
+    }
+    for_each(check_all::<f64>, check_all::<f32>);
 }

@@ -123,7 +123,7 @@ impl<E: Stages> Call<'_, E> {
         mut energies: Option<&mut [E]>,
     ) -> Status<u64> {
         let Rooms { points, invariants, derivatives, energies: values, blocks, line, short_line } = rooms;
-        let fence = NonTemporal::new();
+        let fence = self.fence();
         let has_energy = energies.is_none() || self.properties.has_energy_by_invariants;
         let is_by_invariants = has_energy && form != TangentForm::Factored;
         let mut served = if is_by_invariants {
@@ -146,7 +146,7 @@ impl<E: Stages> Call<'_, E> {
                 line,
                 short_line,
                 first: self.sink(P, 0),
-                second: self.large_sink(tangents, &fence, 0),
+                second: self.large_sink(tangents, fence.as_ref(), 0),
             };
             served &= E::tangent_by_invariants(self.backend, form, kernel);
         }
@@ -160,7 +160,7 @@ impl<E: Stages> Call<'_, E> {
         }
         let kernel = Stress { points, gradients: &blocks.0, count, line, P: self.sink(P, served) };
         let stressed = E::stress(self.backend, kernel);
-        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, &fence, served));
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(tangents, fence.as_ref(), served));
         let kernel = Respond { points, blocks, rest: Source::NONE, count, has_pole, line, to };
         (E::tangent(self.backend, form, kernel) | stressed | status) & !served
     }
@@ -179,7 +179,7 @@ impl<E: Stages> Call<'_, E> {
         stiffnesses: &mut [E],
     ) -> Status<u64> {
         let Rooms { points, invariants, derivatives, blocks, line, short_line, .. } = rooms;
-        let fence = NonTemporal::new();
+        let fence = self.fence();
         let mut served = self.derivatives_by_invariants(F, start, count, invariants, derivatives);
         if served != 0 {
             let kernel = RespondByInvariants {
@@ -193,7 +193,7 @@ impl<E: Stages> Call<'_, E> {
                 line,
                 short_line,
                 first: self.sink(gradients, 0),
-                second: self.large_sink(stiffnesses, &fence, 0),
+                second: self.large_sink(stiffnesses, fence.as_ref(), 0),
             };
             served &= E::stiffness_by_invariants(self.backend, form, kernel);
         }
@@ -205,7 +205,7 @@ impl<E: Stages> Call<'_, E> {
         let to = self.sink(gradients, served);
         let kernel = Forces { points, gradients: &blocks.0, rest, count, line, to };
         let forced = E::forces(self.backend, kernel);
-        let (has_pole, to) = (self.properties.has_pole, self.large_sink(stiffnesses, &fence, served));
+        let (has_pole, to) = (self.properties.has_pole, self.large_sink(stiffnesses, fence.as_ref(), served));
         let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
         (E::stiffness(self.backend, form, kernel) | forced | judged) & !served
     }
@@ -232,8 +232,18 @@ impl<E: Stages> Call<'_, E> {
         Sink { to, layout: self.layout, non_temporal: None, served }
     }
 
-    /// A sink for outputs that may be larger than the caches.
-    pub(super) fn large_sink<'t>(&self, to: &'t mut [E], fence: &'t NonTemporal, served: u64) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, non_temporal: self.streams.then_some(fence), served }
+    /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
+    pub(super) fn fence(&self) -> Option<NonTemporal> {
+        self.streams.then(NonTemporal::new)
+    }
+
+    /// A sink for outputs that may be larger than the caches, with the [`fence`](Self::fence) of this tile.
+    pub(super) fn large_sink<'t>(
+        &self,
+        to: &'t mut [E],
+        fence: Option<&'t NonTemporal>,
+        served: u64,
+    ) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: fence, served }
     }
 }

@@ -18,31 +18,19 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
 }
 
 impl<'a, E: Scalar, const I: usize, const O: usize> Work<'a, E, I, O> {
-    /// The first `tiles` tiles, and the rest.
-    fn split(self, tiles: usize) -> (Self, Self) {
-        let mut later_inputs = [(&[][..], 0); I];
-        let inputs = std::array::from_fn(|k| {
-            let (slice, numbers) = self.inputs[k];
-            let (first, later) = slice.split_at(slice.len().min(tiles * TILE * numbers));
-            later_inputs[k] = (later, numbers);
-            (first, numbers)
+    /// Takes the first `tiles` tiles away; all that is left, if there are fewer.
+    fn split_off(&mut self, tiles: usize) -> Self {
+        let points = tiles * TILE;
+        let inputs = self.inputs.each_mut().map(|(slice, numbers)| {
+            let first = slice.split_off(..slice.len().min(points * *numbers));
+            (first.unwrap_or_default(), *numbers)
         });
-        let mut later_outputs = std::array::from_fn(|_| (&mut [][..], 0));
-        let mut places = later_outputs.iter_mut();
-        let outputs = self.outputs.map(|(slice, numbers)| {
-            let length = slice.len().min(tiles * TILE * numbers);
-            let (first, later) = slice.split_at_mut(length);
-            if let Some(place) = places.next() {
-                *place = (later, numbers);
-            }
-            (first, numbers)
+        let outputs = self.outputs.each_mut().map(|(slice, numbers)| {
+            let first = slice.split_off_mut(..slice.len().min(points * *numbers));
+            (first.unwrap_or_default(), *numbers)
         });
-        let length = self.statuses.len().min(tiles * TILE);
-        let (statuses, later_statuses) = self.statuses.split_at(length);
-        (
-            Self { inputs, outputs, statuses },
-            Self { inputs: later_inputs, outputs: later_outputs, statuses: later_statuses },
-        )
+        let statuses = self.statuses.split_off(..self.statuses.len().min(points));
+        Self { inputs, outputs, statuses: statuses.unwrap_or_default() }
     }
 }
 
@@ -59,7 +47,7 @@ pub(super) struct Tile<'a, E, const I: usize, const O: usize> {
 
 /// Runs `body` for each tile of the points and adds up its statuses, in the order of the points.
 pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
-    work: Work<'_, E, I, O>,
+    mut work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     threads: bool,
     body: &(impl Fn(Tile<'_, E, I, O>) -> Status<u64> + Sync),
@@ -68,10 +56,10 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     if threads && tiles > GRAIN {
         let half = tiles / 2;
         let middle = points.start + half * TILE;
-        let (first, later) = work.split(half);
+        let first = work.split_off(half);
         let (first, later) = rayon::join(
             || for_each_tile(first, points.start..middle, threads, body),
-            || for_each_tile(later, middle..points.end, threads, body),
+            || for_each_tile(work, middle..points.end, threads, body),
         );
         return first + later;
     }
@@ -79,17 +67,14 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
 }
 
 fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
-    work: Work<'_, E, I, O>,
+    mut work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     workspace: &mut Workspace<E>,
     body: &impl Fn(Tile<'_, E, I, O>) -> Status<u64>,
 ) -> Survey {
     let mut survey = Survey::default();
-    let statuses = work.statuses;
-    let mut rest = Work { statuses: &[], ..work };
     for start in points.clone().step_by(TILE) {
-        let (tile, later) = rest.split(1);
-        rest = later;
+        let tile = work.split_off(1);
         let status = body(Tile {
             workspace,
             start,
@@ -97,10 +82,8 @@ fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
             inputs: tile.inputs.map(|(slice, _)| slice),
             outputs: tile.outputs.map(|(slice, _)| slice),
         });
-        if !statuses.is_empty() {
-            for (point, to) in statuses[start - points.start..].iter().take(TILE).enumerate() {
-                to.set(status.of_point(point));
-            }
+        for (point, to) in tile.statuses.iter().enumerate() {
+            to.set(status.of_point(point));
         }
         if status != Status::default() {
             survey = survey + Survey::of(status, start);

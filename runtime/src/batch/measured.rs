@@ -11,7 +11,7 @@ use super::measure::{MeasuredStress, MeasuredTangent};
 use super::sink::Source;
 use super::stage::Stages;
 use super::workspace::Workspace;
-use super::{Batch, Call, LengthError, NonTemporal};
+use super::{Batch, Call, LengthError};
 use crate::point::Filter;
 use crate::point::measures::Measure;
 use crate::status::Survey;
@@ -83,7 +83,7 @@ impl<E: Stages> Batch<'_, E> {
         let outputs = [("stresses", stresses, 6), ("tangents", tangents, 36)];
         self.run([("F", F, 9)], outputs, |batch, tile| {
             let batch = Call { filter: Filter::None, ..batch };
-            let fence = NonTemporal::new();
+            let fence = batch.fence();
             let Tile { workspace, start, count, inputs: [F], outputs: [stresses, tangents] } = tile;
             let Workspace { F: lines, points, blocks, line, .. } = workspace;
             batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
@@ -91,7 +91,7 @@ impl<E: Stages> Batch<'_, E> {
             let (points, to) = (&*points, batch.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };
             let stressed = E::measured_stress(batch.backend, kernel);
-            let to = batch.large_sink(tangents, &fence, 0);
+            let to = batch.large_sink(tangents, fence.as_ref(), 0);
             let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
             E::measured_tangent(batch.backend, kernel) | stressed | judged
         })

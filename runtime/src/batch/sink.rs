@@ -42,10 +42,7 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
             Layout::Lines if from.len() == N * TILE => return Self(from),
             Layout::Lines => lines.copy_from(from),
             Layout::Points => {
-                let lines = lines.0.as_flattened_mut().chunks_mut(E::LINE * N);
-                for (from, to) in from.chunks(E::LINE * N).zip(lines) {
-                    backend.run(Turn::<E, N> { from, to });
-                }
+                backend.run(Turn::<E, N> { from, to: lines });
             }
         }
         lines.source()
@@ -124,10 +121,10 @@ impl<E: Scalar> Line<E> {
     }
 }
 
-/// The points of a line, or fewer.
+/// Kernel from the points of a tile to its lines.
 struct Turn<'a, E, const N: usize> {
     from: &'a [E],
-    to: &'a mut [E],
+    to: &'a mut Lines<E, N>,
 }
 
 impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
@@ -135,8 +132,10 @@ impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
-        let Self { from, to } = self;
-        R::transpose([from.len() / N, N], from, N, to, E::LINE);
+        let lines = self.to.0.as_flattened_mut().chunks_mut(E::LINE * N);
+        for (points, line) in self.from.chunks(E::LINE * N).zip(lines) {
+            R::points_to_line::<N>(points, line);
+        }
     }
 }
 
@@ -204,7 +203,7 @@ impl<E: Scalar> Sink<'_, E> {
             }
             _ => {
                 let points = R::LANES.min(count - at);
-                R::transpose([N, points], &line[offset..], E::LINE, &mut self.to[at * N..], N);
+                R::line_to_points::<N>(&line[offset..], points, &mut self.to[at * N..]);
             }
         }
     }

@@ -57,21 +57,31 @@ pub trait Lanes: Real {
         to.copy_from_slice(from);
     }
 
-    /// Transposes a matrix of the given size: `from[i * from_stride + j]` becomes `to[j * to_stride + i]`.
+    /// Brings up to [`LINE`](Scalar::LINE) points, each with its N components one after the other, to a line:
+    /// component k of point p from `from[p * N + k]` to `to[k * LINE + p]`.
     ///
     /// # Panics
     /// If an entry lies outside of its slice.
     #[inline(never)]
-    fn transpose(
-        [rows, columns]: [usize; 2],
-        from: &[Self::Scalar],
-        from_stride: usize,
-        to: &mut [Self::Scalar],
-        to_stride: usize,
-    ) {
-        for i in 0..rows {
-            for j in 0..columns {
-                to[j * to_stride + i] = from[i * from_stride + j];
+    fn points_to_line<const N: usize>(from: &[Self::Scalar], to: &mut [Self::Scalar]) {
+        for (p, point) in from.as_chunks::<N>().0.iter().enumerate() {
+            for k in 0..N {
+                to[k * <Self::Scalar as Scalar>::LINE + p] = point[k];
+            }
+        }
+    }
+
+    /// Brings N components of the first points of a line to these points: component k of point p from
+    /// `from[k * LINE + p]` to `to[p * N + k]`.
+    ///
+    /// # Panics
+    /// If an entry lies outside of its slice.
+    #[inline(never)]
+    fn line_to_points<const N: usize>(from: &[Self::Scalar], points: usize, to: &mut [Self::Scalar]) {
+        let to = &mut to.as_chunks_mut::<N>().0[..points];
+        for (p, point) in to.iter_mut().enumerate() {
+            for k in 0..N {
+                point[k] = from[k * <Self::Scalar as Scalar>::LINE + p];
             }
         }
     }

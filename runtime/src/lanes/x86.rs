@@ -14,7 +14,7 @@ use super::lanes2::Lanes2;
 use super::non_temporal::NonTemporal;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
-use super::vector::Lanes;
+use super::vector::{Lanes, Scalar};
 
 mod transpose;
 
@@ -107,22 +107,17 @@ macro_rules! register {
                 }
             }
 
-            /// Transposes a matrix by squares, at least one; the last in a row or column overlaps its
-            /// neighbour.
+            /// Transposes a matrix whose rows are FROM apart into one whose rows are TO apart, by squares, at
+            /// least one; the last in a row or column overlaps its neighbour.
             #[target_feature(enable = $features)]
-            fn transpose_squares(
+            fn transpose_squares<const FROM: usize, const TO: usize>(
                 [rows, columns]: [usize; 2],
                 from: &[$Number],
-                from_stride: usize,
                 to: &mut [$Number],
-                to_stride: usize,
             ) {
                 // What is before the end of the last row, and so every entry, is in its slice.
-                let end = |rows: usize, columns: usize, stride: usize| {
-                    (rows - 1).checked_mul(stride).and_then(|start| start.checked_add(columns))
-                };
-                assert!(end(rows, columns, from_stride).is_some_and(|end| end <= from.len()));
-                assert!(end(columns, rows, to_stride).is_some_and(|end| end <= to.len()));
+                assert!((rows - 1).saturating_mul(FROM).saturating_add(columns) <= from.len());
+                assert!((columns - 1).saturating_mul(TO).saturating_add(rows) <= to.len());
                 let (from, to) = (from.as_ptr(), to.as_mut_ptr());
                 let mut i = 0;
                 while i < rows {
@@ -130,16 +125,12 @@ macro_rules! register {
                     let mut j = 0;
                     while j < columns {
                         j = j.min(columns - $lanes);
-                        let mut square = [Self::splat(0.0).0; $lanes];
                         // SAFETY: `$lanes` rows of either matrix from i and j on have `$lanes` entries
-                        // each, which are in their slices; this function has `$transpose`'s condition.
+                        // each, which are in their slices; the processor has what `$transpose` needs.
                         unsafe {
+                            let square = $transpose(from.add(i * FROM + j), FROM);
                             for k in 0..$lanes {
-                                square[k] = $load(from.add((i + k) * from_stride + j));
-                            }
-                            square = $transpose(square);
-                            for k in 0..$lanes {
-                                $store(to.add((j + k) * to_stride + i), square[k]);
+                                $store(to.add((j + k) * TO + i), square[k]);
                             }
                         }
                         j += $lanes;
@@ -206,18 +197,24 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn transpose(
-                size: [usize; 2],
-                from: &[$Number],
-                from_stride: usize,
-                to: &mut [$Number],
-                to_stride: usize,
-            ) {
-                if size[0] < $lanes || size[1] < $lanes {
-                    return $Narrower::transpose(size, from, from_stride, to, to_stride);
+            fn points_to_line<const N: usize>(from: &[$Number], to: &mut [$Number]) {
+                const LINE: usize = <$Number as Scalar>::LINE;
+                let points = from.len() / N;
+                if points < $lanes || N < $lanes {
+                    return $Narrower::points_to_line::<N>(from, to);
                 }
                 // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
-                unsafe { Self::transpose_squares(size, from, from_stride, to, to_stride) }
+                unsafe { Self::transpose_squares::<N, LINE>([points, N], from, to) }
+            }
+
+            #[inline(always)]
+            fn line_to_points<const N: usize>(from: &[$Number], points: usize, to: &mut [$Number]) {
+                const LINE: usize = <$Number as Scalar>::LINE;
+                if points < $lanes || N < $lanes {
+                    return $Narrower::line_to_points::<N>(from, points, to);
+                }
+                // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
+                unsafe { Self::transpose_squares::<LINE, N>([N, points], from, to) }
             }
 
             #[inline(always)]
