@@ -234,7 +234,7 @@ impl<E: Stages> Call<'_, E> {
 
     /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
     pub(super) fn fence(&self) -> Option<NonTemporal> {
-        self.streams.then(NonTemporal::new)
+        (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
     }
 
     /// A sink for outputs that may be larger than the caches, with the [`fence`](Self::fence) of this tile.

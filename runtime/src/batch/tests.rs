@@ -334,7 +334,9 @@ fn check_bits<E: Number>(energy: &dyn TileMaterial<E>, filter: Filter) {
         let expected = bits(Layout::Points, &points, COUNT);
         for variant in [
             batch.with_layout(Layout::Lines),
+            batch.with_streams(true),
             batch.with_layout(Layout::Lines).with_streams(true),
+            batch.with_layout(Layout::Lines).with_streams(true).with_threads(true),
             batch.with_threads(true),
             batch.with_threads(true).with_layout(Layout::Lines),
         ] {

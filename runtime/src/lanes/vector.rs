@@ -60,6 +60,8 @@ pub trait Lanes: Real {
     /// Brings up to [`LINE`](Scalar::LINE) points, each with its N components one after the other, to a line:
     /// component k of point p from `from[p * N + k]` to `to[k * LINE + p]`.
     ///
+    /// N is not zero. An incomplete last point stays behind; more points than LINE mix with each other.
+    ///
     /// # Panics
     /// If an entry lies outside of its slice.
     #[inline(never)]
@@ -73,6 +75,8 @@ pub trait Lanes: Real {
 
     /// Brings N components of the first points of a line to these points: component k of point p from
     /// `from[k * LINE + p]` to `to[p * N + k]`.
+    ///
+    /// N is not zero, and there are at most [`LINE`](Scalar::LINE) points.
     ///
     /// # Panics
     /// If an entry lies outside of its slice.

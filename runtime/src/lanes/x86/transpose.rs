@@ -1,7 +1,7 @@
 //! Transposes of square matrices whose rows lie in memory, a stride apart.
 //!
 //! Neighbours are paired within each 128 bits, until these hold entries of one column, and blocks of 128 bits
-//! are brought to their places: with AVX2 while they are loaded, which spares half of the shuffles. Macros and
+//! are brought to their places: with AVX2 while they are loaded, which spares these shuffles. Macros and
 //! loops instead of closures, which nothing can force the compiler to inline.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module above")]
@@ -88,7 +88,7 @@ macro_rules! transpose_quads_256 {
 /// The processor has AVX-512, and 8 entries of each row can be read.
 #[inline(always)]
 pub(super) unsafe fn transpose_f64x8(from: *const f64, stride: usize) -> [__m512d; 8] {
-    // SAFETY: both is the condition of this function.
+    // SAFETY: both are conditions of this function.
     unsafe {
         let [a, b, c, d, e, f, g, h] = load_rows!(_mm512_loadu_pd, _mm512_setzero_pd, from, stride, 8);
         let low = [
@@ -115,7 +115,7 @@ pub(super) unsafe fn transpose_f64x8(from: *const f64, stride: usize) -> [__m512
 /// The processor has AVX-512, and 16 entries of each row can be read.
 #[inline(always)]
 pub(super) unsafe fn transpose_f32x16(from: *const f32, stride: usize) -> [__m512; 16] {
-    // SAFETY: both is the condition of this function.
+    // SAFETY: both are conditions of this function.
     unsafe {
         let rows = load_rows!(_mm512_loadu_ps, _mm512_setzero_ps, from, stride, 16);
         // Column 4b + j of four rows each is in block b of element j.
@@ -143,7 +143,7 @@ pub(super) unsafe fn transpose_f32x16(from: *const f32, stride: usize) -> [__m51
 /// The processor has AVX2, and 4 entries of each row can be read.
 #[inline(always)]
 pub(super) unsafe fn transpose_f64x4(from: *const f64, stride: usize) -> [__m256d; 4] {
-    // SAFETY: both is the condition of this function.
+    // SAFETY: both are conditions of this function.
     unsafe {
         let mut columns = [_mm256_setzero_pd(); 4];
         for pair in 0..2 {
@@ -164,7 +164,7 @@ pub(super) unsafe fn transpose_f64x4(from: *const f64, stride: usize) -> [__m256
 /// The processor has AVX2, and 8 entries of each row can be read.
 #[inline(always)]
 pub(super) unsafe fn transpose_f32x8(from: *const f32, stride: usize) -> [__m256; 8] {
-    // SAFETY: both is the condition of this function.
+    // SAFETY: both are conditions of this function.
     unsafe {
         let mut columns = [_mm256_setzero_ps(); 8];
         for half in 0..2 {
