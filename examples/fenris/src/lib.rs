@@ -122,18 +122,26 @@ fn number<T: Number>(value: f64) -> T {
     <T as piola::Real>::splat(value)
 }
 
-/// Σm dP_ik/dF_jm b_m at i, j, k.
-fn contract_last<T: Number>(dP_dF: &[[T; 9]; 9], b: [T; 3]) -> [[[T; 3]; 3]; 3] {
-    let entry = |i: usize, j: usize, k: usize| {
-        let row = &dP_dF[3 * i + k][3 * j..][..3];
-        row[0] * b[0] + row[1] * b[1] + row[2] * b[2]
-    };
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| [0, 1, 2].map(|k| entry(i, j, k))))
+/// Σm dP_ik/dF_jm b_m at 3i+k, j.
+fn contract_last<T: Number>(dP_dF: &[[T; 9]; 9], b: [T; 3]) -> [[T; 3]; 9] {
+    let mut half = [[T::zero(); 3]; 9];
+    for (half, row) in half.iter_mut().zip(dP_dF) {
+        for j in 0..3 {
+            half[j] = row[3 * j] * b[0] + row[3 * j + 1] * b[1] + row[3 * j + 2] * b[2];
+        }
+    }
+    half
 }
 
-/// Σk half_ijk a_k at i, j.
-fn contract_first<T: Number>(half: &[[[T; 3]; 3]; 3], a: [T; 3]) -> Matrix3<T> {
-    half.map(|row| row.map(|entry| entry[0] * a[0] + entry[1] * a[1] + entry[2] * a[2]))
+/// Σk half_ikj a_k at i, j.
+fn contract_first<T: Number>(half: &[[T; 3]; 9], a: [T; 3]) -> Matrix3<T> {
+    let mut block = [[T::zero(); 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            block[i][j] = half[3 * i][j] * a[0] + half[3 * i + 1][j] * a[1] + half[3 * i + 2][j] * a[2];
+        }
+    }
+    block
 }
 
 fn rows<T: Number>(matrix: &Columns<T>) -> Matrix3<T> {
