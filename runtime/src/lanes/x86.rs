@@ -115,7 +115,7 @@ macro_rules! register {
                 from: &[$Number],
                 to: &mut [$Number],
             ) {
-                // There is a square, and what is before the end of the last row, so every entry, is in its slice.
+                // There is a square, and all before the end of the last row, so every entry, is in its slice.
                 assert!(rows >= $lanes && columns >= $lanes);
                 assert!((rows - 1).saturating_mul(FROM).saturating_add(columns) <= from.len());
                 assert!((columns - 1).saturating_mul(TO).saturating_add(rows) <= to.len());
