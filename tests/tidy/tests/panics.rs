@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use piola_tidy::{crates, forbid, read};
+use piola_tidy::{crates, files, forbid};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::visit::{self, Visit};
@@ -16,7 +16,7 @@ const METHODS: [&str; 4] = ["unwrap", "unwrap_err", "expect", "expect_err"];
 
 /// A function that panics on purpose says so under `# Panics`, and does not return a `Result` beside it. So
 /// nothing that a function with a `Result` calls panics unannounced, but for an index, a division by zero or
-/// an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile.rs`.
+/// an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile/`.
 #[test]
 fn what_panics_says_so_and_returns_no_result() {
     let mut found = Vec::new();
@@ -45,7 +45,10 @@ fn what_panics_says_so_and_returns_no_result() {
 /// Every public function of bodies and batches that returns a `Result` is called with hostile arguments.
 #[test]
 fn what_returns_a_result_is_tried_with_hostile_arguments() {
-    let tried = words(read(Path::new("runtime/tests/hostile.rs")).parse().expect("tokens"));
+    let tried: BTreeSet<String> = files(Path::new("runtime/tests/hostile"))
+        .into_iter()
+        .flat_map(|(_, text)| words(text.parse().expect("tokens")))
+        .collect();
     let crates = crates();
     let runtime = crates.iter().find(|one| one.name == "piola").expect("the runtime");
     let mut found = Vec::new();
@@ -74,7 +77,7 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
             }
         }
     }
-    forbid("functions that `runtime/tests/hostile.rs` does not try", &found);
+    forbid("functions that `runtime/tests/hostile/` does not try", &found);
     assert!(judged > 30, "{judged} functions");
 }
 
