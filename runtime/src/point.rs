@@ -23,6 +23,7 @@ use crate::material::{Blocks, Response};
 use crate::quotient::pole_floor;
 use crate::status::Status;
 
+mod deflation;
 mod dense;
 pub mod gradient;
 pub(crate) mod invariants;

@@ -21,9 +21,9 @@
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
 use super::Matrix3;
-use super::matrix::{column, dot, three, transpose};
+use super::deflation::{Deflation, deflate};
+use super::matrix::{dot, three, transpose};
 use crate::lanes::{Mask, Real};
-use crate::material::PAIRS;
 
 #[cfg(test)]
 mod tests;
@@ -72,7 +72,7 @@ pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 pub(crate) fn unaligned<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let (F, back) = scaled(F);
-    let (U, stretches, V) = jacobi(&F);
+    let (U, stretches, V) = decompose(&F);
     Svd { U, stretches: three!(k => stretches[k] * back), V }
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn unaligned<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     let (F, back) = scaled(F);
-    let (U, [s1, s2, s3], V) = jacobi(&F);
+    let (U, [s1, s2, s3], V) = decompose(&F);
     let area = s1 * s2;
     let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
     // λ2 and the quotient are rounded independently, which must not disturb their order.
@@ -155,64 +155,33 @@ fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
     (three!(i => three!(j => F[i][j] * scale)), back)
 }
 
-/// Sweeps after which the columns are orthogonal to working precision: 4 for u = 2⁻²⁴, 5 for 2⁻⁵³, 6 for
-/// 2⁻¹⁰⁶.
-///
-/// Convergence is quadratic: four sweeps bring every 3×3 matrix that a search found below 2⁻²⁷, each further
-/// one squares that.
-pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
-    let mut reached = 1.0 / (1u64 << 27) as f64;
-    let mut sweeps = 4;
-    while reached > unit_roundoff {
-        reached *= reached;
-        sweeps += 1;
-    }
-    sweeps
-}
-
 /// U, λ, V of a matrix scaled to a magnitude between 1 and 2.
 #[inline(always)]
-fn jacobi<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
-    let mut columns = transpose(F);
-    let mut quaternion = [R::splat(1.0), R::splat(0.0), R::splat(0.0), R::splat(0.0)];
-    for _ in 1..sweeps(R::UNIT_ROUNDOFF) {
-        sweep::<R, ROUGH>(&mut columns, &mut quaternion);
-    }
-    sweep::<R, EXACT>(&mut columns, &mut quaternion);
-    let V = rotation_matrix(quaternion);
-    // The columns have collected the rounding of all rotations; F V anew has that of one product.
-    let columns = three!(k => three!(i => dot(F[i], column(&V, k))));
+fn decompose<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
+    let V = right(F);
+    let columns = three!(k => three!(i => dot(F[i], V[k])));
     let (U, stretches) = left(&columns);
-    (U, descending(stretches), V)
+    (U, descending(stretches), transpose(&V))
 }
 
-/// Precision of a sweep's angles: with a rough root, 2⁻¹² of what it rotates away is left, which the next
-/// sweep squares. Only what the last one leaves, stays.
-const ROUGH: bool = false;
-const EXACT: bool = true;
-
-/// Makes the columns orthogonal pair by pair.
+/// The columns of V, in the order of descending stretches.
 #[inline(always)]
-fn sweep<R: Real, const ANGLE: bool>(columns: &mut [[R; 3]; 3], quaternion: &mut [R; 4]) {
-    orthogonalize::<R, ANGLE>(columns, quaternion, 0);
-    orthogonalize::<R, ANGLE>(columns, quaternion, 1);
-    orthogonalize::<R, ANGLE>(columns, quaternion, 2);
-}
+fn right<R: Real>(F: &Matrix3<R>) -> [[R; 3]; 3] {
+    let [f1, f2, f3] = transpose(F);
+    let C = [dot(f1, f1), dot(f2, f2), dot(f3, f3), dot(f1, f2), dot(f1, f3), dot(f2, f3)];
+    let Deflation { frame: [v, p, q], is_largest } = deflate(C);
 
-/// Rotates two columns p < q in their plane so that they become orthogonal and p is the longer one.
-#[inline(always)]
-fn orthogonalize<R: Real, const ANGLE: bool>(
-    columns: &mut [[R; 3]; 3],
-    quaternion: &mut [R; 4],
-    pair: usize,
-) {
-    let (p, q) = PAIRS[pair];
-    let (bp, bq) = (columns[p], columns[q]);
+    // One Jacobi rotation in the plane of the other two, of the columns of F and not of C: however small these
+    // stretches are, they become orthogonal to working precision.
+    let (bp, bq) = (three!(i => dot(F[i], p)), three!(i => dot(F[i], q)));
     let half_g = dot(bp, bq);
-    let (c, s) = rotation::<R, ANGLE>(dot(bp, bp) - dot(bq, bq), half_g + half_g);
-    columns[p] = three!(i => c.mul_add(bp[i], s * bq[i]));
-    columns[q] = three!(i => c.mul_add(bq[i], -(s * bp[i])));
-    turn(quaternion, pair, c, s);
+    let (c, s) = rotation(dot(bp, bp) - dot(bq, bq), half_g + half_g);
+    let (p, q) = (three!(i => c.mul_add(p[i], s * q[i])), three!(i => c.mul_add(q[i], -(s * p[i]))));
+    [
+        three!(i => R::select(is_largest, v[i], p[i])),
+        three!(i => R::select(is_largest, p[i], q[i])),
+        three!(i => R::select(is_largest, q[i], v[i])),
+    ]
 }
 
 /// Cosine and sine of θ with tan 2θ = g/d, where d = |bp|² − |bq|² and g = 2 bp·bq, and cos θ ≥ 0.
@@ -220,52 +189,18 @@ fn orthogonalize<R: Real, const ANGLE: bool>(
 /// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both
 /// cases the root that leaves |bp| ≥ |bq|. A rough root gives a rough angle.
 #[inline(always)]
-fn rotation<R: Real, const ANGLE: bool>(d: R, g: R) -> (R, R) {
+fn rotation<R: Real>(d: R, g: R) -> (R, R) {
     // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0: the
     // root is then twice that of the smallest normal number, its square normal, and c² + s² = 1 to rounding
     // down here too.
     let floor = R::splat(4.0 * R::MIN_POSITIVE);
     let squared = d.mul_add(d, g.mul_add(g, floor));
-    let x = d.abs() + if ANGLE == EXACT { squared.sqrt() } else { squared.rough_sqrt() };
+    let x = d.abs() + squared.sqrt();
     let swap = d.less(R::splat(0.0));
     let cosine = R::select(swap, g.abs(), x);
     let sine = R::select(swap, x.copysign(g), g);
     let scale = x.mul_add(x, g * g).reciprocal_sqrt();
     (cosine * scale, sine * scale)
-}
-
-/// Follows the rotation of two columns in the quaternion (w, x, y, z) of V, up to a positive factor.
-///
-/// (1 + c, s)/2 is parallel to (cos θ/2, sin θ/2) and since c ≥ 0 its norm is at least 1/√2. The axes are +z,
-/// −y, +x.
-#[inline(always)]
-fn turn<R: Real>(quaternion: &mut [R; 4], pair: usize, c: R, s: R) {
-    let half = R::splat(0.5);
-    let (c, s) = (c.mul_add(half, half), s * half);
-    let [w, x, y, z] = *quaternion;
-    let (w_c, x_c, y_c, z_c) = (w * c, x * c, y * c, z * c);
-    *quaternion = match pair {
-        0 => [(-s).mul_add(z, w_c), s.mul_add(y, x_c), (-s).mul_add(x, y_c), s.mul_add(w, z_c)],
-        1 => [s.mul_add(y, w_c), s.mul_add(z, x_c), (-s).mul_add(w, y_c), (-s).mul_add(x, z_c)],
-        _ => [(-s).mul_add(x, w_c), s.mul_add(w, x_c), s.mul_add(z, y_c), (-s).mul_add(y, z_c)],
-    };
-}
-
-/// The rotation of a quaternion of any positive norm.
-///
-/// All entries are divided by |q|², the diagonal too: an error of that divisor then disturbs VᵀV half as much
-/// as in the usual form 1 − 2 (y² + z²)/|q|².
-#[inline(always)]
-fn rotation_matrix<R: Real>([w, x, y, z]: [R; 4]) -> Matrix3<R> {
-    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
-    let scale = R::splat(1.0) / ((ww + xx) + (yy + zz));
-    let (wx, wy, wz) = (w * x, w * y, w * z);
-    let twice = scale + scale;
-    [
-        [((ww + xx) - (yy + zz)) * scale, x.mul_add(y, -wz) * twice, x.mul_add(z, wy) * twice],
-        [x.mul_add(y, wz) * twice, ((ww + yy) - (xx + zz)) * scale, y.mul_add(z, -wx) * twice],
-        [x.mul_add(z, -wy) * twice, y.mul_add(z, wx) * twice, ((ww + zz) - (xx + yy)) * scale],
-    ]
 }
 
 /// U and λ from columns bk = λk uk that are orthogonal up to rounding, the longest first.
@@ -365,4 +300,14 @@ fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
+    let mut reached = 1.0 / (1u64 << 27) as f64;
+    let mut sweeps = 4;
+    while reached > unit_roundoff {
+        reached *= reached;
+        sweeps += 1;
+    }
+    sweeps
 }
