@@ -174,7 +174,7 @@ macro_rules! register {
 
         impl Lanes for $Register {
             type Scalar = $Number;
-            type Interleaved = Lanes2<Lanes2<Self>>;
+            type Interleaved = Lanes2<Self>;
             const LANES: usize = $lanes;
 
             #[inline(always)]

@@ -97,6 +97,24 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     }
 }
 
+/// Cosine and sine of the angle θ, cos θ ≥ 0, by which p and q turn to become eigenvectors in their plane, that
+/// of the larger eigenvalue first: tan 2θ = g/d with d = pᵀA p − qᵀA q and g = 2 pᵀA q.
+///
+/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation.
+#[inline(always)]
+pub(super) fn rotation<R: Real>(d: R, g: R) -> (R, R) {
+    // What is this small may keep its direction, but c = 1 where d = g = 0: the root is then twice that of the
+    // smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
+    let floor = R::splat(4.0 * R::MIN_POSITIVE);
+    let squared = d.mul_add(d, g.mul_add(g, floor));
+    let x = d.abs() + squared.sqrt();
+    let swap = d.less(R::splat(0.0));
+    let cosine = R::select(swap, g.abs(), x);
+    let sine = R::select(swap, x.copysign(g), g);
+    let scale = x.mul_add(x, g * g).reciprocal_sqrt();
+    (cosine * scale, sine * scale)
+}
+
 /// The index l of the largest of three numbers; it is the first where neither of the others is.
 #[derive(Clone, Copy)]
 struct Largest<M> {

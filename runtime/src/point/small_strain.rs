@@ -24,7 +24,8 @@
 //! si = λi − 1 = (λi² − 1)/(λi + 1) = qi / (1 + √(1 + qi))
 //! ```
 //!
-//! Jacobi rotations find V and q as the exact ones of a matrix that differs from 2E by a few u ‖E‖.
+//! The eigenvector that lies apart from the others is found first, then one rotation the other two: V and q are
+//! the exact ones of a matrix that differs from 2E by a few u ‖E‖.
 //!
 //! **Stress.** [`Material::gradient_at_strains`](crate::Material::gradient_at_strains)
 //! gives ψi from the si. U need not be known, since U diag(λ) =
@@ -58,8 +59,8 @@
 
 #![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
 
+use super::deflation::{Deflation, deflate, rotation};
 use super::matrix::{column, dot, multiply_transposed};
-use super::svd::sweeps;
 use super::{
     Filter, Matrix3, Point, energy_is_finite, evaluate, evaluate_energy, evaluate_stress, stress_is_finite,
 };
@@ -246,7 +247,7 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
     let entries = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     let twice_E = entries.map(|(i, j)| (H[i][j] + H[j][i]) + dot(column(H, i), column(H, j)));
 
-    // A power of two, which is exact, keeps the squares of the rotations from underflow.
+    // A power of two, which is exact, keeps squares from underflow.
     let largest = twice_E.into_iter().fold(R::splat(0.0), |largest, x| x.abs().max(largest));
     let (scale, back) = largest.power_of_two_scale();
     let (q, mut V) = eigen(twice_E.map(|x| x * scale));
@@ -267,41 +268,20 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
     (strains, V)
 }
 
-/// Eigenvalues, and eigenvectors as the columns of Q, of a symmetric matrix of magnitude 1 to 2, by cyclic
-/// Jacobi rotations.
+/// Eigenvalues, and eigenvectors as the columns of V, of a symmetric matrix of magnitude 1 to 2.
 #[inline(always)]
-fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], [[R; 3]; 3]) {
-    let (zero, one) = (R::splat(0.0), R::splat(1.0));
+fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], Matrix3<R>) {
     let [a11, a22, a33, a12, a13, a23] = A;
-    let mut A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
-    let mut Q = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
-    // Keeps the quotient finite for a diagonal matrix with equal entries, where any angle is right; too small
-    // to matter elsewhere.
-    let floor = R::splat(R::MIN_POSITIVE.sqrt());
-    for _ in 0..sweeps(R::UNIT_ROUNDOFF) {
-        for (p, q) in PAIRS {
-            let r = 3 - p - q;
-            // The smaller root t = tan θ of t² + 2 t (aqq − app)/(2 apq) − 1 = 0, without cancellation
-            // [Golub, Van Loan, 8.5].
-            let d = A[q][q] - A[p][p];
-            let g = A[p][q] + A[p][q];
-            let magnitude = g / (d.abs() + d.mul_add(d, g * g).sqrt() + floor);
-            let t = R::select(d.less(zero), -magnitude, magnitude);
-            let c = one / t.mul_add(t, one).sqrt();
-            let s = t * c;
-            let apq = A[p][q];
-            A[p][p] = A[p][p] - t * apq;
-            A[q][q] = t.mul_add(apq, A[q][q]);
-            A[p][q] = zero;
-            let (arp, arq) = (A[r.min(p)][r.max(p)], A[r.min(q)][r.max(q)]);
-            A[r.min(p)][r.max(p)] = c.mul_add(arp, -(s * arq));
-            A[r.min(q)][r.max(q)] = s.mul_add(arp, c * arq);
-            for row in &mut Q {
-                let (vp, vq) = (row[p], row[q]);
-                row[p] = c.mul_add(vp, -(s * vq));
-                row[q] = s.mul_add(vp, c * vq);
-            }
-        }
-    }
-    ([A[0][0], A[1][1], A[2][2]], Q)
+    let Deflation { frame: [v, p, q], .. } = deflate(A);
+    let A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
+    let [Av, Ap, Aq] = [v, p, q].map(|x| A.map(|row| dot(row, x)));
+    let (app, apq, aqq) = (dot(p, Ap), dot(p, Aq), dot(q, Aq));
+    let (c, s) = rotation(app - aqq, apq + apq);
+    let eigenvalues = [
+        dot(v, Av),
+        c.mul_add(c.mul_add(app, s * apq), s * c.mul_add(apq, s * aqq)),
+        c.mul_add(c.mul_add(aqq, -(s * apq)), -(s * c.mul_add(apq, -(s * app)))),
+    ];
+    let V = std::array::from_fn(|i| [v[i], c.mul_add(p[i], s * q[i]), c.mul_add(q[i], -(s * p[i]))]);
+    (eigenvalues, V)
 }

@@ -1,16 +1,19 @@
 //! The signed singular value decomposition of a deformation gradient.
 //!
 //! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\].
-//! The method is one-sided Jacobi \[DV92\]: columns of F V are made orthogonal two by two, the longer one
-//! first, for a fixed number of sweeps. There is no branch on a value and no count that depends on one, so
-//! that a matrix among others in lanes gets the bits it would get alone.
+//! The frame V of principal directions at rest comes from FᵀF where that is safe, and from F elsewhere: the
+//! eigenvector of FᵀF that lies apart from the others in closed form, see [`deflate`], and the other two by
+//! one rotation that makes the columns of F V orthogonal, one-sided as Jacobi's method is \[DV92\]. There is
+//! no branch on a value and no count that depends on one, so that a matrix among others in lanes gets the bits
+//! it would get alone.
 //!
 //! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares
-//! neither overflow nor, where they matter, underflow. V is accumulated as a quaternion and U is built around
-//! its first column: both are rotations by construction, whatever the rank of F, instead of matrices that may
-//! turn out to be reflections. Each stretch is known to a few u λ1 and no better, as from any backward-stable
-//! method; when λ3 is smaller than that, so is its sign, unless [`svd_signed_by_determinant`] takes it from
-//! the determinant.
+//! neither overflow nor, where they matter, underflow. FᵀF loses half of the digits of small stretches, but an
+//! error of u λ1² in it turns the vector apart so far only as changes F by u λ1. V is a product of rotations
+//! and U is built around its first column: both are rotations by construction, whatever the rank of F, instead
+//! of matrices that may turn out to be reflections. Each stretch is known to a few u λ1 and no better, as from
+//! any backward-stable method; when λ3 is smaller than that, so is its sign, unless
+//! [`svd_signed_by_determinant`] takes it from the determinant.
 //!
 //! This module knows no material. Reading V by columns vk and U by columns uk, F vk = λk uk.
 //!
@@ -21,7 +24,7 @@
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
 use super::Matrix3;
-use super::deflation::{Deflation, deflate};
+use super::deflation::{Deflation, deflate, rotation};
 use super::matrix::{dot, three, transpose};
 use crate::lanes::{Mask, Real};
 
@@ -111,9 +114,9 @@ fn vanishes<R: Real>(x: R) -> R::Mask {
 /// The decomposition with every axis that is a principal direction exactly in the frames, and its stretch
 /// exact: zeros of F that a plane of symmetry makes are then zeros of P and dP/dF too.
 ///
-/// Jacobi's rotations never mix the column of such an axis with the others, so that the frames are that
-/// exact already but for the rounding of a quaternion that exchanges columns. Where U does not contain the
-/// axis to rounding, as at rank one, where nothing else tells two directions apart, it is left as it is.
+/// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already, but
+/// for the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where nothing else
+/// tells two directions apart, it is left as it is.
 #[inline(always)]
 pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;
@@ -171,8 +174,8 @@ fn right<R: Real>(F: &Matrix3<R>) -> [[R; 3]; 3] {
     let C = [dot(f1, f1), dot(f2, f2), dot(f3, f3), dot(f1, f2), dot(f1, f3), dot(f2, f3)];
     let Deflation { frame: [v, p, q], is_largest } = deflate(C);
 
-    // One Jacobi rotation in the plane of the other two, of the columns of F and not of C: however small these
-    // stretches are, they become orthogonal to working precision.
+    // A rotation in the plane of the other two, which takes its angle from F and not from C: however small
+    // these stretches are, their columns of F V become orthogonal to working precision.
     let (bp, bq) = (three!(i => dot(F[i], p)), three!(i => dot(F[i], q)));
     let half_g = dot(bp, bq);
     let (c, s) = rotation(dot(bp, bp) - dot(bq, bq), half_g + half_g);
@@ -182,25 +185,6 @@ fn right<R: Real>(F: &Matrix3<R>) -> [[R; 3]; 3] {
         three!(i => R::select(is_largest, p[i], q[i])),
         three!(i => R::select(is_largest, q[i], v[i])),
     ]
-}
-
-/// Cosine and sine of θ with tan 2θ = g/d, where d = |bp|² − |bq|² and g = 2 bp·bq, and cos θ ≥ 0.
-///
-/// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation, and in both
-/// cases the root that leaves |bp| ≥ |bq|. A rough root gives a rough angle.
-#[inline(always)]
-fn rotation<R: Real>(d: R, g: R) -> (R, R) {
-    // Two columns this much shorter than the longest need not be orthogonal, but c = 1 where d = g = 0: the
-    // root is then twice that of the smallest normal number, its square normal, and c² + s² = 1 to rounding
-    // down here too.
-    let floor = R::splat(4.0 * R::MIN_POSITIVE);
-    let squared = d.mul_add(d, g.mul_add(g, floor));
-    let x = d.abs() + squared.sqrt();
-    let swap = d.less(R::splat(0.0));
-    let cosine = R::select(swap, g.abs(), x);
-    let sine = R::select(swap, x.copysign(g), g);
-    let scale = x.mul_add(x, g * g).reciprocal_sqrt();
-    (cosine * scale, sine * scale)
 }
 
 /// U and λ from columns bk = λk uk that are orthogonal up to rounding, the longest first.
@@ -300,14 +284,4 @@ fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
-}
-
-pub(super) const fn sweeps(unit_roundoff: f64) -> usize {
-    let mut reached = 1.0 / (1u64 << 27) as f64;
-    let mut sweeps = 4;
-    while reached > unit_roundoff {
-        reached *= reached;
-        sweeps += 1;
-    }
-    sweeps
 }
