@@ -177,7 +177,7 @@ impl ElementGroup {
     }
 }
 
-fn determinant([[a, b, c], [d, e, f], [g, h, i]]: &Matrix3<f64>) -> f64 {
+pub(super) fn determinant([[a, b, c], [d, e, f], [g, h, i]]: &Matrix3<f64>) -> f64 {
     a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
 }
 
