@@ -1,9 +1,8 @@
-//! The eigenvector of a symmetric 3×3 matrix that can be told from the others, in closed form.
+//! The eigenvector of a symmetric 3×3 matrix whose eigenvalue lies apart from the other two, in closed form.
 //!
 //! Two eigenvalues may be close, or equal, and then their eigenvectors are anything in a plane. The third one
-//! is never close to both unless all three are equal, when any frame will do. So it is found first
-//! \[SD08\]; what is left is a problem of two dimensions, which one Jacobi rotation solves whatever
-//! the gap.
+//! is never close to both unless all three are equal, when any frame will do. So its eigenvector is found
+//! first \[SD08\]; what is left is a problem of two dimensions, which one rotation solves whatever the gap.
 //!
 //! **Eigenvalue.** With the deviator D = A − (tr A/3) I and p² = |D|²/6, the eigenvalues of B = D/p are
 //! 2 cos(φ + 2πk/3), cos 3φ = r = det B/2 \[Smith61\]. The one apart has the sign of r and the magnitude 2y,
@@ -20,11 +19,11 @@
 //! largest entry on the diagonal, at least 2, is free of cancellation.
 //!
 //! **Plane.** The rotation about eₗ × v that takes eₗ to v, where vₗ ≥ 1/√3 is the largest component of v,
-//! takes the other two axes into the plane normal to v. A coordinate plane that contains v, or is normal to it,
-//! is kept exactly: zeros of A stay zeros.
+//! takes the other two axes into the plane normal to v. A coordinate plane that contains v, or is normal to
+//! it, is kept exactly: zeros of A stay zeros.
 //!
-//! **Error.** The vectors are orthonormal to a few u, and v is the eigenvector of a matrix that differs from A
-//! by a few u ‖D‖.
+//! **Error.** The vectors are orthonormal to a few u, and v is the eigenvector of a matrix that differs from
+//! A by a few u ‖A‖.
 //!
 //! \[SD08\] Scherzinger, Dohrmann, *A robust algorithm for finding the eigenvalues and eigenvectors of 3×3
 //! symmetric matrices*, 2008. \[Smith61\] Smith, *Eigenvalues of a symmetric 3×3 matrix*, 1961.
@@ -97,14 +96,14 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     }
 }
 
-/// Cosine and sine of the angle θ, cos θ ≥ 0, by which p and q turn to become eigenvectors in their plane, that
-/// of the larger eigenvalue first: tan 2θ = g/d with d = pᵀA p − qᵀA q and g = 2 pᵀA q.
+/// Cosine and sine of the angle θ, cos θ ≥ 0, by which p and q turn to become eigenvectors in their plane,
+/// that of the larger eigenvalue first: tan 2θ = g/d with d = pᵀA p − qᵀA q and g = 2 pᵀA q.
 ///
 /// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation.
 #[inline(always)]
 pub(super) fn rotation<R: Real>(d: R, g: R) -> (R, R) {
-    // What is this small may keep its direction, but c = 1 where d = g = 0: the root is then twice that of the
-    // smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
+    // What is this small may keep its direction, but c = 1 where d = g = 0: the root is then twice that of
+    // the smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
     let floor = R::splat(4.0 * R::MIN_POSITIVE);
     let squared = d.mul_add(d, g.mul_add(g, floor));
     let x = d.abs() + squared.sqrt();
@@ -170,8 +169,51 @@ const fn newton_steps(unit_roundoff: f64) -> usize {
     let mut steps = 0;
     while reached > unit_roundoff {
         // f″/2f′ of f = 4y³ − 3y is below 2.
-        reached *= 2.0 * reached;
+        reached = 2.0 * (reached * reached);
         steps += 1;
     }
     steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    #[test]
+    fn the_cosine_of_a_third_is_that_of_trigonometric_functions() {
+        for k in 0..=10_000 {
+            let x = f64::from(k) / 10_000.0;
+            let expected = (x.acos() / 3.0).cos();
+            // acos loses digits next to 1, but its third part only those that the cosine does not show.
+            assert!((cosine_of_third(x) - expected).abs() <= 2.0 * f64::EPSILON, "{x}");
+            assert!((cosine_of_third(x as f32) - expected as f32).abs() <= 2.0 * f32::EPSILON, "{x}");
+        }
+    }
+
+    /// The vector apart is an eigenvector to rounding, its eigenvalue is the largest or smallest one, and
+    /// the frame is a rotation, whatever the gaps.
+    #[test]
+    fn one_eigenvector_is_split_off() {
+        let mut random = Random::new(1);
+        for k in 0..20_000 {
+            let gap = 2f64.powf(random.uniform(-60.0, 0.0));
+            let eigenvalues = [[1.0, 1.0 - gap, 0.3], [1.0, gap, 0.0], [1.0, 1.0 + gap, 1.0 - gap]][k % 3];
+            let Q = random.rotation();
+            let entry = |i: usize, j: usize| (0..3).map(|k| Q[i][k] * eigenvalues[k] * Q[j][k]).sum::<f64>();
+            let A: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+            let Deflation { frame: [v, p, q], is_largest } =
+                deflate([A[0][0], A[1][1], A[2][2], A[0][1], A[0][2], A[1][2]]);
+            let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+            let [Av, Ap, Aq] = [v, p, q].map(|x| A.map(|row| dot(row, x)));
+            let rounding = 20.0 * f64::EPSILON;
+            assert!(dot(p, Av).abs() < rounding && dot(q, Av).abs() < rounding, "{A:?}");
+            let (apart, others) = (dot(v, Av), [dot(p, Ap), dot(q, Aq)]);
+            let beyond = others.map(|other| if is_largest { apart - other } else { other - apart });
+            assert!(beyond.into_iter().all(|gap| gap > -rounding), "{A:?}");
+            for (x, y) in [(v, p), (p, q), (q, v)] {
+                assert!(dot(x, y).abs() < rounding && (dot(x, x) - 1.0).abs() < rounding, "{A:?}");
+            }
+        }
+    }
 }

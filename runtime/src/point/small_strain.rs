@@ -24,8 +24,8 @@
 //! si = λi − 1 = (λi² − 1)/(λi + 1) = qi / (1 + √(1 + qi))
 //! ```
 //!
-//! The eigenvector that lies apart from the others is found first, then one rotation the other two: V and q are
-//! the exact ones of a matrix that differs from 2E by a few u ‖E‖.
+//! The eigenvector that lies apart from the others is found first, then one rotation the other two: V and q
+//! are the exact ones of a matrix that differs from 2E by a few u ‖E‖.
 //!
 //! **Stress.** [`Material::gradient_at_strains`](crate::Material::gradient_at_strains)
 //! gives ψi from the si. U need not be known, since U diag(λ) =

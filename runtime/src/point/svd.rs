@@ -2,17 +2,17 @@
 //!
 //! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\].
 //! The frame V of principal directions at rest comes from FᵀF where that is safe, and from F elsewhere: the
-//! eigenvector of FᵀF that lies apart from the others in closed form, see [`deflate`], and the other two by
-//! one rotation that makes the columns of F V orthogonal, one-sided as Jacobi's method is \[DV92\]. There is
-//! no branch on a value and no count that depends on one, so that a matrix among others in lanes gets the bits
-//! it would get alone.
+//! eigenvector of FᵀF that lies apart from the others in closed form, and the other two by one rotation that
+//! makes the columns of F V orthogonal, one-sided as Jacobi's method is \[DV92\]. There is no branch on a
+//! value and no count that depends on one, so that a matrix among others in lanes gets the bits it would get
+//! alone.
 //!
 //! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares
-//! neither overflow nor, where they matter, underflow. FᵀF loses half of the digits of small stretches, but an
-//! error of u λ1² in it turns the vector apart so far only as changes F by u λ1. V is a product of rotations
-//! and U is built around its first column: both are rotations by construction, whatever the rank of F, instead
-//! of matrices that may turn out to be reflections. Each stretch is known to a few u λ1 and no better, as from
-//! any backward-stable method; when λ3 is smaller than that, so is its sign, unless
+//! neither overflow nor, where they matter, underflow. FᵀF loses half of the digits of small stretches, but
+//! an error of u λ1² in it turns the vector apart so far only as changes F by u λ1. V is a product of
+//! rotations and U is built around its first column: both are rotations by construction, whatever the rank of
+//! F, instead of matrices that may turn out to be reflections. Each stretch is known to a few u λ1 and no
+//! better, as from any backward-stable method; when λ3 is smaller than that, so is its sign, unless
 //! [`svd_signed_by_determinant`] takes it from the determinant.
 //!
 //! This module knows no material. Reading V by columns vk and U by columns uk, F vk = λk uk.
@@ -114,9 +114,9 @@ fn vanishes<R: Real>(x: R) -> R::Mask {
 /// The decomposition with every axis that is a principal direction exactly in the frames, and its stretch
 /// exact: zeros of F that a plane of symmetry makes are then zeros of P and dP/dF too.
 ///
-/// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already, but
-/// for the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where nothing else
-/// tells two directions apart, it is left as it is.
+/// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already,
+/// but for the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where
+/// nothing else tells two directions apart, it is left as it is.
 #[inline(always)]
 pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;

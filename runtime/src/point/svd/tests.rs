@@ -1,5 +1,6 @@
 //! The oracle is the definition: residuals of F − U diag(λ) Vᵀ, UᵀU − I, VᵀV − I in about 106 bits, sharing
-//! no code with the kernel, over families of matrices chosen to hurt one-sided Jacobi.
+//! no code with the kernel, over families of matrices chosen to hurt: equal and vanishing stretches, bad
+//! scaling, every rank.
 
 use super::*;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};

@@ -69,8 +69,8 @@ fn check_in_space(material: &impl Material, F: &Matrix2<f64>, found: &PlanePoint
     }
     let error = (found.out_of_plane_stress - P[2][2]).abs();
     assert!(error <= limit, "P33: {error:e} above {limit:e} at {F:?}");
-    // The second derivatives of these energies change by less than 50 M for a unit of F, but by M/|λ1 + λ2| next
-    // to the pole of a twist. Both decompositions are those of an F that differs by 20 u.
+    // The second derivatives of these energies change by less than 50 M for a unit of F, but by M/|λ1 + λ2|
+    // next to the pole of a twist. Both decompositions are those of an F that differs by 20 u.
     let [a, b] = plane_svd(F).stretches;
     let limit_of_tangent = 0.4 * (1.0 / (a + b)).max(50.0) * limit;
     let error = difference(&found.tangent.to_matrix(), &condensed(&dP_dF, is_free));

@@ -1,9 +1,10 @@
 //! A search for matrices that hurt the decomposition most, and the worst it has found.
 //!
 //! `found.txt` holds one matrix per line: the kernel, the quantity, the precision, the error in eps when it
-//! was found on the worst back end of a machine with AVX-512, and nine entries as bit patterns, row by row.
-//! The search that writes such lines climbs on from them and from new starts. It takes the same few steps
-//! every time; `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
+//! was found on the worst back end of its machine, and nine entries as bit patterns, row by row. The last
+//! eight lines were found for the present kernels, the others for Jacobi's method. The search that writes
+//! such lines climbs on from them and from new starts. It takes the same few steps every time;
+//! `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
 //!
 //! ```text
 //! PIOLA_SEARCH_SECONDS=1200 cargo test -p piola --lib search_for_the_worst -- --nocapture
