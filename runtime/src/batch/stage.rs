@@ -33,8 +33,7 @@ use crate::status::Status;
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
 #[cfg(not(unoptimised))]
 type InTurns<R> = <R as Lanes>::Interleaved;
-/// Without optimisation every intermediate result has its own place in memory: 5 MiB of them, interleaved,
-/// where a thread has 2.
+/// Without optimisation every intermediate result has its own place on the stack, and a thread has 2 MiB.
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 

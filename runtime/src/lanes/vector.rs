@@ -13,8 +13,8 @@ pub trait Lanes: Real {
 
     /// Several registers that take turns, for kernels whose operations wait for each other.
     ///
-    /// Each gets the bits that it would get alone. On x86-64 there are four, which spill and are still the
-    /// fastest for the singular value decomposition; an array of numbers is its own.
+    /// Each gets the bits that it would get alone. On x86-64 there are two: the singular value decomposition
+    /// spills with them, and is still faster than with one. Scalars and portable lanes are their own.
     type Interleaved: Lanes<Scalar = Self::Scalar>;
 
     /// The number of lanes.

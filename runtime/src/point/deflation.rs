@@ -43,7 +43,7 @@ pub(super) struct Deflation<R: Real> {
 
 /// Splits an eigenvector off the symmetric matrix with the entries a11, a22, a33, a12, a13, a23.
 ///
-/// Their magnitude is at most 12, so that nothing overflows. Entries that are not finite make the frame NaN.
+/// Their squares must not overflow. Entries that are not finite make the frame NaN.
 #[inline(always)]
 pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     let [one, two] = [R::splat(1.0), R::splat(2.0)];
@@ -53,7 +53,8 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     let [d11, d22] = [a11 - mean, a22 - mean];
     let d33 = -(d11 + d22);
 
-    // Where D vanishes, or its square underflows, B does too, and v becomes e1.
+    // Where D vanishes, B does too, and v becomes e1. Where its square underflows, v may be any vector, which
+    // is as good.
     let off_diagonal = a12.mul_add(a12, a13.mul_add(a13, a23 * a23));
     let squared = d11.mul_add(d11, d22.mul_add(d22, d33.mul_add(d33, two * off_diagonal)));
     let floor = R::splat(R::MIN_POSITIVE);
@@ -64,7 +65,9 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     let minor1 = b22.mul_add(b33, -(b23 * b23));
     let minor2 = b12.mul_add(b33, -(b23 * b13));
     let minor3 = b12.mul_add(b23, -(b22 * b13));
-    let r = R::splat(0.5) * b11.mul_add(minor1, b13.mul_add(minor3, -(b12 * minor2)));
+    let determinant = b11.mul_add(minor1, b13.mul_add(minor3, -(b12 * minor2)));
+    // The sum makes +0 of −0, so that the frame of A = 0 is the identity.
+    let r = determinant.mul_add(R::splat(0.5), R::splat(0.0));
     let twice_y = two * cosine_of_third(r.abs().min(one));
     let eigenvalue = twice_y.copysign(r);
 

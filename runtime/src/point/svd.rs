@@ -1,11 +1,10 @@
 //! The signed singular value decomposition of a deformation gradient.
 //!
 //! F = U diag(λ) Vᵀ with det U = det V = +1 and λ1 ≥ λ2 ≥ |λ3|; the sign of λ3 is that of det F \[ITF04\].
-//! The frame V of principal directions at rest comes from FᵀF where that is safe, and from F elsewhere: the
-//! eigenvector of FᵀF that lies apart from the others in closed form, and the other two by one rotation that
-//! makes the columns of F V orthogonal, one-sided as Jacobi's method is \[DV92\]. There is no branch on a
-//! value and no count that depends on one, so that a matrix among others in lanes gets the bits it would get
-//! alone.
+//! One column of V is the eigenvector of FᵀF whose eigenvalue lies apart from the other two, in closed form.
+//! The other two columns are found by one rotation that makes the columns of F V orthogonal, one-sided as
+//! Jacobi's method is \[DV92\]. There is no branch on a value and no count that depends on one, so that a
+//! matrix among others in lanes gets the bits it would get alone.
 //!
 //! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares
 //! neither overflow nor, where they matter, underflow. FᵀF loses half of the digits of small stretches, but
@@ -45,7 +44,7 @@ pub struct Svd<R> {
 
 /// Decomposes F; see [`Svd`].
 ///
-/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 20 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I
+/// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 24 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I
 /// exceeds 20 u. F = 0 gives U = V = I. Where F holds an infinity or NaN, so does every stretch; where λ1
 /// exceeds the largest finite number, it is infinite.
 ///
@@ -148,9 +147,8 @@ pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
 
 /// F brought to a magnitude between 1 and 2 by a power of two, and the power that brings stretches back.
 ///
-/// What is not finite is left so and needs no mask: the length of its column makes the first cosine NaN (∞
-/// times the reciprocal of ∞ where it is not NaN itself), the quaternion spreads that over V, and F V over
-/// every stretch.
+/// What is not finite is left so and needs no mask: the mean of the diagonal of FᵀF is then infinite or NaN,
+/// its deviator holds NaN, the frame is NaN, and F V spreads that over every stretch.
 #[inline(always)]
 fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
     let rows: [R; 3] = three!(i => F[i][0].abs().max(F[i][1].abs()).max(F[i][2].abs()));
@@ -174,8 +172,8 @@ fn right<R: Real>(F: &Matrix3<R>) -> [[R; 3]; 3] {
     let C = [dot(f1, f1), dot(f2, f2), dot(f3, f3), dot(f1, f2), dot(f1, f3), dot(f2, f3)];
     let Deflation { frame: [v, p, q], is_largest } = deflate(C);
 
-    // A rotation in the plane of the other two, which takes its angle from F and not from C: however small
-    // these stretches are, their columns of F V become orthogonal to working precision.
+    // A rotation in the plane of the other two, which takes its angle from F and not from C, where small
+    // stretches have lost half of their digits: the columns of F V become orthogonal up to u λ1.
     let (bp, bq) = (three!(i => dot(F[i], p)), three!(i => dot(F[i], q)));
     let half_g = dot(bp, bq);
     let (c, s) = rotation(dot(bp, bp) - dot(bq, bq), half_g + half_g);

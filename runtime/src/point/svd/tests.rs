@@ -120,8 +120,11 @@ fn residual(F: &Exact, U: &Exact, stretches: [f64; 3], V: &Exact) -> f64 {
     }))
 }
 
-/// What the documentation promises of every error, in units of eps = 2u: 20 u.
-const BOUND: f64 = 10.0;
+/// Promised of the backward error, in units of eps = 2u: 24 u.
+const BACKWARD: f64 = 12.0;
+
+/// Promised of the orthogonality of U and V, in units of eps: 20 u.
+const ORTHOGONALITY: f64 = 10.0;
 
 /// Worst errors over a family, in units of eps = 2u.
 #[derive(Debug, Default)]
@@ -156,7 +159,8 @@ impl Worst {
     #[track_caller]
     fn check(&self, family: &str) {
         let Self { backward, left, right } = *self;
-        assert!(backward <= BOUND && left <= BOUND && right <= BOUND, "{family}: {self:.2?} eps");
+        let is_orthogonal = left <= ORTHOGONALITY && right <= ORTHOGONALITY;
+        assert!(backward <= BACKWARD && is_orthogonal, "{family}: {self:.2?} eps");
     }
 }
 
@@ -346,9 +350,15 @@ fn signed_permutations_and_diagonals_are_exact() {
 
 #[test]
 fn nothing_at_all_gives_identities() {
-    let zero = svd::<f64>(&[[0.0; 3]; 3]);
     let identity = diagonal([1.0; 3]);
-    assert_eq!((zero.U, zero.stretches, zero.V), (identity, [0.0; 3], identity));
+    for signs in 0..1 << 9 {
+        let zero = |k: usize| if signs >> k & 1 == 1 { -0.0 } else { 0.0 };
+        let F: Exact = std::array::from_fn(|i| std::array::from_fn(|j| zero(3 * i + j)));
+        for (backend, answers) in by_every_backend(Method::Plain, &[F]) {
+            let found = (answers[0].U, answers[0].stretches, answers[0].V);
+            assert_eq!(found, (identity, [0.0; 3], identity), "{F:?}, {backend}");
+        }
+    }
 }
 
 #[test]

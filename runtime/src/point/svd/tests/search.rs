@@ -1,8 +1,8 @@
 //! A search for matrices that hurt the decomposition most, and the worst it has found.
 //!
 //! `found.txt` holds one matrix per line: the kernel, the quantity, the precision, the error in eps when it
-//! was found on the worst back end of its machine, and nine entries as bit patterns, row by row. The last
-//! eight lines were found for the present kernels, the others for Jacobi's method. The search that writes
+//! was found on the worst back end of its machine, and nine entries as bit patterns, row by row. The first
+//! lines were found for Jacobi's method, the last ten for the present kernels. The search that writes
 //! such lines climbs on from them and from new starts. It takes the same few steps every time;
 //! `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
 //!
@@ -69,6 +69,7 @@ fn error<R: Bits>(method: Method, quantity: &str, F: &Exact) -> f64 {
 
 /// A line of `found.txt`.
 struct Found {
+    quantity: &'static str,
     precision: &'static str,
     error: f64,
     bits: [u64; 9],
@@ -77,9 +78,10 @@ struct Found {
 impl Found {
     fn all() -> Vec<Self> {
         let line = |line: &'static str| {
-            let mut words = line.split(' ').skip(2);
+            let mut words = line.split(' ').skip(1);
             let mut word = || words.next().expect("thirteen words in a line");
             Self {
+                quantity: word(),
                 precision: word(),
                 error: word().parse().expect("the error in eps"),
                 bits: std::array::from_fn(|_| u64::from_str_radix(word(), 16).expect("a bit pattern")),
@@ -105,7 +107,7 @@ fn start(random: &mut Random) -> Exact {
     let mut exponent = |deepest: f64| 2f64.powf(random.uniform(-deepest, 0.0));
     let spectrum = [1.0, exponent(60.0), exponent(60.0)];
     let gap = exponent(60.0);
-    match pick(random, 6) {
+    match pick(random, 7) {
         0 => random.matrix(),
         1 => product(&random.rotation(), &product(&diagonal(spectrum), &random.rotation())),
         2 => product(
@@ -114,6 +116,7 @@ fn start(random: &mut Random) -> Exact {
         ),
         3 => perturbed(&random.rotation(), gap, &random.matrix()),
         4 => random.matrix().map(|row| row.map(|x| x * 2f64.powi(-(pick(random, 50) as i32)))),
+        5 => perturbed(&diagonal([1.0, 1.0 + gap, 1.0 - gap]), spectrum[1], &random.matrix()),
         _ => product(&diagonal(spectrum), &product(&random.matrix(), &diagonal([gap, 1.0, spectrum[2]]))),
     }
 }
@@ -213,7 +216,11 @@ fn report<R: Bits>((kernel, method): (&str, Method), quantity: &str, budget: Bud
     let (error, F) = search::<R>(method, quantity, budget, seed);
     let bits: Vec<_> = F.iter().flatten().map(|&x| format!("{:x}", R::splat(x).bits())).collect();
     println!("{kernel} {quantity} {} {error:.3} {}", R::NAME, bits.join(" "));
-    assert!(error <= BOUND, "{quantity} error of {kernel}: {error} eps for {F:?}");
+    assert!(error <= bound(quantity), "{quantity} error of {kernel}: {error} eps for {F:?}");
+}
+
+fn bound(quantity: &str) -> f64 {
+    if quantity == "backward" { BACKWARD } else { ORTHOGONALITY }
 }
 
 #[test]
@@ -236,10 +243,10 @@ fn the_worst_that_was_found_stays_within_the_bound() {
         for (kernel, method) in KERNELS {
             for quantity in QUANTITIES {
                 let error = error::<R>(method, quantity, &F);
-                assert!(error <= BOUND, "{quantity} error of {kernel}: {error} eps for {F:?}");
+                assert!(error <= bound(quantity), "{quantity} error of {kernel}: {error} eps for {F:?}");
             }
         }
-        found.error <= BOUND
+        found.error <= bound(found.quantity)
     }
     let all = Found::all();
     assert!(all.iter().all(|found| check::<f64>(found) || check::<f32>(found)));
