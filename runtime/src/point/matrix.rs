@@ -59,6 +59,12 @@ pub(crate) fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
     x[0].mul_add(y[0], x[1].mul_add(y[1], x[2] * y[2]))
 }
 
+/// A x for the symmetric A with the entries a11, a22, a33, a12, a13, a23.
+#[inline(always)]
+pub(crate) fn multiply_symmetric<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6], x: [R; 3]) -> [R; 3] {
+    [dot([a11, a12, a13], x), dot([a12, a22, a23], x), dot([a13, a23, a33], x)]
+}
+
 /// Column `j` of A.
 #[inline(always)]
 pub(crate) fn column<R: Real>(A: &Matrix3<R>, j: usize) -> [R; 3] {

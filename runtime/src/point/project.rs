@@ -13,21 +13,15 @@
 //!
 //! Let A be symmetric with eigenvalues of both signs, f the filter, |·| the spectral norm. Of the three
 //! eigenvalues the middle one is closer to one end than to the other; call the end that stands apart ν. The
-//! spread between the ends is at least
-//! |A|, or they would have the same sign, so that ν is |A|/2 or more away from both others, whatever these do. From
-//! this follows that nothing below loses digits, and no case is special: not two eigenvalues near zero, not
-//! two equal ones.
+//! spread between the ends is at least |A|, or they would have the same sign, so that ν is |A|/2 or more away
+//! from both others, whatever these do. From this follows that nothing below loses digits, and no case is
+//! special: not two eigenvalues near zero, not two equal ones.
 //!
-//! **ν.** With q = tr A/3, C = A − q I and p² = tr C²/6, the eigenvalues are q + p y for the roots of y³ − 3y
-//! = 2x, x = det C/(2p³), and the one apart is of the sign of x and has |y| = 2 cos(⅓ arccos |x|), between √3
-//! and 2. There the derivative 3y² − 3 is at least 6: a polynomial and a Newton step give y to rounding.
+//! **ν and its vector** p, with an orthonormal basis v, w of the plane normal to p, are split off in closed
+//! form (`point/deflation.rs`); ν = pᵀA p.
 //!
-//! **Its vector** p is the largest column of the adjugate of A − ν I, which is p pᵀ times the product of the
-//! distances to the other two eigenvalues. That is at least |A|²/2, which no rounding of the adjugate, u
-//! |A|², can hurt.
-//!
-//! **The other two** are those of the 2×2 matrix M of A in an orthonormal basis v, w of the plane normal to
-//! p: m ± r, with m half its trace and r² = −det of what M is beside m.
+//! **The other two** are those of the 2×2 matrix M of A in that basis: m ± r, with m half its trace and r² =
+//! −det of what M is beside m.
 //!
 //! **The filtered matrix** is f(ν) p pᵀ + (v w) f(M) (v w)ᵀ with
 //!
@@ -47,8 +41,8 @@
 
 #![expect(non_snake_case, reason = "A, L, Q as in linear algebra")]
 
-use super::matrix::{dot, three};
-use super::svd::completed;
+use super::deflation::{Deflation, deflate};
+use super::matrix::{dot, multiply_symmetric, three};
 use crate::lanes::{Mask, Real};
 use crate::material::{Blocks, PAIRS};
 
@@ -143,11 +137,9 @@ fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
 #[inline(always)]
 fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (zero, half) = (R::splat(0.0), R::splat(0.5));
-    let nu = eigenvalue_apart(A);
-    let p = vector_apart(A, nu);
-    let (v, w) = completed(p);
-
-    let (Av, Aw) = (times(A, v), times(A, w));
+    let Deflation { frame: [p, v, w], .. } = deflate(A);
+    let (Ap, Av, Aw) = (multiply_symmetric(A, p), multiply_symmetric(A, v), multiply_symmetric(A, w));
+    let nu = dot(p, Ap);
     let (m11, m12, m22) = (dot(v, Av), dot(v, Aw), dot(w, Aw));
     let (m, d) = (half * (m11 + m22), half * (m11 - m22));
     // Beside an eigenvalue that is cut off the other two may be so small that their squares would underflow.
@@ -183,96 +175,6 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
         R::select(has_positive, f23, a23.mul_add(slope, zero)),
     ];
     (answer, smaller.min(nu))
-}
-
-/// A x.
-#[inline(always)]
-fn times<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6], x: [R; 3]) -> [R; 3] {
-    [dot([a11, a12, a13], x), dot([a12, a22, a23], x), dot([a13, a23, a33], x)]
-}
-
-/// tr T²/2 of a symmetric matrix.
-#[inline(always)]
-fn half_square<R: Real>(t11: R, t22: R, t33: R, t12: R, t13: R, t23: R) -> R {
-    let diagonal = t11.mul_add(t11, t22.mul_add(t22, t33 * t33));
-    diagonal.mul_add(R::splat(0.5), t12.mul_add(t12, t13.mul_add(t13, t23 * t23)))
-}
-
-/// The eigenvalue at the end of the spectrum that is farther from the middle one.
-#[inline(always)]
-fn eigenvalue_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6]) -> R {
-    let one = R::splat(1.0);
-    let q = (a11 + a22 + a33) * R::splat(1.0 / 3.0);
-    let (c11, c22, c33) = (a11 - q, a22 - q, a33 - q);
-    // Below u² this is that of a multiple of the identity, whose p may be anything from 0 to u.
-    let floor = R::splat(R::UNIT_ROUNDOFF * R::UNIT_ROUNDOFF);
-    let p_squared = half_square(c11, c22, c33, a12, a13, a23) * R::splat(1.0 / 3.0);
-    let inverse = p_squared.max(floor).reciprocal_sqrt();
-    let p = p_squared * inverse;
-
-    let det = c11.mul_add(
-        c22.mul_add(c33, -(a23 * a23)),
-        a12.mul_add(a13.mul_add(a23, -(a12 * c33)), a13 * a12.mul_add(a23, -(c22 * a13))),
-    );
-    let two_x = det * (inverse * inverse * inverse);
-    let x = (two_x.abs() * R::splat(0.5)).min(one);
-    let mut y = R::splat(0.0);
-    for k in (0..COSINE_OF_A_THIRD.len()).rev() {
-        y = y.mul_add(x, R::splat(COSINE_OF_A_THIRD[k]));
-    }
-    for _ in 0..newton_steps(R::UNIT_ROUNDOFF) {
-        let squared = y * y;
-        let residual = y.mul_add(squared - R::splat(3.0), -(x + x));
-        y = y - residual / squared.mul_add(R::splat(3.0), R::splat(-3.0));
-    }
-    p.mul_add(y.copysign(two_x), q)
-}
-
-/// 2 cos(⅓ arccos x) for 0 ≤ x ≤ 1 to 2⁻²⁸, by interpolation in Chebyshev's points. The nearest singularity
-/// is at −1.
-const COSINE_OF_A_THIRD: [f64; 9] = [
-    1.7320508111991306,
-    0.3333327422889914,
-    -0.096208882905821,
-    0.04920859358455466,
-    -0.030214550322650593,
-    0.018766661142810205,
-    -0.009859382347358756,
-    0.003529713748188638,
-    -0.0006057084034768052,
-];
-
-/// Steps that bring the 2⁻²⁸ of the polynomial below the unit roundoff; each squares it.
-const fn newton_steps(unit_roundoff: f64) -> usize {
-    let mut reached = 1.0 / (1u64 << 28) as f64;
-    let mut steps = 0;
-    while reached > unit_roundoff {
-        reached *= reached;
-        steps += 1;
-    }
-    steps
-}
-
-/// The unit eigenvector of an eigenvalue that stands apart from the others.
-#[inline(always)]
-fn vector_apart<R: Real>([a11, a22, a33, a12, a13, a23]: [R; 6], eigenvalue: R) -> [R; 3] {
-    let (s11, s22, s33) = (a11 - eigenvalue, a22 - eigenvalue, a33 - eigenvalue);
-    let minor11 = s22.mul_add(s33, -(a23 * a23));
-    let minor22 = s11.mul_add(s33, -(a13 * a13));
-    let minor33 = s11.mul_add(s22, -(a12 * a12));
-    let minor12 = a13.mul_add(a23, -(a12 * s33));
-    let minor13 = a12.mul_add(a23, -(a13 * s22));
-    let minor23 = a12.mul_add(a13, -(a23 * s11));
-
-    let (first, second, third) =
-        ([minor11, minor12, minor13], [minor12, minor22, minor23], [minor13, minor23, minor33]);
-    let is_second = minor11.less(minor22);
-    let column = three!(i => R::select(is_second, second[i], first[i]));
-    let is_third = minor11.max(minor22).less(minor33);
-    let column = three!(i => R::select(is_third, third[i], column[i]));
-    // Zero, or anything, only where there are not both signs.
-    let inverse = dot(column, column).max(R::splat(R::MIN_POSITIVE)).reciprocal_sqrt();
-    three!(i => column[i] * inverse)
 }
 
 /// Whether every eigenvalue is positive whatever rounding did: LDLᵀ of A − 64 u I has positive pivots.

@@ -60,7 +60,7 @@
 #![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
 
 use super::deflation::{Deflation, deflate, rotation};
-use super::matrix::{column, dot, multiply_transposed};
+use super::matrix::{column, dot, multiply_symmetric, multiply_transposed};
 use super::{
     Filter, Matrix3, Point, energy_is_finite, evaluate, evaluate_energy, evaluate_stress, stress_is_finite,
 };
@@ -271,10 +271,8 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
 /// Eigenvalues, and eigenvectors as the columns of V, of a symmetric matrix of magnitude 1 to 2.
 #[inline(always)]
 fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], Matrix3<R>) {
-    let [a11, a22, a33, a12, a13, a23] = A;
     let Deflation { frame: [v, p, q], .. } = deflate(A);
-    let A = [[a11, a12, a13], [a12, a22, a23], [a13, a23, a33]];
-    let [Av, Ap, Aq] = [v, p, q].map(|x| A.map(|row| dot(row, x)));
+    let (Av, Ap, Aq) = (multiply_symmetric(A, v), multiply_symmetric(A, p), multiply_symmetric(A, q));
     let (app, apq, aqq) = (dot(p, Ap), dot(p, Aq), dot(q, Aq));
     let (c, s) = rotation(app - aqq, apq + apq);
     let eigenvalues = [

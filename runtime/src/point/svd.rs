@@ -219,7 +219,7 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
 
 /// p and q that complete a unit vector to a right-handed orthonormal basis \[Duff17\].
 #[inline(always)]
-pub(super) fn completed<R: Real>([x, y, z]: [R; 3]) -> ([R; 3], [R; 3]) {
+fn completed<R: Real>([x, y, z]: [R; 3]) -> ([R; 3], [R; 3]) {
     let one = R::splat(1.0);
     let sign = one.copysign(z);
     let a = -(one / (sign + z));
