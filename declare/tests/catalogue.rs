@@ -18,7 +18,7 @@ use piola::{Inversion, Real, Status, StatusCell};
 use piola_declare::Energy;
 use piola_materials::{
     ArrudaBoyce, CATALOGUE, DECLARATIONS, Entry, FittableVisitor, Gent, NeoHookean, Ogden, RotatedLinear,
-    StretchSpline, Visitor,
+    StretchSpline,
 };
 
 const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
@@ -144,7 +144,7 @@ fn batches_have_the_bits_of_the_compiled_catalogue() {
     for (entry, energy, inversion) in entries() {
         let values = entry.typical();
         let interpreted = energy.material(&values, inversion).expect("typical parameters");
-        let compiled = entry.elements(&values, inversion).expect("typical parameters");
+        let compiled = entry.material(&values, inversion).expect("typical parameters");
         check_batches::<f64>(&format!("{} {inversion:?}", entry.name), &interpreted, &*compiled);
     }
 }
@@ -209,18 +209,11 @@ fn stretches(random: &mut Random) -> [f64; 3] {
 
 #[test]
 fn single_points_have_the_bits_of_the_compiled_catalogue() {
-    struct Boxed;
-    impl Visitor for Boxed {
-        type Output = Box<dyn Response<f64>>;
-        fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-            Box::new(material)
-        }
-    }
     let mut random = Random::new(1);
     for (entry, energy, inversion) in entries() {
         let values = entry.typical();
         let interpreted = energy.material(&values, inversion).expect("typical parameters");
-        let compiled = entry.visit(&values, inversion, Boxed).expect("typical parameters");
+        let compiled = entry.material(&values, inversion).expect("typical parameters");
         assert_eq!(energy.description(), &entry.description, "{}", entry.name);
         for _ in 0..200 {
             let at = stretches(&mut random);
@@ -317,11 +310,6 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
 /// What a constructor refuses, it refuses with the error of the compiled one.
 #[test]
 fn values_are_refused_as_by_the_compiled_catalogue() {
-    struct Built;
-    impl Visitor for Built {
-        type Output = ();
-        fn visit<M: Declared + 'static>(self, _: M) {}
-    }
     let mut refused = 0;
     for entry in CATALOGUE {
         let energy = declared(entry.name);
@@ -350,7 +338,7 @@ fn values_are_refused_as_by_the_compiled_catalogue() {
                     error => error.to_string(),
                 };
                 let found = energy.material(&values, inversion).map(|_| ()).map_err(told);
-                let expected = entry.visit(&values, inversion, Built).map_err(told);
+                let expected = entry.moduli(&values, inversion).map(|_| ()).map_err(told);
                 // By name, lists have the lengths that the catalogue provides for.
                 if expected.as_ref().is_err_and(|error| error.contains("by name, not")) {
                     continue;

@@ -16,15 +16,14 @@
 
 use libfuzzer_sys::fuzz_target;
 use piola::Inversion;
-use piola::material::Declared;
 use piola::point::Matrix3;
-use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::bits::Precision;
+use piola_tests::energies::{ENERGIES, Subject};
 use piola_tests::soundness::{Fault, check, check_element, check_single, check_single_accuracy};
 
 fuzz_target!(|input: &[u8]| {
     let mut input = Input(input);
-    let entry = &CATALOGUE[usize::from(input.byte()) % CATALOGUE.len()];
+    let energy = &ENERGIES[usize::from(input.byte()) % ENERGIES.len()];
     let switches = input.byte();
     let inversion = match switches >> 1 & 3 {
         0 | 1 => Inversion::Refuse,
@@ -36,7 +35,7 @@ fuzz_target!(|input: &[u8]| {
         2 => Origin::Near,
         _ => Origin::Anything,
     };
-    let parameters: Vec<Vec<f64>> = entry
+    let parameters: Vec<Vec<f64>> = energy
         .typical()
         .iter()
         .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
@@ -49,10 +48,10 @@ fuzz_target!(|input: &[u8]| {
             Inversion::Refuse => true,
             Inversion::Extend { epsilon } => epsilon > 1e-3,
         };
-    let trial = Trial { is_single: switches & 1 == 1, is_typical, input };
     // A refusal of the parameters is an answer; what it may not be is a panic.
-    if let Ok(Err((fault, F))) = entry.visit(&parameters, inversion, trial) {
-        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", entry.name);
+    let Ok(subject) = energy.subject(&parameters, inversion) else { return };
+    if let Err((fault, F)) = judge(&subject, switches & 1 == 1, is_typical, input) {
+        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", energy.name);
     }
 });
 
@@ -78,28 +77,23 @@ impl Origin {
     }
 }
 
-struct Trial<'a> {
+fn judge(
+    subject: &Subject,
     is_single: bool,
     is_typical: bool,
-    input: Input<'a>,
-}
-
-impl Visitor for Trial<'_> {
-    type Output = Result<(), (Fault, String)>;
-
-    fn visit<M: Declared + 'static>(mut self, material: M) -> Self::Output {
-        if self.is_single {
-            let F: Matrix3<f32> = self.input.matrix();
-            let mut verdict = check(&material, &F).map(drop);
-            if verdict.is_ok() && self.is_typical && F.iter().flatten().all(|x| x.is_finite()) {
-                verdict = check_single(&material, &F).and_then(|_| check_single_accuracy(&material, &F));
-            }
-            verdict.map_err(|fault| (fault, format!("{F:?}")))
-        } else {
-            let F: Matrix3<f64> = self.input.matrix();
-            let verdict = check(&material, &F).and_then(|_| check_element(&material, &F));
-            verdict.map_err(|fault| (fault, format!("{F:?}")))
+    mut input: Input<'_>,
+) -> Result<(), (Fault, String)> {
+    if is_single {
+        let F: Matrix3<f32> = input.matrix();
+        let mut verdict = check(&*subject.single, &F).map(drop);
+        if verdict.is_ok() && is_typical && F.iter().flatten().all(|x| x.is_finite()) {
+            verdict = check_single(subject, &F).and_then(|_| check_single_accuracy(subject, &F));
         }
+        verdict.map_err(|fault| (fault, format!("{F:?}")))
+    } else {
+        let F: Matrix3<f64> = input.matrix();
+        let verdict = check(&*subject.double, &F).and_then(|_| check_element(&*subject.double, &F));
+        verdict.map_err(|fault| (fault, format!("{F:?}")))
     }
 }
 

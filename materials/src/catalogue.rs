@@ -1,8 +1,7 @@
 //! The energies by name, for programs that choose a material at run time.
 
-use piola::Inversion;
-use piola::batch::TileMaterial;
-use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
+use piola::material::{Declared, Description, Fittable, MaterialError, Moduli, Response};
+use piola::{DynMaterial, Inversion};
 
 #[cfg(doc)]
 use crate::DECLARATIONS;
@@ -198,18 +197,37 @@ impl Entry {
             .collect()
     }
 
-    /// The material for the elements of a body: dispatched once for each block of them.
+    /// The material behind a pointer, for single points, batches and bodies in `f64`.
     ///
     /// # Errors
     /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
-    pub fn elements(
+    pub fn material(
         &self,
         values: &[&[f64]],
         inversion: Inversion,
-    ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
+    ) -> Result<Box<dyn DynMaterial<f64>>, MaterialError> {
         struct Boxed;
         impl Visitor for Boxed {
-            type Output = Box<dyn TileMaterial<f64>>;
+            type Output = Box<dyn DynMaterial<f64>>;
+            fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+                Box::new(material)
+            }
+        }
+        self.visit(values, inversion, Boxed)
+    }
+
+    /// The material behind a pointer, for single points in `f32`.
+    ///
+    /// # Errors
+    /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
+    pub fn material_f32(
+        &self,
+        values: &[&[f64]],
+        inversion: Inversion,
+    ) -> Result<Box<dyn Response<f32>>, MaterialError> {
+        struct Boxed;
+        impl Visitor for Boxed {
+            type Output = Box<dyn Response<f32>>;
             fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
                 Box::new(material)
             }

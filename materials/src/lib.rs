@@ -20,15 +20,15 @@
 //! # Energies
 //!
 //! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and says
-//! whether it extends beyond J > 0. Each energy has a cargo feature, and all are on by default. A program
-//! that needs one compiles one:
+//! whether it extends beyond J > 0. Each energy has a cargo feature. Seventeen are on by default, and the
+//! feature `all` compiles all 55. A program that needs one compiles one:
 //!
 //! ```toml
 //! piola-materials = { version = "0.1", default-features = false, features = ["neo-hookean"] }
 //! ```
 //!
-//! The texts of all declarations are in [`DECLARATIONS`], whichever features are on: the crate
-//! `piola-declare` makes energies of them at run time, with the bits of compiled ones.
+//! The texts of all declarations are in [`DECLARATIONS`] regardless of features: the crate `piola-declare`
+//! makes energies of them at run time, with the bits of compiled ones.
 //!
 //! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend);
 //! some only for parameters with which the extension restores, as each says. A point of one that extends

@@ -4,7 +4,7 @@
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
-//! * [`compiled`]: the evaluation of a point, compiled once;
+//! * [`energies`]: the catalogue behind pointers; [`compiled`]: the evaluation of a point, compiled once;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of
 //!   them;
 //! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in
@@ -23,6 +23,7 @@ pub mod bits;
 pub mod cases;
 pub mod compiled;
 pub mod declared;
+pub mod energies;
 pub mod multiprecision;
 pub mod quotients;
 pub mod random;

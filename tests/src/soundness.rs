@@ -12,13 +12,13 @@
 
 use std::fmt;
 
-use piola::Material;
 use piola::batch::{Batch, TileMaterial};
-use piola::material::Blocks;
+use piola::material::{Blocks, Response};
 use piola::point::{Filter, Matrix3, decompose};
 
 use crate::bits::{Precision, widen};
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
+use crate::energies::Subject;
 
 /// The filters, in the order of their strength.
 pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
@@ -104,7 +104,7 @@ impl std::error::Error for Fault {}
 ///
 /// # Errors
 /// The first fault found.
-pub fn check<R: Precision>(material: &impl Material, F: &Matrix3<R>) -> Result<Answer, Fault> {
+pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
     let (energy, energy_status) = evaluate_energy(material, F);
     let (stress, stress_status) = evaluate_stress(material, F);
     let finite_input = F.iter().flatten().all(|x| x.is_finite());
@@ -175,9 +175,6 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
 /// Checks a batch of one tetrahedron with the corner shape at rest: where all counts of its surveys are zero,
 /// energy, stress, forces and stiffness are finite.
 ///
-/// The material is dynamic, since that of [`Entry::elements`](piola_materials::Entry::elements) is compiled
-/// already.
-///
 /// # Errors
 /// The first fault found.
 pub fn check_element(material: &dyn TileMaterial<f64>, F: &Matrix3<f64>) -> Result<(), Fault> {
@@ -213,10 +210,12 @@ pub const ORDINARY: f64 = 30.0;
 ///
 /// # Errors
 /// The first fault found.
-pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, Fault> {
-    let (_, energy) = evaluate_energy(material, F);
-    let (_, stress) = evaluate_stress(material, F);
-    let tangent = evaluate(material, F, Filter::None).status;
+pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> {
+    let Subject { double: material, single, .. } = subject;
+    let material: &dyn Response<f64> = &**material;
+    let (_, energy) = evaluate_energy(&**single, F);
+    let (_, stress) = evaluate_stress(&**single, F);
+    let tangent = evaluate(&**single, F, Filter::None).status;
     let stretches = decompose(material, &widen(F)).stretches;
     match agreed(material, stretches) {
         Some(true) if energy.refused && !energy.nonfinite => return Err(Fault::RefusedInside),
@@ -251,8 +250,9 @@ pub fn check_single(material: &impl Material, F: &Matrix3<f32>) -> Result<bool, 
 ///
 /// # Errors
 /// Which quantity is off.
-pub fn check_single_accuracy(material: &impl Material, F: &Matrix3<f32>) -> Result<(), Fault> {
-    let single = evaluate(material, F, Filter::None);
+pub fn check_single_accuracy(subject: &Subject, F: &Matrix3<f32>) -> Result<(), Fault> {
+    let single = evaluate(&*subject.single, F, Filter::None);
+    let material: &dyn Response<f64> = &*subject.double;
     let clean = |status: piola::Status<bool>| !(status.refused || status.bounded || status.nonfinite);
     let F = widen(F);
     let double = evaluate(material, &F, Filter::None);
@@ -302,7 +302,7 @@ const SINGLE: f64 = <f32 as piola::Real>::UNIT_ROUNDOFF;
 
 /// Whether all deformations that an `f32` decomposition cannot tell from these stretches are inside the
 /// domain, or all outside.
-fn agreed(material: &impl Material, stretches: [f64; 3]) -> Option<bool> {
+fn agreed(material: &dyn Response<f64>, stretches: [f64; 3]) -> Option<bool> {
     let here = material.admits(stretches);
     let mut others = indistinguishable(material.ends_at_zero_volume(), stretches);
     others.all(|there| material.admits(there) == here).then_some(here)
@@ -317,7 +317,7 @@ struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    fn of(material: &impl Material, stretches: [f64; 3]) -> Self {
+    fn of(material: &dyn Response<f64>, stretches: [f64; 3]) -> Self {
         // A result of entries up to this fits `f32` with room for the sums that its entries are.
         let limit = f32::LARGEST / 32.0;
         let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);

@@ -7,16 +7,16 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 use std::path::Path;
 
-use piola::material::Declared;
+use piola::Inversion;
+use piola::material::Response;
 use piola::point::{Filter, Matrix3, Tangent, project};
 use piola::point::{Svd, decompose};
-use piola::{Inversion, Material, Real};
-use piola_materials::Visitor;
 
 use crate::baselines::svd_gradients::{self, Regularization};
 use crate::baselines::{eigen, quotients};
 use crate::cases::{Case, Quantity};
 use crate::compiled;
+use crate::energies::{self, Format as Judged, Subject};
 
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
 pub const BOUND: f64 = 30.0;
@@ -79,16 +79,16 @@ pub fn document() -> Result<String, String> {
 fn report(cases: &[Case]) -> Result<String, String> {
     let mut rows: BTreeMap<(&str, Format), BTreeMap<&str, Vec<Row>>> = BTreeMap::new();
     for case in cases {
-        let Some(entry) = piola_materials::find(&case.material) else {
+        let Some(energy) = energies::find(&case.material) else {
             return Err(format!("{}: {} is not in the catalogue", case.id, case.material));
         };
-        let values = case.values(&entry.description)?;
+        let values = case.values(energy.description())?;
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        let measured = entry
-            .visit(&values, Inversion::Refuse, Measure(case))
+        let subject = energy
+            .subject(&values, Inversion::Refuse)
             .map_err(|error| format!("{}: {} {error}", case.id, case.material))?;
-        for (format, row) in measured {
-            rows.entry((entry.name, format)).or_default().entry(&case.tag).or_default().push(row);
+        for (format, row) in Measure(case).all(&subject) {
+            rows.entry((energy.name, format)).or_default().entry(&case.tag).or_default().push(row);
         }
     }
     let mut text = String::from(INTRODUCTION);
@@ -212,28 +212,20 @@ fn superscript(digit: char) -> char {
 /// All methods at one case, in every format that can hold its deformation gradient.
 struct Measure<'a>(&'a Case);
 
-impl Visitor for Measure<'_> {
-    type Output = Vec<(Format, Row)>;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        let mut rows = vec![(Format::F64, self.row::<f64>(&material, |value| value, eigen::clamp))];
-        if self.0.f32_exact {
-            rows.push((Format::F32, self.row::<f32>(&material, f64::from, eigen::clamp)));
-        }
-        rows
-    }
-}
-
 /// A projection of 9×9 matrices.
 type Clamp<R> = fn(&[[R; 9]; 9]) -> Option<[[R; 9]; 9]>;
 
 impl Measure<'_> {
-    fn row<R: Real<Mask = bool>>(
-        &self,
-        material: &impl Material,
-        widen: fn(R) -> f64,
-        clamp: Clamp<R>,
-    ) -> Row {
+    fn all(&self, subject: &Subject) -> Vec<(Format, Row)> {
+        let mut rows = vec![(Format::F64, self.row::<f64>(subject, eigen::clamp))];
+        if self.0.f32_exact {
+            rows.push((Format::F32, self.row::<f32>(subject, eigen::clamp)));
+        }
+        rows
+    }
+
+    fn row<R: Judged>(&self, subject: &Subject, clamp: Clamp<R>) -> Row {
+        let material = R::of(subject);
         let deformation: Matrix3<R> =
             std::array::from_fn(|i| std::array::from_fn(|j| R::splat(self.0.deformation[3 * i + j])));
         COLUMNS.map(|(method, quantity)| {
@@ -251,7 +243,7 @@ impl Measure<'_> {
                     method.projected(material, &deformation, clamp).map(|matrix| matrix.concat())
                 }
             };
-            let result = result.map(|values| values.into_iter().map(widen).collect::<Vec<_>>());
+            let result = result.map(|values| values.into_iter().map(R::widen).collect::<Vec<_>>());
             // No result is as bad as one that is not a number.
             let error = |values: Vec<f64>| self.0.error(quantity, &values, 0.0, R::UNIT_ROUNDOFF);
             Some(result.map_or(f64::INFINITY, error))
@@ -261,7 +253,7 @@ impl Measure<'_> {
 
 impl Method {
     /// dP/dF.
-    fn tangent<R: Real<Mask = bool>>(self, material: &impl Material, F: &Matrix3<R>) -> [[R; 9]; 9] {
+    fn tangent<R: Judged>(self, material: &dyn Response<R>, F: &Matrix3<R>) -> [[R; 9]; 9] {
         match self {
             Self::SvdGradients => by_svd_gradients(material, F),
             Self::Ours | Self::Naive | Self::Lhopital => self.blocks(material, F, Filter::None),
@@ -269,9 +261,9 @@ impl Method {
     }
 
     /// dP/dF made semidefinite; `None` where the method fails.
-    fn projected<R: Real<Mask = bool>>(
+    fn projected<R: Judged>(
         self,
-        material: &impl Material,
+        material: &dyn Response<R>,
         F: &Matrix3<R>,
         clamp: Clamp<R>,
     ) -> Option<[[R; 9]; 9]> {
@@ -282,7 +274,7 @@ impl Method {
     }
 
     /// From flips and twists.
-    fn blocks<R: Real>(self, material: &impl Material, F: &Matrix3<R>, filter: Filter) -> [[R; 9]; 9] {
+    fn blocks<R: Judged>(self, material: &dyn Response<R>, F: &Matrix3<R>, filter: Filter) -> [[R; 9]; 9] {
         let Svd { U, stretches, V } = decompose(material, F);
         let blocks = match self {
             Self::Naive => quotients::naive(material, stretches),
@@ -297,6 +289,6 @@ impl Method {
 }
 
 /// dP/dF by \[SZLSB11\], regularised as it says.
-fn by_svd_gradients<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<R>) -> [[R; 9]; 9] {
+fn by_svd_gradients<R: Judged>(material: &dyn Response<R>, F: &Matrix3<R>) -> [[R; 9]; 9] {
     svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
 }

@@ -16,23 +16,17 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::marker::PhantomData;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use piola::batch::TileMaterial;
-use piola::material::Declared;
 use piola::point::Matrix3;
 use piola::random::Random;
-use piola::{Inversion, Material};
-use piola_materials::{CATALOGUE, Visitor};
-use piola_tests::bits::{Family, Precision};
+use piola_tests::bits::Family;
+use piola_tests::energies::{ENERGIES, Format, Subject};
 use piola_tests::soundness::{Answer, Fault, check, check_element, check_single, check_single_accuracy};
 
 const PATTERNS: usize = 100_000;
-
-const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
 
 #[test]
 fn f64_is_sound_at_every_pattern_of_bits() {
@@ -64,20 +58,14 @@ fn every_entry<R: Judged>() {
     let start = Instant::now();
     let mut total = Tally::default();
     let mut report = String::new();
-    for (index, entry) in CATALOGUE.iter().enumerate() {
-        let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
-        for &inversion in inversions {
-            let admissible = "typical parameters are admissible";
-            let trial = Trial::<R> {
-                elements: entry.elements(&entry.typical(), inversion).expect(admissible),
-                seed: seed(index, entry.name),
-                patterns: patterns() / inversions.len(),
-                precision: PhantomData,
-            };
-            let tally = entry.visit(&entry.typical(), inversion, trial).expect(admissible);
+    for (index, energy) in ENERGIES.iter().enumerate() {
+        let inversions: Vec<_> = energy.inversions(0.1).collect();
+        for &inversion in &inversions {
+            let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
+            let tally = trial::<R>(&subject, seed(index, energy.name), patterns() / inversions.len());
             for (fault, (count, F)) in &tally.faults {
                 let _ =
-                    writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", entry.name, R::NAME);
+                    writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", energy.name, R::NAME);
             }
             total.add(tally);
         }
@@ -100,46 +88,30 @@ fn every_entry<R: Judged>() {
 }
 
 /// A precision with all the judges that it has.
-trait Judged: Precision {
-    /// `elements` is the same material as that of a body; `closely` asks for the judge that takes the
-    /// longest, too.
-    fn judge(
-        material: &impl Material,
-        elements: &dyn TileMaterial<f64>,
-        F: &Matrix3<Self>,
-        closely: bool,
-    ) -> Result<Answer, Fault>;
+trait Judged: Format {
+    /// `closely` asks for the judge that takes the longest, too.
+    fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
 }
 
 impl Judged for f64 {
-    fn judge(
-        material: &impl Material,
-        elements: &dyn TileMaterial<f64>,
-        F: &Matrix3<Self>,
-        _closely: bool,
-    ) -> Result<Answer, Fault> {
-        let answer = check(material, F)?;
+    fn judge(subject: &Subject, F: &Matrix3<Self>, _closely: bool) -> Result<Answer, Fault> {
+        let answer = check(Self::of(subject), F)?;
         if !alone() {
-            check_element(elements, F)?;
+            check_element(&*subject.double, F)?;
         }
         Ok(answer)
     }
 }
 
 impl Judged for f32 {
-    fn judge(
-        material: &impl Material,
-        _elements: &dyn TileMaterial<f64>,
-        F: &Matrix3<Self>,
-        closely: bool,
-    ) -> Result<Answer, Fault> {
-        let answer = check(material, F)?;
+    fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault> {
+        let answer = check(Self::of(subject), F)?;
         if alone() {
             return Ok(answer);
         }
-        let is_flagged_early = check_single(material, F)?;
+        let is_flagged_early = check_single(subject, F)?;
         if closely {
-            check_single_accuracy(material, F)?;
+            check_single_accuracy(subject, F)?;
         }
         Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
     }
@@ -181,54 +153,30 @@ impl Tally {
 }
 
 /// One material at random patterns of bits.
-struct Trial<R> {
-    elements: Box<dyn TileMaterial<f64>>,
-    seed: u64,
-    patterns: usize,
-    precision: PhantomData<R>,
-}
-
-impl<R: Judged> Visitor for Trial<R> {
-    type Output = Tally;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Tally {
-        let mut random = Random::new(self.seed);
-        let mut tally = Tally::default();
-        for pattern in 0..self.patterns {
-            let round = pattern / Family::ALL.len();
-            let F = Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
-            match judge(&material, &*self.elements, &F, round.is_multiple_of(8)) {
-                Ok(answer) => tally.count(answer),
-                Err(fault) => {
-                    tally.patterns += 1;
-                    let entry = tally.faults.entry(fault).or_insert_with(|| {
-                        let F = simplest(&material, &*self.elements, F, fault);
-                        (0, format!("{F:?}"))
-                    });
-                    entry.0 += 1;
-                }
+fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
+    let mut random = Random::new(seed);
+    let mut tally = Tally::default();
+    for pattern in 0..patterns {
+        let round = pattern / Family::ALL.len();
+        let F = Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
+        match judge(subject, &F, round.is_multiple_of(8)) {
+            Ok(answer) => tally.count(answer),
+            Err(fault) => {
+                tally.patterns += 1;
+                let first = || (0, format!("{:?}", simplest(subject, F, fault)));
+                tally.faults.entry(fault).or_insert_with(first).0 += 1;
             }
         }
-        tally
     }
+    tally
 }
 
-fn judge<R: Judged>(
-    material: &impl Material,
-    elements: &dyn TileMaterial<f64>,
-    F: &Matrix3<R>,
-    closely: bool,
-) -> Result<Answer, Fault> {
-    catch_unwind(AssertUnwindSafe(|| R::judge(material, elements, F, closely))).unwrap_or(Err(Fault::Panic))
+fn judge<R: Judged>(subject: &Subject, F: &Matrix3<R>, closely: bool) -> Result<Answer, Fault> {
+    catch_unwind(AssertUnwindSafe(|| R::judge(subject, F, closely))).unwrap_or(Err(Fault::Panic))
 }
 
 /// A deformation with the same fault and simpler entries, for whoever has to find out why.
-fn simplest<R: Judged>(
-    material: &impl Material,
-    elements: &dyn TileMaterial<f64>,
-    mut F: Matrix3<R>,
-    fault: Fault,
-) -> Matrix3<R> {
+fn simplest<R: Judged>(subject: &Subject, mut F: Matrix3<R>, fault: Fault) -> Matrix3<R> {
     loop {
         let before = F;
         for (i, j) in (0..9).map(|entry| (entry / 3, entry % 3)) {
@@ -238,10 +186,7 @@ fn simplest<R: Judged>(
                 let mut trial = F;
                 trial[i][j] = R::splat(simpler);
                 let is_simpler = value != simpler && (simpler == 0.0 || value != 0.0 && value.abs() != 1.0);
-                if is_simpler
-                    && trial[i][j].is_finite()
-                    && judge(material, elements, &trial, true) == Err(fault)
-                {
+                if is_simpler && trial[i][j].is_finite() && judge(subject, &trial, true) == Err(fault) {
                     F = trial;
                     break;
                 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use piola::Inversion;
 use piola::material::Fittable;
-use piola_materials::{CATALOGUE, DECLARATIONS, Entry, FittableVisitor};
+use piola_materials::{DECLARATIONS, FittableVisitor};
+use piola_tests::energies::ENERGIES;
 
 fn sources() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../materials/src")
@@ -13,7 +14,8 @@ fn sources() -> PathBuf {
 
 #[test]
 fn every_declaration_has_typical_parameters_and_units() {
-    for Entry { name, description, .. } in CATALOGUE {
+    for energy in ENERGIES.iter() {
+        let (name, description) = (energy.name, energy.description());
         let typical = description.typical.as_ref().unwrap_or_else(|| panic!("{name} has none"));
         assert!(!typical.source.is_empty(), "{name} names no source");
         for (parameter, values) in description.parameters.iter().zip(typical.values.iter()) {
@@ -30,10 +32,15 @@ fn energies_of_rubber_are_those_with_typical_parameters_of_it_and_can_be_fitted(
         type Output = ();
         fn visit<M: Fittable + 'static>(self, _: M) {}
     }
-    for (entry, declaration) in CATALOGUE.iter().zip(DECLARATIONS) {
-        let source = entry.description.typical.as_ref().map_or("", |typical| &typical.source);
-        assert_eq!(declaration.is_rubber, source.contains("natural rubber"), "{}", entry.name);
+    for (energy, declaration) in ENERGIES.iter().zip(DECLARATIONS) {
+        let source = energy.description().typical.as_ref().map_or("", |typical| &typical.source);
+        assert_eq!(declaration.is_rubber, source.contains("natural rubber"), "{}", energy.name);
         if declaration.is_rubber {
+            assert!(energy.energy.is_fittable(), "{}", energy.name);
+        }
+        if let Some(entry) = energy.compiled
+            && declaration.is_rubber
+        {
             let fits = entry.visit_fittable(&entry.typical(), Inversion::Refuse, Fits);
             assert_eq!(fits, Ok(()), "{}", entry.name);
         }
@@ -42,14 +49,10 @@ fn energies_of_rubber_are_those_with_typical_parameters_of_it_and_can_be_fitted(
 
 #[test]
 fn typical_parameters_are_accepted() {
-    for entry in CATALOGUE {
-        let inversions = match entry.description.extends {
-            true => &[Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }][..],
-            false => &[Inversion::Refuse],
-        };
-        for &inversion in inversions {
-            let moduli = entry.moduli(&entry.typical(), inversion);
-            assert!(moduli.is_ok(), "{}: {}", entry.name, moduli.expect_err("refused"));
+    for energy in ENERGIES.iter() {
+        for inversion in energy.inversions(0.1) {
+            let refusal = energy.subject(&energy.typical(), inversion).err();
+            assert!(refusal.is_none(), "{}: {}", energy.name, refusal.expect("refused"));
         }
     }
 }

@@ -3,29 +3,22 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use piola::Inversion;
 use piola::interpreter::Interpreted;
 use piola::point::measures::abaqus;
 use piola::point::plane::{Matrix2, in_space, plane_strain, plane_stress, uniaxial_stress};
 use piola::point::split::split;
 use piola::point::{Filter, evaluate};
 use piola::random::Random;
-use piola_declare::Energy;
-use piola_materials::{CATALOGUE, DECLARATIONS};
-
-const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
+use piola_tests::energies::ENERGIES;
 
 /// Runs a check on every material of the catalogue in every treatment of inversion, each read from its
 /// declaration: `declare/tests/catalogue.rs` sees that it has the bits of the compiled one, which takes long
 /// to build.
 fn everywhere(mut check: impl FnMut(&str, &Interpreted)) {
-    for (entry, declaration) in CATALOGUE.iter().zip(DECLARATIONS) {
-        assert_eq!(entry.name, declaration.name);
-        let energy = Energy::from_rust(declaration.source).expect("a declaration of the catalogue");
-        let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
-        for &inversion in inversions {
-            let material = energy.material(&entry.typical(), inversion).expect("typical parameters");
-            check(&format!("{} {inversion:?}", entry.name), &material);
+    for energy in ENERGIES.iter() {
+        for inversion in energy.inversions(0.1) {
+            let material = energy.energy.material(&energy.typical(), inversion).expect("typical parameters");
+            check(&format!("{} {inversion:?}", energy.name), &material);
         }
     }
 }

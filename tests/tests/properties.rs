@@ -9,11 +9,11 @@
 #![expect(non_snake_case, reason = "F, P, Q, U, V as in the literature")]
 
 use nalgebra::SMatrix;
-use piola::material::Declared;
+use piola::Real;
+use piola::material::Response;
 use piola::point::{Filter, Matrix3, Point};
-use piola::{Inversion, Real};
-use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
+use piola_tests::energies::{ENERGIES, Subject};
 use piola_tests::soundness::{check, check_single_accuracy};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -44,42 +44,30 @@ impl Sample {
 
 trait Property {
     /// The error says by how much it does not hold.
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String>;
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String>;
 }
 
 #[track_caller]
 fn for_every_energy(property: impl Property) {
     let config = Config { cases: 384, failure_persistence: None, ..Config::default() };
     let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    let mut subjects = Vec::new();
+    for energy in ENERGIES.iter() {
+        for inversion in energy.inversions(0.4) {
+            let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
+            subjects.push((format!("{} {inversion:?}", energy.name), subject));
+        }
+    }
     let result = runner.run(&samples(), |sample| {
-        for entry in CATALOGUE {
-            for inversion in [Inversion::Refuse, Inversion::Extend { epsilon: 0.4 }] {
-                if inversion != Inversion::Refuse && !entry.description.extends {
-                    continue;
-                }
-                let verdict = entry.visit(&entry.typical(), inversion, Trial(&property, &sample));
-                let error = match verdict {
-                    Ok(Ok(())) => continue,
-                    Ok(Err(error)) => error,
-                    Err(error) => error.to_string(),
-                };
-                return Err(TestCaseError::fail(format!("{} {inversion:?}: {error}", entry.name)));
-            }
+        for (name, subject) in &subjects {
+            property
+                .holds(subject, &sample)
+                .map_err(|error| TestCaseError::fail(format!("{name}: {error}")))?;
         }
         Ok(())
     });
     if let Err(failure) = result {
         panic!("{failure}");
-    }
-}
-
-struct Trial<'a, P>(&'a P, &'a Sample);
-
-impl<P: Property> Visitor for Trial<'_, P> {
-    type Output = Result<(), String>;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        self.0.holds(&material, self.1)
     }
 }
 
@@ -138,7 +126,7 @@ fn at_most(what: &str, value: f64, bound: f64) -> Result<(), String> {
 }
 
 /// The point at F, where it is admissible and not at a pole.
-fn evaluate_inside<M: Declared>(material: &M, F: &Matrix3<f64>, filter: Filter) -> Option<Point<f64>> {
+fn evaluate_inside(material: &dyn Response<f64>, F: &Matrix3<f64>, filter: Filter) -> Option<Point<f64>> {
     let point = evaluate(material, F, filter);
     (!(point.status.refused || point.status.bounded)).then_some(point)
 }
@@ -151,7 +139,8 @@ fn scale(point: &Point<f64>, F: &Matrix3<f64>) -> f64 {
 struct Objectivity;
 
 impl Property for Objectivity {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let material: &dyn Response<f64> = &*subject.double;
         let F = sample.F();
         let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
         let (turned, _) = evaluate_stress(material, &product(&sample.rotation, &F));
@@ -168,7 +157,8 @@ fn a_rotation_of_space_rotates_the_stress() {
 struct Isotropy;
 
 impl Property for Isotropy {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let material: &dyn Response<f64> = &*subject.double;
         let F = sample.F();
         let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
         let (turned, _) = evaluate_stress(material, &product(&F, &sample.rotation));
@@ -185,7 +175,8 @@ fn a_rotation_of_the_rest_shape_rotates_the_stress() {
 struct PrincipalFrames;
 
 impl Property for PrincipalFrames {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let material: &dyn Response<f64> = &*subject.double;
         let F = sample.F();
         let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
         let expected = sample.in_frames(material.gradient(sample.stretches));
@@ -206,7 +197,8 @@ fn stress_and_energy_are_those_of_the_stretches() {
 struct Products;
 
 impl Property for Products {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let material: &dyn Response<f64> = &*subject.double;
         for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
             let Some(point) = evaluate_inside(material, &sample.F(), filter) else { return Ok(()) };
             let tangent = point.tangent.to_matrix();
@@ -231,7 +223,8 @@ fn a_tangent_is_symmetric_and_its_product_that_of_its_matrix() {
 struct Filters;
 
 impl Property for Filters {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let material: &dyn Response<f64> = &*subject.double;
         let tangent = |filter| {
             let point = evaluate_inside(material, &sample.F(), filter)?;
             let rows = point.tangent.to_matrix();
@@ -260,9 +253,9 @@ fn filters_are_semidefinite_and_ordered() {
 struct SinglePrecision;
 
 impl Property for SinglePrecision {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
         let F = sample.F().map(|row| row.map(|x| x as f32));
-        check_single_accuracy(material, &F).map_err(|fault| fault.to_string())
+        check_single_accuracy(subject, &F).map_err(|fault| fault.to_string())
     }
 }
 
@@ -274,13 +267,15 @@ fn single_precision_is_close_to_double() {
 struct Infection;
 
 impl Property for Infection {
-    fn holds<M: Declared>(&self, material: &M, sample: &Sample) -> Result<(), String> {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
         for entry in 0..9 {
             for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let mut F = sample.F();
                 F[entry / 3][entry % 3] = value;
-                check(material, &F).map_err(|fault| format!("{fault}: {F:?}"))?;
-                check(material, &F.map(|row| row.map(|x| x as f32))).map_err(|fault| fault.to_string())?;
+                check(&*subject.double as &dyn Response<f64>, &F)
+                    .map_err(|fault| format!("{fault}: {F:?}"))?;
+                check(&*subject.single, &F.map(|row| row.map(|x| x as f32)))
+                    .map_err(|fault| fault.to_string())?;
             }
         }
         Ok(())

@@ -16,10 +16,11 @@ use std::sync::{Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Trial};
 use piola::__private::pole_floor;
-use piola::material::{MaterialError, PAIRS};
-use piola::{Inversion, Material, Real};
-use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola::Inversion;
+use piola::interpreter::Interpreted;
+use piola::material::{MaterialError, PAIRS, Response};
 use piola_tests::declared::Declared;
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject};
 use piola_tests::quotients::{expected, samples};
 
 /// The constant of the judgement |D − D*| ≤ C u (scale + sensitivity).
@@ -61,27 +62,28 @@ const OTHERS: [(&str, &[&[f64]]); 2] = [
 /// A trial for each energy with each choice of parameters, plain and, where it can be, extended.
 fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for entry in CATALOGUE {
-        let others = OTHERS.iter().filter(|(name, _)| *name == entry.name).map(|(_, values)| values.to_vec());
-        for (choice, values) in std::iter::once(entry.typical()).chain(others).enumerate() {
+    for energy in ENERGIES.iter() {
+        let others =
+            OTHERS.iter().filter(|(name, _)| *name == energy.name).map(|(_, values)| values.to_vec());
+        for (choice, values) in std::iter::once(energy.typical()).chain(others).enumerate() {
             for (word, inversion) in [("refuse", Inversion::Refuse), ("extend", EXTEND)] {
-                if inversion == EXTEND && !can_be_extended(entry, &values) {
+                if inversion == EXTEND && !can_be_extended(energy, &values) {
                     continue;
                 }
                 let choice = if choice == 0 { String::new() } else { format!("::{choice}") };
-                let name = format!("quotients::{}::{word}{choice}", entry.name);
+                let name = format!("quotients::{}::{word}{choice}", energy.name);
                 let values = values.clone();
-                trials.push(Trial::test(name, move || Ok(add_to_table(entry, word, &values, inversion)?)));
+                trials.push(Trial::test(name, move || Ok(add_to_table(energy, word, &values, inversion)?)));
             }
         }
     }
     trials
 }
 
-/// Typical parameters can be extended wherever the entry can; of other ones, some may not.
-fn can_be_extended(entry: &Entry, values: &[&[f64]]) -> bool {
-    let restores = || !matches!(entry.moduli(values, EXTEND), Err(MaterialError::DoesNotRestore { .. }));
-    entry.description.extends && (values == entry.typical() || restores())
+/// Typical parameters can be extended wherever the energy can; of other ones, some may not.
+fn can_be_extended(Judged { energy, .. }: &Judged, values: &[&[f64]]) -> bool {
+    let restores = || !matches!(energy.material(values, EXTEND), Err(MaterialError::DoesNotRestore { .. }));
+    energy.description().extends && (values == energy.typical() || restores())
 }
 
 /// Judges a material and adds the result to the table.
@@ -89,18 +91,18 @@ fn can_be_extended(entry: &Entry, values: &[&[f64]]) -> bool {
 /// # Errors
 /// The quotients that fail, one in each line, or why the material cannot be judged.
 fn add_to_table(
-    entry: &'static Entry,
+    energy: &'static Judged,
     word: &'static str,
     values: &[&[f64]],
     inversion: Inversion,
 ) -> Result<(), String> {
     let mut failures = Vec::new();
-    for (precision, tally) in judge(entry, values, inversion)? {
+    for (precision, tally) in judge(energy, values, inversion)? {
         failures.extend(tally.failures.iter().map(|failure| format!("{precision} {failure}")));
         if tally.failed > 0 || tally.judged == 0 {
             failures.push(format!("{precision}: {} of {} quotients failed", tally.failed, tally.judged));
         }
-        TABLE.lock().unwrap_or_else(PoisonError::into_inner).push((entry.name, word, precision, tally));
+        TABLE.lock().unwrap_or_else(PoisonError::into_inner).push((energy.name, word, precision, tally));
     }
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
@@ -125,58 +127,38 @@ fn print(table: &mut [Line]) {
 
 /// The tallies of both formats.
 fn judge(
-    entry: &Entry,
+    energy: &Judged,
     values: &[&[f64]],
     inversion: Inversion,
 ) -> Result<Vec<(&'static str, Tally)>, String> {
     let rounded: Vec<Vec<f64>> =
         values.iter().map(|list| list.iter().map(|&value| f64::from(value as f32)).collect()).collect();
     let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
-    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(&entry.description, &values, inversion)));
-    entry
-        .visit(&values, inversion, Judge { values: &values, inversion, declared })
-        .map_err(|error| format!("{}: {error}", entry.name))?
+    let build =
+        |inversion| energy.subject(&values, inversion).map_err(|error| format!("{}: {error}", energy.name));
+    let subject = build(inversion)?;
+    let material: &dyn Response<f64> = &*subject.double;
+    let (threshold, moved) = match inversion {
+        Inversion::Refuse => (None, None),
+        Inversion::Extend { epsilon } => {
+            let moved = build(Inversion::Extend { epsilon: epsilon * (1.0 + FRACTION) })?;
+            (Some(epsilon), Some(moved.exact))
+        }
+    };
+    // All but the smallest gaps of the second one straddle a control point of the exact splines.
+    let mut scales = vec![1.1, 1.5 - 1e-5, 4.0, 30.0, 0.05, 1e-6];
+    scales.extend(upper_end(material));
+    let samples = samples(&scales, material.admits([1.0, 0.9, -0.8]), threshold);
+    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.description(), &values, inversion)));
+    let judge = Judge { subject: &subject, moved: moved.as_ref(), declared: &declared };
+    Ok(vec![("f64", judge.tally::<f64>(&samples)?), ("f32", judge.tally::<f32>(&samples)?)])
 }
 
 /// Expressions of an energy, understood when they are first asked for.
 type Lazy<'a> = LazyCell<Result<Declared, String>, Box<dyn FnOnce() -> Result<Declared, String> + 'a>>;
 
-struct Judge<'a> {
-    values: &'a [&'a [f64]],
-    inversion: Inversion,
-    declared: Lazy<'a>,
-}
-
-impl Visitor for Judge<'_> {
-    type Output = Result<Vec<(&'static str, Tally)>, String>;
-
-    fn visit<M: piola::material::Declared + 'static>(self, material: M) -> Self::Output {
-        let threshold = match self.inversion {
-            Inversion::Refuse => None,
-            Inversion::Extend { epsilon } => Some(epsilon),
-        };
-        // All but the smallest gaps of the second one straddle a control point of the exact splines.
-        let mut scales = vec![1.1, 1.5 - 1e-5, 4.0, 30.0, 0.05, 1e-6];
-        scales.extend(upper_end(&material));
-        let moved = match self.inversion {
-            Inversion::Refuse => None,
-            Inversion::Extend { epsilon } => {
-                let inversion = Inversion::Extend { epsilon: epsilon * (1.0 + FRACTION) };
-                Some(M::from_values(self.values, inversion).map_err(|error| error.to_string())?)
-            }
-        };
-        let subject = Subject { material: &material, moved: moved.as_ref(), declared: &self.declared };
-        let signed = material.admits([1.0, 0.9, -0.8]);
-        let samples = samples(&scales, signed, threshold);
-        Ok(vec![
-            ("f64", tally(&subject, &samples, |value: f64| value)?),
-            ("f32", tally(&subject, &samples, |value: f32| f64::from(value))?),
-        ])
-    }
-}
-
 /// Nearly the size at which a ball leaves the domain, if it ever does.
-fn upper_end(material: &impl Material) -> Option<f64> {
+fn upper_end(material: &dyn Response<f64>) -> Option<f64> {
     let admits = |size: f64| material.admits([size; 3]);
     let (mut inside, mut outside) = (1.0, 1e3);
     if admits(outside) {
@@ -192,74 +174,75 @@ fn upper_end(material: &impl Material) -> Option<f64> {
 /// By which a threshold is moved, to see what it changes.
 const FRACTION: f64 = 1.0 / (1u64 << 20) as f64;
 
-/// What is judged, also with a threshold that is larger by [`FRACTION`].
-struct Subject<'a, 'l, M> {
-    material: &'a M,
-    moved: Option<&'a M>,
+/// A subject, and its material with a threshold that is larger by [`FRACTION`].
+struct Judge<'a, 'l> {
+    subject: &'a Subject,
+    moved: Option<&'a Interpreted>,
     declared: &'a Lazy<'l>,
 }
 
-/// All quotients at all samples, rounded to the format.
-fn tally<M: Material, R: Real<Mask = bool>>(
-    &Subject { material, moved, declared }: &Subject<'_, '_, M>,
-    samples: &[[f64; 3]],
-    widen: fn(R) -> f64,
-) -> Result<Tally, String> {
-    let mut tally = Tally::default();
-    let mut judged = HashSet::new();
-    for &sample in samples {
-        let stretches = sample.map(R::splat);
-        let exact = stretches.map(widen);
-        // Gaps below the format's resolution are the gap zero, which is judged once.
-        if !material.admits(stretches) || !judged.insert(exact.map(f64::to_bits)) {
-            continue;
-        }
-        let blocks = material.blocks(stretches);
-        let (flips, twists) = expected(material, exact);
-        let floor = widen(pole_floor(stretches));
-        for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
-            for (sign, quotient, found) in
-                [('-', flips[pair], blocks.flip[pair]), ('+', twists[pair], blocks.twist[pair])]
-            {
-                if sign == '+' && material.has_pole() && exact[i] + exact[j] < floor {
-                    tally.pole += 1;
-                    continue;
-                }
-                if !R::splat(quotient.scale.to_f64()).is_finite() {
-                    tally.range += 1;
-                    continue;
-                }
-                let found = widen(found);
-                let mut quotient = quotient;
-                let mut error = quotient.error(found, R::UNIT_ROUNDOFF);
-                if error.conditioned > C
-                    && let Some(moved) = moved
+impl Judge<'_, '_> {
+    /// All quotients at all samples, rounded to the format.
+    fn tally<R: Format>(&self, samples: &[[f64; 3]]) -> Result<Tally, String> {
+        let &Self { subject, moved, declared } = self;
+        let material = R::of(subject);
+        let mut tally = Tally::default();
+        let mut judged = HashSet::new();
+        for &sample in samples {
+            let stretches = sample.map(R::splat);
+            let exact = stretches.map(R::widen);
+            // Gaps below the format's resolution are the gap zero, which is judged once.
+            if !material.admits(stretches) || !judged.insert(exact.map(f64::to_bits)) {
+                continue;
+            }
+            let blocks = material.blocks(stretches);
+            let (flips, twists) = expected(&subject.exact, exact);
+            let floor = pole_floor(stretches).widen();
+            for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
+                for (sign, quotient, found) in
+                    [('-', flips[pair], blocks.flip[pair]), ('+', twists[pair], blocks.twist[pair])]
                 {
-                    let (flips, twists) = expected(moved, exact);
-                    let there = if sign == '-' { flips[pair] } else { twists[pair] };
-                    quotient = quotient.with_threshold(there.value, FRACTION);
-                    error = quotient.error(found, R::UNIT_ROUNDOFF);
+                    if sign == '+' && material.has_pole() && exact[i] + exact[j] < floor {
+                        tally.pole += 1;
+                        continue;
+                    }
+                    if !R::splat(quotient.scale.to_f64()).is_finite() {
+                        tally.range += 1;
+                        continue;
+                    }
+                    let found = found.widen();
+                    let mut quotient = quotient;
+                    let mut error = quotient.error(found, R::UNIT_ROUNDOFF);
+                    if error.conditioned > C
+                        && let Some(moved) = moved
+                    {
+                        let (flips, twists) = expected(moved, exact);
+                        let there = if sign == '-' { flips[pair] } else { twists[pair] };
+                        quotient = quotient.with_threshold(there.value, FRACTION);
+                        error = quotient.error(found, R::UNIT_ROUNDOFF);
+                    }
+                    tally.judged += 1;
+                    tally.flat += usize::from(error.flat <= C);
+                    if error.conditioned > C {
+                        let (flip_terms, twist_terms) =
+                            declared.as_ref().map_err(String::clone)?.terms(exact);
+                        let terms = if sign == '-' { flip_terms[pair] } else { twist_terms[pair] };
+                        error = quotient.with_terms(terms).error(found, R::UNIT_ROUNDOFF);
+                        tally.terms += 1;
+                    }
+                    tally.failed += usize::from(error.conditioned > C);
+                    if error.conditioned > tally.worst.max(C) {
+                        let (i, j, exact_value) = (i + 1, j + 1, quotient.value.to_f64());
+                        tally.failures.push(format!(
+                            "D{sign}{i}{j} at {exact:?} is {found:e}, not {exact_value:e}: {error:.1?}"
+                        ));
+                    }
+                    tally.worst = tally.worst.max(error.conditioned);
                 }
-                tally.judged += 1;
-                tally.flat += usize::from(error.flat <= C);
-                if error.conditioned > C {
-                    let (flip_terms, twist_terms) = declared.as_ref().map_err(String::clone)?.terms(exact);
-                    let terms = if sign == '-' { flip_terms[pair] } else { twist_terms[pair] };
-                    error = quotient.with_terms(terms).error(found, R::UNIT_ROUNDOFF);
-                    tally.terms += 1;
-                }
-                tally.failed += usize::from(error.conditioned > C);
-                if error.conditioned > tally.worst.max(C) {
-                    let (i, j, exact_value) = (i + 1, j + 1, quotient.value.to_f64());
-                    tally.failures.push(format!(
-                        "D{sign}{i}{j} at {exact:?} is {found:e}, not {exact_value:e}: {error:.1?}"
-                    ));
-                }
-                tally.worst = tally.worst.max(error.conditioned);
             }
         }
+        Ok(tally)
     }
-    Ok(tally)
 }
 
 /// What has been judged.

@@ -9,11 +9,11 @@
 
 use std::collections::BTreeMap;
 
+use piola::Inversion;
 use piola::random::Random;
-use piola::{Inversion, Real};
 use piola_codegen::model::model;
-use piola_materials::{CATALOGUE, Visitor};
 use piola_tests::declared::declarations;
+use piola_tests::energies::{ENERGIES, Format, Subject};
 use piola_tests::random::hard;
 use piola_tests::random::judge::{Tally, judge};
 use piola_tests::random::program::{Inputs, Parameters, run};
@@ -66,7 +66,7 @@ fn random_energies_have_no_wrong_digit_that_they_do_not_flag() {
     assert!(100 * (total.lost + total.terms + total.range) < total.judged, "{total}");
 }
 
-/// Runs the programs of an energy of the catalogue, and its compiled form.
+/// Runs the programs of an energy of the catalogue, and its material.
 struct Same<'a> {
     name: &'a str,
     parameters: Parameters,
@@ -74,7 +74,8 @@ struct Same<'a> {
 }
 
 impl Same<'_> {
-    fn check<R: Real>(&mut self, material: &impl piola::Material, stretches: [R; 3], strains: [R; 3]) {
+    fn check<R: Format>(&mut self, subject: &Subject, stretches: [R; 3], strains: [R; 3]) {
+        let material = R::of(subject);
         let Self { name, parameters, model } = self;
         let plain = model.plain.clone();
         let inputs = Inputs { stretches, strains, epsilon: 0.0 };
@@ -92,17 +93,13 @@ impl Same<'_> {
         let by_strains = run(&model.program(&model.at_strains.clone()), parameters, &inputs);
         same(by_strains, &material.gradient_at_strains(strains), "ψi by strains");
     }
-}
 
-impl Visitor for Same<'_> {
-    type Output = ();
-
-    fn visit<M: piola::material::Declared + 'static>(mut self, material: M) {
+    fn check_all(&mut self, subject: &Subject) {
         let mut random = Random::new(5);
         for stretches in hard::stretches(&mut random, 24, false) {
             let strains = stretches.map(|stretch| 1e-3 * (stretch - 1.0));
-            self.check(&material, stretches, strains);
-            self.check(&material, stretches.map(|x| x as f32), strains.map(|x| x as f32));
+            self.check(subject, stretches, strains);
+            self.check(subject, stretches.map(|x| x as f32), strains.map(|x| x as f32));
         }
     }
 }
@@ -111,17 +108,18 @@ impl Visitor for Same<'_> {
 fn programs_have_the_bits_of_generated_code() {
     let declarations = declarations().expect("the catalogue");
     let mut compared = 0;
-    for entry in CATALOGUE {
+    for energy in ENERGIES.iter() {
         let declaration = declarations
             .iter()
-            .find(|declaration| declaration.name == entry.description.name)
+            .find(|declaration| declaration.name == energy.description().name)
             .expect("declared");
         if declaration.has_functions() {
             continue;
         }
-        let parameters = Parameters::new(declaration, &entry.typical());
-        let same = Same { name: entry.name, parameters, model: model(declaration).expect("an energy") };
-        entry.visit(&entry.typical(), Inversion::Refuse, same).expect("typical parameters");
+        let parameters = Parameters::new(declaration, &energy.typical());
+        let mut same = Same { name: energy.name, parameters, model: model(declaration).expect("an energy") };
+        let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
+        same.check_all(&subject);
         compared += 1;
     }
     assert!(compared > 25, "{compared}");

@@ -17,14 +17,15 @@ use std::sync::{Mutex, PoisonError};
 use libtest_mimic::{Arguments, Trial};
 use piola::batch::{Batch, LengthError, Stages, TileMaterial};
 use piola::lanes::Backend;
-use piola::material::Declared;
+use piola::material::{Declared, MaterialError};
 use piola::point::Matrix3;
 use piola::point::project::Filter;
-use piola::{Inversion, Real, Status, Survey};
-use piola_materials::{CATALOGUE, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, Visitor};
+use piola::{Inversion, Status, Survey};
+use piola_materials::{NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
 use piola_tests::declared;
+use piola_tests::energies::{ENERGIES, Format, Subject, find};
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
@@ -81,9 +82,9 @@ fn own_cases() -> Result<Vec<Case>, String> {
     for file in FILES {
         cases.extend(Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file))?);
     }
-    for entry in CATALOGUE {
-        if !WITHOUT_CASES.contains(&entry.name) && cases.iter().all(|case| case.material != entry.name) {
-            return Err(format!("{} has no reference cases", entry.name));
+    for energy in ENERGIES.iter() {
+        if !WITHOUT_CASES.contains(&energy.name) && cases.iter().all(|case| case.material != energy.name) {
+            return Err(format!("{} has no reference cases", energy.name));
         }
     }
     Ok(cases)
@@ -94,28 +95,29 @@ fn own_cases() -> Result<Vec<Case>, String> {
 /// # Errors
 /// The results that fail, one in each line, or why a case cannot be judged.
 fn judge_all(name: &str, cases: &[Case]) -> Result<(), String> {
-    let entry = piola_materials::find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
+    let energy = find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
     let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
-    let values = first.values(&entry.description)?;
+    let values = first.values(energy.description())?;
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let declared = declared::Declared::read(&entry.description, &values, Inversion::Refuse)?;
+    let declared = declared::Declared::read(energy.description(), &values, Inversion::Refuse)?;
     let mut table = Table { cases: cases.len(), energies: 1, ..Table::EMPTY };
     let mut failures = Vec::new();
     for case in cases {
-        let values = case.values(&entry.description)?;
+        let values = case.values(energy.description())?;
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let judge = Judge { case, terms: declared.energy_terms(&values, case.stretches()?) };
         let refused = |error| format!("{}: {name} {error}", case.id);
-        let mut judgements = entry.visit(&values, Inversion::Refuse, judge).map_err(refused)?;
-        let elements = entry.elements(&values, Inversion::Refuse).map_err(refused)?;
-        judgements.extend(judge.batches(&*elements, "f64 lanes", |value| value, |value| value));
-        if case.f32_exact
-            && let Some(elements) = in_single_precision(entry.name, &values).map_err(refused)?
-        {
-            judgements.extend(judge.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
+        let subject = energy.subject(&values, Inversion::Refuse).map_err(refused)?;
+        let mut judgements = judge.points::<f64>(&subject);
+        judgements.extend(judge.batches(&*subject.double, "f64 lanes", |value| value, |value| value));
+        if case.f32_exact {
+            judgements.extend(judge.points::<f32>(&subject));
+            if let Some(elements) = in_single_precision(energy.name, &values).map_err(refused)? {
+                judgements.extend(judge.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
+            }
         }
         for judgement in judgements {
-            if let Some(complaint) = table.add(entry.name, case, &judgement) {
+            if let Some(complaint) = table.add(energy.name, case, &judgement) {
                 let Judgement { precision, quantity, .. } = judgement;
                 failures
                     .push(format!("{} {name} {precision} {} {quantity:?}: {complaint}", case.id, case.tag));
@@ -215,10 +217,10 @@ enum Verdict {
 fn in_single_precision(
     name: &str,
     values: &[&[f64]],
-) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::MaterialError> {
+) -> Result<Option<Box<dyn TileMaterial<f32>>>, MaterialError> {
     fn boxed<M: Declared + 'static>(
         values: &[&[f64]],
-    ) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::MaterialError> {
+    ) -> Result<Option<Box<dyn TileMaterial<f32>>>, MaterialError> {
         Ok(Some(Box::new(M::from_values(values, Inversion::Refuse)?)))
     }
     match name {
@@ -238,25 +240,9 @@ struct Judge<'a> {
     terms: f64,
 }
 
-impl Visitor for Judge<'_> {
-    type Output = Vec<Judgement>;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        let mut judgements = self.judge(&material, "f64", |value: f64| value);
-        if self.case.f32_exact {
-            judgements.extend(self.judge(&material, "f32", |value: f32| f64::from(value)));
-        }
-        judgements
-    }
-}
-
 impl Judge<'_> {
-    fn judge<M: Declared, R: Real<Mask = bool>>(
-        &self,
-        material: &M,
-        precision: &'static str,
-        widen: fn(R) -> f64,
-    ) -> Vec<Judgement> {
+    fn points<R: Format>(&self, subject: &Subject) -> Vec<Judgement> {
+        let material = R::of(subject);
         let f = self.case.deformation;
         let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));
         let (energy, of_energy) = evaluate_energy(material, &deformation);
@@ -264,7 +250,7 @@ impl Judge<'_> {
         let plain = evaluate(material, &deformation, Filter::None);
         let clamped = evaluate(material, &deformation, Filter::Clamp);
         let dense = evaluate_dense(material, &deformation, Filter::None);
-        let wide = |values: &[R]| values.iter().map(|&x| widen(x)).collect::<Vec<_>>();
+        let wide = |values: &[R]| values.iter().map(|&x| x.widen()).collect::<Vec<_>>();
         let results = [
             (Quantity::Energy, of_energy, wide(&[energy])),
             (Quantity::Stress, of_stress, wide(stress.as_flattened())),
@@ -274,7 +260,7 @@ impl Judge<'_> {
             (Quantity::Stress, dense.status, wide(dense.stress.as_flattened())),
             (Quantity::Tangent, dense.status, wide(dense.tangent.as_flattened())),
         ];
-        self.verdicts(precision, R::UNIT_ROUNDOFF, |x| R::splat(x).is_finite(), results)
+        self.verdicts(R::NAME, R::UNIT_ROUNDOFF, |x| R::splat(x).is_finite(), results)
     }
 
     /// Results of a batch of one point, with every back end.

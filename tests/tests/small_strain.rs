@@ -5,13 +5,13 @@
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
-use piola::material::Declared;
+use piola::interpreter::Interpreted;
 use piola::point::project::Filter;
 use piola::point::{self, Matrix3};
 use piola::random::Random;
-use piola::{Inversion, Real};
-use piola_materials::{CATALOGUE, Visitor};
+use piola::{Inversion, Material, Real};
 use piola_tests::compiled;
+use piola_tests::energies::{ENERGIES, Format, Subject};
 use piola_tests::multiprecision::Multiprecision;
 
 /// The constant of the judgements ‖P − P*‖ ≤ C u (‖P*‖ + ‖dP/dF‖ ‖H‖) and |ψ − ψ*| ≤ C u (|ψ*| + ‖P*‖ ‖H‖).
@@ -30,51 +30,45 @@ struct Worst {
     energy: f64,
 }
 
-struct Judge<R> {
-    magnitude: f64,
-    random: Random,
-    widen: fn(R) -> f64,
-}
-
-impl<R: Real<Mask = bool>> Visitor for Judge<R> {
-    type Output = Worst;
-
-    fn visit<M: Declared + 'static>(mut self, material: M) -> Worst {
-        let mut worst = Worst::default();
+impl Worst {
+    /// Displacement gradients of a magnitude in a format.
+    fn of<R: Format>(subject: &Subject, magnitude: f64) -> Self {
+        let (material, exact_material) = (R::of(subject), &subject.exact);
+        let mut random = Random::new(7);
+        let mut worst = Self::default();
         for _ in 0..SAMPLES {
             // Entries that both precisions hold.
             let displacement: Matrix3<f64> = std::array::from_fn(|_| {
-                std::array::from_fn(|_| {
-                    (self.widen)(R::splat(self.magnitude * self.random.uniform(-1.0, 1.0)))
-                })
+                std::array::from_fn(|_| R::splat(magnitude * random.uniform(-1.0, 1.0)).widen())
             });
             let exact: Matrix3<Exact> = plus_identity(&displacement.map(|row| row.map(Exact::splat)));
             let svd = compiled::svd(&exact);
-            let expected = point::stress(&svd, material.gradient(svd.stretches));
+            let expected = point::stress(&svd, exact_material.gradient(svd.stretches));
 
             let rounded = displacement.map(|row| row.map(R::splat));
-            let (stress, status) = compiled::evaluate_stress_from_displacement(&material, &rounded);
+            let (stress, status) = compiled::evaluate_stress_from_displacement(material, &rounded);
             assert!(!status.refused && !status.nonfinite && !status.bounded);
-            let through = compiled::evaluate_stress(&material, &plus_identity(&rounded)).0;
+            let through = compiled::evaluate_stress(material, &plus_identity(&rounded)).0;
 
-            let tangent = compiled::evaluate(&material, &plus_identity(&displacement), Filter::None).tangent;
+            let tangent =
+                compiled::evaluate(f64::of(subject), &plus_identity(&displacement), Filter::None).tangent;
             let stiffness = norm(tangent.to_matrix().iter().flatten().copied());
             let size = norm(displacement.iter().flatten().copied());
             let scale = norm(expected.iter().flatten().map(|x| x.to_f64())) + stiffness * size;
             let error = |found: &Matrix3<R>| {
                 let differences = found.iter().flatten().zip(expected.iter().flatten());
-                let differences = differences.map(|(&x, &y)| (Exact::splat((self.widen)(x)) - y).to_f64());
+                let differences = differences.map(|(&x, &y)| (Exact::splat(x.widen()) - y).to_f64());
                 norm(differences) / (R::UNIT_ROUNDOFF * scale)
             };
             // The oracle of ψ keeps 96 digits, of which the square of the strain takes its own.
-            if self.magnitude > 1e-30 && is_free_of_stress(&material) {
-                let (energy, status) = compiled::evaluate_energy_from_displacement(&material, &rounded);
+            if magnitude > 1e-30 && is_free_of_stress(exact_material, subject.moduli.mu) {
+                let (energy, status) = compiled::evaluate_energy_from_displacement(material, &rounded);
                 assert!(!status.refused && !status.nonfinite);
                 let one = Exact::splat(1.0);
-                let expected_energy = material.energy(svd.stretches) - material.energy([one; 3]);
+                let expected_energy = exact_material.energy(svd.stretches) - exact_material.energy([one; 3]);
                 let scale = expected_energy.to_f64().abs()
                     + norm(expected.iter().flatten().map(|x| x.to_f64())) * size;
-                let difference = (Exact::splat((self.widen)(energy)) - expected_energy).to_f64().abs();
+                let difference = (Exact::splat(energy.widen()) - expected_energy).to_f64().abs();
                 worst.energy = worst.energy.max(difference / (R::UNIT_ROUNDOFF * scale));
             }
             worst.from_displacement = worst.from_displacement.max(error(&stress));
@@ -86,11 +80,11 @@ impl<R: Real<Mask = bool>> Visitor for Judge<R> {
 
 /// Whether ψ in 96 digits has no stress at rest. It has a little where it has a fraction that `f64` rounds,
 /// such as 1/6, and is then no oracle for strains: its linear term outweighs the rest.
-fn is_free_of_stress(material: &impl Declared) -> bool {
+fn is_free_of_stress(material: &Interpreted, mu: f64) -> bool {
     let (one, step) = (Exact::splat(1.0), Exact::splat(1e-30));
     let energy = |step: Exact| material.energy([one + step, one, one]);
     let slope = ((energy(step) - energy(-step)) / (step + step)).to_f64();
-    slope.abs() < 1e-25 * material.moduli().mu
+    slope.abs() < 1e-25 * mu
 }
 
 fn plus_identity<R: Real>(displacement: &Matrix3<R>) -> Matrix3<R> {
@@ -112,23 +106,23 @@ fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 #[track_caller]
-fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R) -> f64) {
-    println!("\n{precision}: worst error from H, and through F, in u (‖P‖ + ‖dP/dF‖ ‖H‖); that of ψ\n");
+fn judge<R: Format>(magnitudes: &[f64]) {
+    println!("\n{}: worst error from H, and through F, in u (‖P‖ + ‖dP/dF‖ ‖H‖); that of ψ\n", R::NAME);
     let columns: Vec<_> = magnitudes.iter().map(|magnitude| format!("{magnitude:>22e}")).collect();
     println!("{:22}{}", "largest entry of H", columns.concat());
     let mut failures = Vec::new();
-    for entry in CATALOGUE {
-        let mut line = format!("{:22}", entry.name);
+    for energy in ENERGIES.iter() {
+        let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
+        let mut line = format!("{:22}", energy.name);
         for &magnitude in magnitudes {
-            let judge = Judge { magnitude, random: Random::new(7), widen };
-            let worst = entry.visit(&entry.typical(), Inversion::Refuse, judge).expect("typical parameters");
+            let worst = Worst::of::<R>(&subject, magnitude);
             line += &format!(
                 "{:7.1} {:8.0e} {:5.1}",
                 worst.from_displacement, worst.through_deformation, worst.energy
             );
             let within = worst.from_displacement <= C && worst.energy <= C;
             if !within {
-                failures.push(format!("{} at {magnitude:e}: {worst:?}", entry.name));
+                failures.push(format!("{} at {magnitude:e}: {worst:?}", energy.name));
             }
         }
         println!("{line}");
@@ -138,10 +132,10 @@ fn judge<R: Real<Mask = bool>>(precision: &str, magnitudes: &[f64], widen: fn(R)
 
 #[test]
 fn energies_and_stresses_keep_their_digits_in_f64() {
-    judge("f64", &[0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-60], |x: f64| x);
+    judge::<f64>(&[0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-60]);
 }
 
 #[test]
 fn energies_and_stresses_keep_their_digits_in_f32() {
-    judge("f32", &[0.1, 1e-2, 1e-4, 1e-6, 1e-12], |x: f32| f64::from(x));
+    judge::<f32>(&[0.1, 1e-2, 1e-4, 1e-6, 1e-12]);
 }

@@ -1,15 +1,17 @@
 //! Every material of the catalogue against an interpreter of its own declaration: parser, derivatives,
 //! quotients, schedule and emission at once, in `f64` and `f32`.
 
-use piola::material::{Blocks, Declared, MaterialError};
-use piola::{Inversion, Material, Real};
+use piola::Inversion;
+use piola::Real;
+use piola::material::{Blocks, MaterialError};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::interpret::{Estimate, Point, evaluate};
 use piola_codegen::model::{Model, Variant, model};
 use piola_codegen::read::domain::Volume;
 use piola_codegen::read::parse::Declaration;
-use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola_materials::CATALOGUE;
 use piola_tests::declared::declarations;
+use piola_tests::energies::{ENERGIES, Format, Subject, find};
 
 /// The declarations of the catalogue crate, understood.
 fn models() -> Vec<(Declaration, Model)> {
@@ -26,13 +28,15 @@ fn the_catalogue_is_complete_and_sorted() {
         models().into_iter().map(|(declaration, _)| declaration.name.to_string()).collect();
     for name in &declared {
         assert!(
-            CATALOGUE.iter().any(|entry| entry.description.name == *name),
+            ENERGIES.iter().any(|energy| energy.description().name == *name),
             "{name} is not in the catalogue"
         );
     }
-    assert_eq!(declared.len(), CATALOGUE.len());
+    assert_eq!(declared.len(), ENERGIES.len());
+    assert!(ENERGIES.is_sorted_by_key(|energy| energy.name), "energies stand in the order of their names");
     assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
-    for Entry { name, description, .. } in CATALOGUE {
+    for energy in ENERGIES.iter() {
+        let (name, description) = (energy.name, energy.description());
         assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
         for parameter in description.parameters.iter() {
             assert!(!parameter.doc.is_empty(), "{name}: {} is documented", parameter.name);
@@ -45,9 +49,9 @@ fn compiled_materials_compute_what_they_declare() {
     // What a function that is a parameter computes is unknown to the interpreter; contract and oracles judge
     // those.
     for (declaration, model) in models().into_iter().filter(|(declared, _)| !declared.has_functions()) {
-        let entry = CATALOGUE
+        let energy = ENERGIES
             .iter()
-            .find(|entry| declaration.name == entry.description.name)
+            .find(|energy| declaration.name == energy.description().name)
             .expect("in the catalogue");
         let mut judged = 0;
         for sample in &model.samples {
@@ -55,16 +59,19 @@ fn compiled_materials_compute_what_they_declare() {
             let variants = [(Inversion::Refuse, Some(&model.plain)), (EXTEND, model.extended.as_ref())];
             for (inversion, variant) in variants {
                 let Some(variant) = variant else { continue };
-                let judge = Judge { name: entry.name, model: &model, variant, sample };
-                match entry.visit(&values, inversion, judge) {
-                    Ok(()) => judged += 1,
+                let judge = Judge { name: energy.name, model: &model, variant, sample };
+                match energy.subject(&values, inversion) {
+                    Ok(subject) => {
+                        judge.judge(&subject);
+                        judged += 1;
+                    }
                     // Random parameters need not make a stable or restoring solid.
                     Err(MaterialError::UnstableRest { .. } | MaterialError::DoesNotRestore { .. }) => {}
-                    Err(error) => panic!("{}: {error}", entry.name),
+                    Err(error) => panic!("{}: {error}", energy.name),
                 }
             }
         }
-        assert!(judged >= 3, "{}: only {judged} samples could be judged", entry.name);
+        assert!(judged >= 3, "{}: only {judged} samples could be judged", energy.name);
     }
 }
 
@@ -78,10 +85,8 @@ struct Judge<'a> {
     sample: &'a Point,
 }
 
-impl Visitor for Judge<'_> {
-    type Output = ();
-
-    fn visit<M: Declared + 'static>(self, material: M) {
+impl Judge<'_> {
+    fn judge(&self, subject: &Subject) {
         let is_extended = self.variant.has_pole && self.model.volume != Volume::Any;
         let mut points = vec![ordered(self.sample.stretches)];
         if is_extended {
@@ -95,10 +100,10 @@ impl Visitor for Judge<'_> {
         }
         for stretches in points {
             let point = Point { stretches, ..self.sample.clone() };
-            self.check(&material, &point, |value: f64| value, 256.0);
-            self.check(&material, &point, |value: f32| f64::from(value), 256.0);
+            self.check::<f64>(subject, &point, 256.0);
+            self.check::<f32>(subject, &point, 256.0);
         }
-        let moduli = material.moduli();
+        let moduli = subject.moduli;
         for (id, value) in self.model.moduli.into_iter().zip([moduli.mu, moduli.lambda]) {
             let expected = evaluate(&self.model.graph, id, self.sample);
             self.close("modulus", expected, value, 64.0 * f64::UNIT_ROUNDOFF, self.sample);
@@ -117,7 +122,8 @@ fn ordered(stretches: [f64; 3]) -> [f64; 3] {
 impl Judge<'_> {
     /// Within `roundings` times u of the magnitudes that enter, exponents included: a count of operations,
     /// generously.
-    fn check<M: Material, R: Real>(&self, material: &M, point: &Point, widen: fn(R) -> f64, roundings: f64) {
+    fn check<R: Format>(&self, subject: &Subject, point: &Point, roundings: f64) {
+        let material = R::of(subject);
         let stretches = point.stretches.map(R::splat);
         let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
         let energy = [material.energy(stretches)];
@@ -133,7 +139,7 @@ impl Judge<'_> {
         for (what, ids, values) in groups {
             for (&id, &value) in ids.iter().zip(values) {
                 let expected = evaluate(&self.model.graph, id, point);
-                self.close(what, expected, widen(value), roundings * R::UNIT_ROUNDOFF, point);
+                self.close(what, expected, value.widen(), roundings * R::UNIT_ROUNDOFF, point);
             }
         }
     }
@@ -154,8 +160,8 @@ impl Judge<'_> {
 #[test]
 fn constructors_refuse_what_is_inadmissible() {
     let message = |name: &str, values: &[&[f64]], inversion| {
-        let entry = piola_materials::find(name).expect("in the catalogue");
-        entry.moduli(values, inversion).err().map(|error| error.to_string()).unwrap_or_default()
+        let energy = find(name).expect("in the catalogue");
+        energy.subject(values, inversion).err().map(|error| error.to_string()).unwrap_or_default()
     };
     let check =
         |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");

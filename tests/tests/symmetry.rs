@@ -6,12 +6,12 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use piola::batch::{Batch, TileMaterial};
+use piola::batch::Batch;
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola::random::Random;
 use piola::{Inversion, StatusCell};
-use piola_materials::CATALOGUE;
+use piola_tests::energies::ENERGIES;
 
 const COUNT: usize = 384;
 
@@ -42,14 +42,15 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
     let samples = samples();
     let F = samples.concat();
     let mut unequal = Vec::new();
-    for entry in CATALOGUE {
-        let material: Box<dyn TileMaterial<f64>> =
-            entry.elements(&entry.typical(), Inversion::Refuse).expect("typical parameters are admissible");
+    for energy in ENERGIES.iter() {
+        let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
         for backend in Backend::available() {
             for filter in [Filter::None, Filter::Clamp] {
                 let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
-                let batch =
-                    Batch::new(&*material).with_backend(backend).with_filter(filter).with_statuses(&statuses);
+                let batch = Batch::new(&*subject.double)
+                    .with_backend(backend)
+                    .with_filter(filter)
+                    .with_statuses(&statuses);
                 let (mut P, mut dP_dF) = (vec![0.0; 9 * COUNT], vec![0.0; 81 * COUNT]);
                 batch.tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
                 for (p, F) in samples.iter().enumerate().filter(|(p, _)| !statuses[*p].get().refused) {
@@ -58,7 +59,7 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
                     for axis in axes {
                         for row in 0..9 {
                             let is_row_odd = is_odd(axis, row / 3, row % 3);
-                            let name = entry.name;
+                            let name = energy.name;
                             assert!(
                                 !is_row_odd || P[row] == 0.0,
                                 "{name}, {backend}, {filter:?}: P of {F:?} is {P:?}"
@@ -74,7 +75,7 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
                         }
                     }
                     if p % 6 == 0 && P[4] != P[8] || p % 6 == 2 && P[0] != P[4] {
-                        unequal.push((entry.name, backend.name(), filter));
+                        unequal.push((energy.name, backend.name(), filter));
                     }
                 }
             }

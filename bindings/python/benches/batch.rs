@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [points, threads] = arguments[..] else { return Err("the number of points, and of threads".into()) };
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     let entry = piola_materials::find("neo_hookean").ok_or("not in the catalogue")?;
-    let material = entry.elements(&[&[0.8], &[4.0]], Inversion::Refuse)?;
+    let material = entry.material(&[&[0.8], &[4.0]], Inversion::Refuse)?;
     let batch = Batch::new(&*material).with_threads(threads > 1);
     let entry = |k: usize| {
         // A sequence without pattern, from −1 to 1.

@@ -69,7 +69,7 @@ impl<'a> Origin<'a> {
         inversion: Inversion,
     ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
         match self.compiled() {
-            Some(entry) => entry.elements(values, inversion),
+            Some(entry) => Ok(entry.material(values, inversion)?),
             None => Ok(Box::new(self.interpreted(values, inversion)?)),
         }
     }

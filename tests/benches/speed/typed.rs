@@ -28,7 +28,7 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
         let source = declaration.map_or("", |declaration| declaration.source);
         let energy = Energy::from_rust(source).expect("a declaration of the catalogue");
         let typed = energy.material(&values, Inversion::Refuse)?;
-        let compiled = entry.elements(&values, Inversion::Refuse)?;
+        let compiled = entry.material(&values, Inversion::Refuse)?;
         for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
             for task in [Task::Stresses, Task::Tangents] {
                 let batches = [Batch::new(&*compiled), Batch::new(&typed)];

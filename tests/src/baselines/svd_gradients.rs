@@ -19,9 +19,9 @@
 
 #![expect(non_snake_case, reason = "U, V, P, dF as in the paper")]
 
-use piola::material::{Blocks, PAIRS};
+use piola::Real;
+use piola::material::{Blocks, PAIRS, Response};
 use piola::point::Svd;
-use piola::{Material, Real};
 
 use super::matrix::{dot, multiply, scale_columns, transpose};
 
@@ -45,7 +45,7 @@ impl Default for Regularization {
 #[inline(always)]
 #[must_use]
 pub fn tangent<R: Real<Mask = bool>>(
-    material: &impl Material,
+    material: &(impl Response<R> + ?Sized),
     svd: &Svd<R>,
     regularization: Regularization,
 ) -> [[R; 9]; 9] {

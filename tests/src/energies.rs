@@ -1,0 +1,123 @@
+//! The catalogue as judges take it: every energy behind pointers, so that no judge is compiled again for each
+//! of them.
+//!
+//! An energy is the compiled one where this build has it, and else the interpreted one: `declare/tests`
+//! proves that both have the same bits. With the feature `all` every energy is a compiled one.
+
+use std::sync::LazyLock;
+
+use piola::interpreter::Interpreted;
+use piola::material::{Description, MaterialError, Moduli, Response};
+use piola::{DynMaterial, Inversion};
+use piola_declare::Energy;
+use piola_materials::{DECLARATIONS, Entry};
+
+use crate::bits::Precision;
+
+/// All energies of the catalogue, in the order of their names.
+pub static ENERGIES: LazyLock<Vec<Judged>> = LazyLock::new(|| {
+    let judged = |declaration: &piola_materials::Declaration| Judged {
+        name: declaration.name,
+        compiled: piola_materials::find(declaration.name),
+        energy: Energy::from_rust(declaration.source)
+            .unwrap_or_else(|mistakes| panic!("{}: {mistakes}", declaration.name)),
+    };
+    DECLARATIONS.iter().map(judged).collect()
+});
+
+/// The energy of that name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Judged> {
+    ENERGIES.iter().find(|energy| energy.name == name)
+}
+
+/// An energy of the catalogue.
+#[derive(Debug)]
+pub struct Judged {
+    /// Name in the catalogue.
+    pub name: &'static str,
+    /// The compiled energy, if this build has it.
+    pub compiled: Option<&'static Entry>,
+    /// The energy declared at run time.
+    pub energy: Energy,
+}
+
+impl Judged {
+    /// Formula, parameters, domain.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        self.energy.description()
+    }
+
+    /// Typical parameters as declared, one slice for each.
+    #[must_use]
+    pub fn typical(&self) -> Vec<&[f64]> {
+        self.energy.typical()
+    }
+
+    /// The material with these values, one slice for each parameter.
+    ///
+    /// # Errors
+    /// [`MaterialError`], those of the compiled constructor where the build has it.
+    pub fn subject(&self, values: &[&[f64]], inversion: Inversion) -> Result<Subject, MaterialError> {
+        let exact = self.energy.material(values, inversion);
+        let compiled = self.compiled.map(|entry| {
+            let (double, single) =
+                (entry.material(values, inversion)?, entry.material_f32(values, inversion)?);
+            Ok((double, single, entry.moduli(values, inversion)?))
+        });
+        match compiled {
+            // The catalogue compiles lists of a few lengths only.
+            None | Some(Err(MaterialError::Shape { .. })) => {
+                let exact = exact?;
+                let moduli = Moduli::of(&exact);
+                Ok(Subject {
+                    double: Box::new(exact.clone()),
+                    single: Box::new(exact.clone()),
+                    exact,
+                    moduli,
+                })
+            }
+            Some(compiled) => {
+                let (double, single, moduli) = compiled?;
+                Ok(Subject { double, single, exact: exact?, moduli })
+            }
+        }
+    }
+
+    /// The ways of inversion that the energy has: refusing, and continued below `epsilon` if it can be.
+    pub fn inversions(&self, epsilon: f64) -> impl Iterator<Item = Inversion> + use<> {
+        let extended = self.description().extends.then_some(Inversion::Extend { epsilon });
+        std::iter::once(Inversion::Refuse).chain(extended)
+    }
+}
+
+/// A material in the formats that judges ask for.
+pub struct Subject {
+    /// In `f64`, single points and batches.
+    pub double: Box<dyn DynMaterial<f64>>,
+    /// In `f32`, single points.
+    pub single: Box<dyn Response<f32>>,
+    /// For any other real number, such as one of a hundred digits.
+    pub exact: Interpreted,
+    /// Small-strain moduli, Pa.
+    pub moduli: Moduli,
+}
+
+/// A format of single points.
+pub trait Format: Precision {
+    /// The material in this format.
+    fn of(subject: &Subject) -> &dyn Response<Self>;
+}
+
+impl Format for f64 {
+    fn of(subject: &Subject) -> &dyn Response<Self> {
+        &*subject.double
+    }
+}
+
+impl Format for f32 {
+    fn of(subject: &Subject) -> &dyn Response<Self> {
+        &*subject.single
+    }
+}

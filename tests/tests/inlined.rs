@@ -1,0 +1,74 @@
+//! Single points of a material whose type is known, inlined into the caller, beside those behind a pointer,
+//! which the other judges take: equal bits.
+//!
+//! The energies cover polynomials, logarithms, real powers in lists, a pole and an exponential. Deformation
+//! gradients are those of the first file of reference cases, refused ones included.
+
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use std::fmt::Debug;
+use std::path::Path;
+
+use piola::material::{Declared, MaterialError};
+use piola::point::{
+    Filter, Matrix3, evaluate, evaluate_dense, evaluate_energy, evaluate_energy_from_displacement,
+    evaluate_stress, evaluate_stress_from_displacement,
+};
+use piola_materials::{Fung, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
+use piola_tests::cases::Case;
+use piola_tests::compiled;
+use piola_tests::energies::{Format, Subject, find};
+
+/// The bits of a result: the text of a floating-point number is that of its bits, except for NaN.
+fn bits(result: impl Debug) -> String {
+    format!("{result:?}")
+}
+
+fn check<M: Declared, R: Format>(name: &str, material: &M, subject: &Subject, F: &Matrix3<R>) {
+    let behind = R::of(subject);
+    let pairs = [
+        (bits(evaluate_energy(material, F)), bits(compiled::evaluate_energy(behind, F))),
+        (bits(evaluate_stress(material, F)), bits(compiled::evaluate_stress(behind, F))),
+        (
+            bits(evaluate_energy_from_displacement(material, F)),
+            bits(compiled::evaluate_energy_from_displacement(behind, F)),
+        ),
+        (
+            bits(evaluate_stress_from_displacement(material, F)),
+            bits(compiled::evaluate_stress_from_displacement(behind, F)),
+        ),
+        (
+            bits(evaluate_dense(material, F, Filter::None)),
+            bits(compiled::evaluate_dense(behind, F, Filter::None)),
+        ),
+        (bits(evaluate(material, F, Filter::Clamp)), bits(compiled::evaluate(behind, F, Filter::Clamp))),
+    ];
+    for (inlined, behind) in pairs {
+        assert_eq!(inlined, behind, "{name} in {} at {F:?}", R::NAME);
+    }
+}
+
+fn check_energy<M: Declared + 'static>(name: &str, cases: &[Case]) -> Result<(), MaterialError> {
+    let energy = find(name).expect("in the catalogue");
+    for inversion in energy.inversions(0.1) {
+        let (values, material) = (energy.typical(), M::from_values(&energy.typical(), inversion)?);
+        let subject = energy.subject(&values, inversion)?;
+        for case in cases {
+            let F: Matrix3<f64> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| case.deformation[3 * i + j]));
+            check(name, &material, &subject, &F);
+            check(name, &material, &subject, &F.map(|row| row.map(|x| x as f32)));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn points_have_the_bits_of_those_behind_a_pointer() -> Result<(), Box<dyn std::error::Error>> {
+    let cases = Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/cases.json"))?;
+    check_energy::<StVenantKirchhoff>("st_venant_kirchhoff", &cases)?;
+    check_energy::<NeoHookean>("neo_hookean", &cases)?;
+    check_energy::<Ogden<3>>("ogden", &cases)?;
+    check_energy::<RotatedLinear>("rotated_linear", &cases)?;
+    check_energy::<Fung>("fung", &cases)?;
+    Ok(())
+}
