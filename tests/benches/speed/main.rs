@@ -11,7 +11,6 @@ use piola::lanes::Backend;
 use piola_speed::{Effort, IN_CACHE, STREAMING, processor};
 
 mod comparisons;
-mod goals;
 mod measure;
 mod point_by_point;
 mod tables;
@@ -37,14 +36,6 @@ fn main() {
         "F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0. In lines, by points: `Layout::Lines`, \
          `Layout::Points`.\n"
     );
-    println!("## Goals\n");
-    println!(
-        "Those in nanoseconds are for a Zen 5 core with AVX-512; of streaming, 1.3 times what computing in cache or moving \
-         the numbers takes, whichever takes longer.\n"
-    );
-    println!("{}", goals::table(effort, streaming_effort));
-    println!("{}", goals::REASONS);
-    println!("## Energies by hand\n\n{}", comparisons::hand_written(effort));
     println!("## Energies typed at run time\n\n{}", typed::table(effort).expect("typical parameters"));
     println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
     println!("## Few points a call, {best}, f64, by points\n\n{}", tables::few_points(effort));

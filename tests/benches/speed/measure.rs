@@ -1,7 +1,6 @@
 //! One configuration at a time.
 
 use piola::batch::{Batch, Layout, Stages, TileMaterial};
-use piola::lanes::Backend;
 use piola::point::{Filter, Matrix3};
 use piola_speed::{
     Arrays, Effort, IN_CACHE, STREAMING, Task, Times, deformation_gradients, time, time_in_turns,
@@ -19,42 +18,18 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, ba
     time(effort, IN_CACHE, || arrays.run(batch))
 }
 
-/// What moving the numbers takes, and the task, with ordinary stores and with stores past the caches.
-#[derive(Clone, Copy)]
-pub(crate) struct Streamed {
-    pub(crate) traffic: Times,
-    pub(crate) stored: Times,
-    pub(crate) non_temporal: Times,
-}
-
-impl Streamed {
-    /// The better of the two ways to store.
-    pub(crate) fn best(&self) -> Times {
-        if self.stored.least < self.non_temporal.least { self.stored } else { self.non_temporal }
-    }
-}
-
-/// Once through more points than any cache holds, in lines.
+/// Once through more points than any cache holds, in lines: with ordinary stores and with stores past the
+/// caches.
 pub(crate) fn streaming<E: Stages>(
     effort: Effort,
     arrays: &mut Arrays<E>,
     energy: &dyn TileMaterial<E>,
     filter: Filter,
-) -> Streamed {
-    let batch = Batch::new(energy).with_filter(filter);
-    let streaming = batch.with_streams(true);
-    let traffic = traffic(effort, arrays);
-    let stored = time(effort, STREAMING, || arrays.run(&batch));
-    let non_temporal = time(effort, STREAMING, || arrays.run(&streaming));
-    Streamed { traffic, stored, non_temporal }
-}
-
-/// The faster of ordinary stores and stores past the caches.
-fn traffic<E: Stages>(effort: Effort, arrays: &mut Arrays<E>) -> Times {
-    let backend = Backend::best();
-    let stored = time(effort, STREAMING, || arrays.move_only(backend, false));
-    let non_temporal = time(effort, STREAMING, || arrays.move_only(backend, true));
-    if stored.least < non_temporal.least { stored } else { non_temporal }
+) -> [Times; 2] {
+    [false, true].map(|streams| {
+        let batch = Batch::new(energy).with_filter(filter).with_streams(streams);
+        time(effort, STREAMING, || arrays.run(&batch))
+    })
 }
 
 /// Both in turns: the first, the second.

@@ -82,7 +82,7 @@ pub(crate) fn few_points(effort: Effort) -> String {
 /// Ordinary stores and those past the caches beside each other.
 pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
     let materials = materials::<E>();
-    let mut titles = vec!["kernel".to_owned(), "the numbers moved".to_owned()];
+    let mut titles = vec!["kernel".to_owned()];
     for (name, _) in &materials {
         titles.extend([name.to_string(), "non-temporal".to_owned()]);
     }
@@ -92,11 +92,7 @@ pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
         for &filter in task.filters() {
             let mut cells = vec![task.label(filter)];
             for (_, energy) in task.materials(&materials) {
-                let found = measure_streaming(effort, &mut arrays, &**energy, filter);
-                if cells.len() == 1 {
-                    cells.push(cell(found.traffic));
-                }
-                cells.extend([cell(found.stored), cell(found.non_temporal)]);
+                cells.extend(measure_streaming(effort, &mut arrays, &**energy, filter).map(cell));
             }
             row(&mut table, &cells);
         }

@@ -1,5 +1,5 @@
-//! Work to be timed and counted: the kernels of a batch on fixed points, for the table of speeds, the bench
-//! and the counts of instructions.
+//! Work to be timed and counted: the kernels of a batch on fixed points, for the table of speeds and
+//! the counts of instructions.
 //!
 //! * [`Task`]: what a batch is asked for; [`Arrays`]: the numbers that go in and come out;
 //! * [`materials`]: of which energies;

@@ -1,5 +1,5 @@
-//! Energies with derivatives by hand, with as few operations as their author could find: what generated code
-//! is timed beside.
+//! Energies with derivatives by hand, with as few operations as their author could find: the baselines that
+//! compute by invariants or by automatic differentiation take them from here.
 //!
 //! Each agrees with the energy of the same name in the catalogue, which says the formula and its source.
 
