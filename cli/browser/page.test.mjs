@@ -3,9 +3,7 @@
 // `npm test` uses target/debug/piola and Debian's chromium; PIOLA and CHROMIUM name others. Screenshots go to target/page/.
 
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import { isAtRest, testPulls } from "./pulls.mjs";
@@ -13,20 +11,17 @@ import { grabTail, open, view } from "./viewer.mjs";
 
 const shots = fileURLToPath(new URL("../../target/page/", import.meta.url));
 const patience = { timeout: 60_000 };
-const scratch = mkdtempSync(join(tmpdir(), "piola-page-"));
-const recording = join(scratch, "recording.jsonl");
 let viewer, browser, page, faults;
 
 before(async () => {
   mkdirSync(shots, { recursive: true });
-  viewer = await view("dinosaur", "--record", recording);
+  viewer = await view("dinosaur");
   ({ browser, page, faults } = await open(viewer));
 });
 
 after(async () => {
   await browser?.close();
   viewer?.stop();
-  rmSync(scratch, { recursive: true, force: true });
 });
 
 const figures = () => page.evaluate(() => globalThis.piola.figures());
@@ -167,27 +162,4 @@ test("without the token there is no page, but a word on where it is", async () =
 test("nothing went wrong on the way", () => {
   assert.deepEqual(faults, []);
   assert.ok(viewer.isRunning());
-});
-
-test("a recording is played back until the page takes over", async () => {
-  const replay = await view("--replay", recording);
-  const watching = await open(replay);
-  const at = watching.page;
-  try {
-    await at.locator("#take-over:visible").waitFor();
-    await at.waitForFunction(() => document.getElementById("trouble").textContent.includes("played back"));
-    await at.screenshot({ path: `${shots}replay.png` });
-    await at.click("#reset");
-    await at.waitForFunction(() => document.getElementById("trouble").textContent.includes("take over"));
-    await at.click("#take-over");
-    await at.locator("#take-over").waitFor({ state: "hidden" });
-    await at.waitForFunction(() => !globalThis.piola.figures().replays);
-    await at.click("#pause");
-    await at.click("#reset");
-    await at.waitForFunction(() => globalThis.piola.figures().frame === 0);
-    assert.deepEqual(watching.faults, []);
-  } finally {
-    await watching.browser.close();
-    replay.stop();
-  }
 });

@@ -9,7 +9,6 @@ use piola_scenes::options::{SceneOptions, scenes};
 use piola_scenes::output::Newton;
 use piola_scenes::run::{Existing, Output};
 use piola_scenes::settings::{Files, Settings};
-use piola_viewer::recording::Recording;
 use piola_viewer::state::State;
 
 use crate::bench::{Check, Curve, Fit};
@@ -103,24 +102,14 @@ pub(crate) struct View {
     #[arg(long, default_value_t = 8017)]
     port: u16,
 
-    /// File for the state that the page's button saves; a recording that is played back writes none [default:
-    /// kept in memory].
+    /// File for the state that the page's button saves [default: kept in memory].
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 
     /// Continue a saved state, to the last bit; it names its scene and options itself, but for the files of
     /// another body: give --mesh and --surface again.
-    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    #[arg(long, value_name = "FILE")]
     load: Option<PathBuf>,
-
-    /// Record every pull and every change in a file; only an earlier recording is overwritten.
-    #[arg(long, value_name = "FILE")]
-    record: Option<PathBuf>,
-
-    /// Play a recording back, which names its scene and options like a state; the page takes over at its end,
-    /// or when its button is pressed.
-    #[arg(long, value_name = "FILE")]
-    replay: Option<PathBuf>,
 }
 
 /// A scene and overrides of its defaults.
@@ -176,18 +165,14 @@ impl View {
     /// Options of the viewer.
     pub(crate) fn options(self) -> Result<Options, Error> {
         self.refuse_overlaps()?;
-        let begin = match (&self.load, &self.replay) {
-            (None, None) => Begin::Scene(Box::new(self.choice.settings()?)),
-            (Some(path), _) => {
+        let begin = match &self.load {
+            None => Begin::Scene(Box::new(self.choice.settings()?)),
+            Some(path) => {
                 let files = self.choice.only_files()?;
                 Begin::State(Box::new(State::read(path)?.with_files(files)))
             }
-            (None, Some(path)) => {
-                let files = self.choice.only_files()?;
-                Begin::Replay(Box::new(Recording::read(path)?.with_files(files)))
-            }
         };
-        Ok(Options::new(begin).with_port(self.port).with_save(self.save).with_record(self.record))
+        Ok(Options::new(begin).with_port(self.port).with_save(self.save))
     }
 
     /// Refuses to write over files that are read. A state may be saved to the file that it was loaded from.
@@ -203,11 +188,8 @@ impl View {
             named("--mesh", &beside("node")),
             named("--mesh", &beside("ele")),
             named("--surface", surface),
-            named("--replay", &self.replay),
         ];
-        let (save, record) = (named("--save", &self.save), named("--record", &self.record));
-        refuse_overlaps(named("--load", &self.load), record.clone())?;
-        refuse_overlaps(inputs.into_iter().flatten(), [save, record].into_iter().flatten())
+        refuse_overlaps(inputs.into_iter().flatten(), named("--save", &self.save))
     }
 }
 

@@ -22,8 +22,8 @@ pub enum Error {
     Viewer(ViewerError),
     /// A file that names its scene is given beside a scene or its options.
     #[error(
-        "the file names its scene and options itself; leave out all but --load or --replay, --mesh and --surface of \
-         its body, --port, --save and --record"
+        "the file names its scene and options itself; leave out all but --load, --mesh and --surface of its body, \
+         --port and --save"
     )]
     ScenesOwn,
     /// The page cannot be served at the port.

@@ -85,9 +85,9 @@ mod tests {
         assert!(overlaps(at("new.csv"), at("sub/../new.csv")), "files that do not exist yet");
         assert!(!overlaps(at("data.csv"), at("new.csv")));
         assert!(!overlaps(at("no/new.csv"), at("no/new.csv")), "nothing can be written there");
-        let outputs = [("--save", at("one")), ("--record", at("one"))];
+        let outputs = [("--svg", at("one")), ("--save", at("one"))];
         let error = refuse_overlaps([], outputs).expect_err("one file twice").to_string();
-        assert!(error.contains("--save") && error.contains("--record"), "{error}");
+        assert!(error.contains("--svg") && error.contains("--save"), "{error}");
     }
 
     #[cfg(unix)]

@@ -27,7 +27,6 @@ use piola_scenes::error::Error as SceneError;
 use piola_scenes::settings::Settings;
 use piola_viewer::conversation::Conversation;
 use piola_viewer::driver::{Driver, Order};
-use piola_viewer::recording::{Recorder, Recording};
 use piola_viewer::session::Session;
 use piola_viewer::state::State;
 use piola_viewer::topology;
@@ -53,15 +52,13 @@ pub struct Options {
     pub port: u16,
     /// The file for the page's button to save the state; without one, the state is kept in memory.
     pub save: Option<PathBuf>,
-    /// The file that gets a recording.
-    pub record: Option<PathBuf>,
 }
 
 impl Options {
     /// A viewer at any free port, which writes no files.
     #[must_use]
     pub fn new(begin: Begin) -> Self {
-        Self { begin, port: 0, save: None, record: None }
+        Self { begin, port: 0, save: None }
     }
 
     /// Serves at this port on 127.0.0.1; 0 for any that is free.
@@ -77,13 +74,6 @@ impl Options {
         self.save = file.into();
         self
     }
-
-    /// Records every act in a file.
-    #[must_use]
-    pub fn with_record(mut self, file: impl Into<Option<PathBuf>>) -> Self {
-        self.record = file.into();
-        self
-    }
 }
 
 /// Beginning of a viewer.
@@ -93,8 +83,6 @@ pub enum Begin {
     Scene(Box<Settings>),
     /// A saved state.
     State(Box<State>),
-    /// A recording, which is played back before the page takes over.
-    Replay(Box<Recording>),
 }
 
 /// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is
@@ -111,13 +99,11 @@ impl Viewer {
     /// Starts to play and to serve.
     ///
     /// # Errors
-    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`], [`Error::Random`], or that
-    /// of a file that cannot be written.
+    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`] or [`Error::Random`].
     pub fn start(options: Options) -> Result<Self, Error> {
-        let (session, replay) = match options.begin {
-            Begin::Scene(settings) => (Session::new(*settings)?, None),
-            Begin::State(state) => (Session::resume(*state)?, None),
-            Begin::Replay(recording) => (Session::resume(recording.start().clone())?, Some(*recording)),
+        let session = match options.begin {
+            Begin::Scene(settings) => Session::new(*settings)?,
+            Begin::State(state) => Session::resume(*state)?,
         };
         let no_port = |source| Error::Port { port: options.port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(no_port)?;
@@ -126,15 +112,11 @@ impl Viewer {
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
         let topology = topology(session.geometry()).into();
-        let recorded = replay.iter().flat_map(Recording::drags);
-        let first = Conversation::after(session.pulls().map(|(drag, _)| drag).chain(recorded));
+        let first = Conversation::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
-        // It replaces an earlier recording, and so comes after everything that may fail but threads.
-        let recorder = options.record.map(|path| Recorder::begin(&path, session.state())).transpose()?;
-        let host = OwnThreads::new(threads);
-        let driver = Driver::new(host, session, options.save, recorder, replay);
+        let driver = Driver::new(OwnThreads::new(threads), session, options.save);
         let patience = Patience::default();
         let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {

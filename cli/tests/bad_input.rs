@@ -164,13 +164,8 @@ fn files_of_the_viewer_that_are_none() {
     check(&[], &["view", "hrose"], &["`hrose`", "`horse`"]);
     check(&[], &["view", "--load", "state.json"], &["state.json", "cannot be read"]);
     check(&[], &["view", "dinosaur", "--load", "state.json"], &["leave out", "--load"]);
-    check(&[], &["view", "--load", "one", "--replay", "other"], &["--load", "--replay"]);
     let state = ("state.json", String::from("{\"format\": \"piola state 0\"}"));
     check(&[state], &["view", "--load", "state.json"], &["state.json", "piola state 0"]);
-    let recording = ("pulls.jsonl", String::from("{\"until\": {\"steps\": 1}}\n"));
-    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl:1", "crc32"]);
-    let recording = ("pulls.jsonl", String::new());
-    check(&[recording], &["view", "--replay", "pulls.jsonl"], &["pulls.jsonl", "no start"]);
     check(&[], &["view", "--port", "65536"], &["65536"]);
 }
 
@@ -183,18 +178,13 @@ fn files_that_are_named_twice() {
         ("file.ele", String::new()),
     ];
     let twice = |arguments: &[&str], guilty: &[&str]| check(&files, arguments, guilty);
-    twice(&["view", "--replay", "r.jsonl", "--record", "./r.jsonl"], &["--replay", "--record", "r.jsonl"]);
-    twice(&["view", "--load", "s.json", "--record", "s.json"], &["--load", "--record"]);
-    twice(&["view", "--save", "s.json", "--record", "s.json"], &["--save", "--record"]);
     twice(&["view", "--mesh", "cage.msh", "--save", "cage.msh"], &["--mesh", "--save"]);
-    twice(&["view", "--mesh", "file.node", "--record", "file.ele"], &["--mesh", "--record"]);
-    twice(&["view", "--mesh", "cage.msh", "--surface", "x.obj", "--record", "x.obj"], &["--surface"]);
+    twice(&["view", "--mesh", "file.node", "--save", "file.ele"], &["--mesh", "--save"]);
+    twice(&["view", "--mesh", "cage.msh", "--surface", "x.obj", "--save", "x.obj"], &["--surface"]);
     twice(&["curve", "gent", "--data", "data.csv", "--svg", "data.csv"], &["--data", "--svg"]);
     twice(&["fit", "gent", "--data", "data.csv", "--svg", "./data.csv"], &["--data", "--svg"]);
     // Loading a state and saving the next one there is what a state is for.
     twice(&["view", "--load", "data.csv", "--save", "data.csv"], &["data.csv", "not a saved state"]);
-    // Somebody's file is not recorded over, whatever it is.
-    twice(&["view", "twist", "--port", "0", "--record", "data.csv"], &["data.csv", "something else"]);
 }
 
 #[test]

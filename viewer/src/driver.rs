@@ -16,12 +16,10 @@ use piola_scenes::error::Error as SceneError;
 
 use crate::error::Error;
 use crate::protocol::{Act, Run};
-use crate::recording::{Recorder, Recording};
 use crate::session::Session;
 use crate::show::{self, Frame, FrameStats};
 
-/// How long orders may be taken between two steps, and acts of a recording between two looks at the orders. A
-/// single one takes as long as it takes.
+/// How long orders may be taken between two steps. A single one takes as long as it takes.
 pub const TURN: Duration = Duration::from_millis(20);
 /// Number of steps over which the speed is averaged.
 const TIMED: usize = 32;
@@ -85,9 +83,6 @@ pub struct Driver<H> {
     session: Session,
     /// File for saved states.
     save: Option<PathBuf>,
-    recorder: Option<Recorder>,
-    /// A recording that is played back; acts of pages are refused meanwhile.
-    replay: Option<Recording>,
     stats: FrameStats,
     /// When the step before was due.
     before: Duration,
@@ -104,22 +99,13 @@ pub struct Driver<H> {
 }
 
 impl<H: Host> Driver<H> {
-    /// A driver of a session, with a file for saved states, a recording to be made, and one to be played back
-    /// before pages take over.
-    pub fn new(
-        host: H,
-        session: Session,
-        save: Option<PathBuf>,
-        recorder: Option<Recorder>,
-        replay: Option<Recording>,
-    ) -> Self {
+    /// A driver of a session, with a file for saved states.
+    pub fn new(host: H, session: Session, save: Option<PathBuf>) -> Self {
         Self {
             before: host.now(),
             host,
             session,
             save,
-            recorder,
-            replay,
             stats: FrameStats { real_time: true, ..FrameStats::default() },
             times: VecDeque::with_capacity(TIMED),
             lookers: Vec::new(),
@@ -130,11 +116,9 @@ impl<H: Host> Driver<H> {
         }
     }
 
-    /// Makes a step if one is due, or does what a recording asks for before it, and answers the pages.
+    /// Makes a step if one is due, and answers the pages.
     pub fn turn(&mut self) {
-        if self.is_replay_due() {
-            self.play_back();
-        } else if !self.stats.paused && self.due().is_some_and(|due| due <= self.host.now()) {
+        if !self.stats.paused && self.due().is_some_and(|due| due <= self.host.now()) {
             self.step();
         }
         self.answer();
@@ -143,9 +127,6 @@ impl<H: Host> Driver<H> {
     /// How long there is nothing to do without an order; `None` if that is for ever.
     #[must_use]
     pub fn rest(&self) -> Option<Duration> {
-        if self.is_replay_due() {
-            return Some(Duration::ZERO);
-        }
         let due = if self.stats.paused { None } else { self.due() };
         due.map(|due| due.saturating_sub(self.host.now()))
     }
@@ -163,18 +144,13 @@ impl<H: Host> Driver<H> {
     pub fn obey(&mut self, order: Order) {
         match order {
             Order::Act { act, answer } => {
-                let result = match self.replay {
-                    Some(_) => {
-                        Err(("a recording is played back; take over, or wait for its end".into(), Vec::new()))
-                    }
-                    None => self.act(&act).and_then(|()| self.save(&act)).map_err(|error| match error {
+                if let Err(error) = self.act(&act).and_then(|()| self.save(&act)) {
+                    let (reason, mistakes) = match error {
                         Error::Scene(SceneError::Declaration(mistakes)) => {
                             (mistakes.to_string(), mistakes.list)
                         }
                         error => (for_page(&error), Vec::new()),
-                    }),
-                };
-                if let Err((reason, mistakes)) = result {
+                    };
                     // A page that has gone needs no answer.
                     let _ = answer.send(Answer::Refused(show::refused(&act, &reason, &mistakes)));
                 }
@@ -187,14 +163,9 @@ impl<H: Host> Driver<H> {
             Order::Run(Run::Step {}) => {
                 self.stats.paused = true;
                 self.stats.trouble = None;
-                // Before the step come the acts that were recorded before it.
-                self.play_back();
-                if !self.is_replay_due() {
-                    self.step();
-                }
+                self.step();
             }
             Order::Run(Run::Pace { real_time }) => self.stats.real_time = real_time,
-            Order::Run(Run::TakeOver {}) => self.replay = None,
             Order::Look { seen, answer } => {
                 self.lookers.push((seen, answer));
                 return;
@@ -202,22 +173,17 @@ impl<H: Host> Driver<H> {
             Order::Leave { drags } => {
                 let left = self.session.pulls().map(|(drag, _)| drag);
                 let left: Vec<_> = left.filter(|drag| drags.contains(drag)).collect();
-                if self.replay.is_none() {
-                    for drag in left {
-                        // A release cannot fail.
-                        let _ = self.act(&Act::Release { drag });
-                    }
+                for drag in left {
+                    // A release cannot fail.
+                    let _ = self.act(&Act::Release { drag });
                 }
             }
         }
         self.state += 1;
     }
 
-    /// Does an act, and records it.
     fn act(&mut self, act: &Act) -> Result<(), Error> {
         self.session.apply(act)?;
-        let steps = self.session.steps();
-        self.record(|recorder| recorder.act(steps, act));
         let is_another_body =
             matches!(act, Act::Material { .. } | Act::Energy { .. } | Act::Parameter { .. });
         if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {
@@ -227,7 +193,7 @@ impl<H: Host> Driver<H> {
         Ok(())
     }
 
-    /// Writes the state that a page has saved. Acts of a recording write no files.
+    /// Writes the state that a page has saved.
     fn save(&self, act: &Act) -> Result<(), Error> {
         match (act, &self.save, self.session.saved()) {
             (Act::Save {}, Some(path), Some(state)) => state.write(path),
@@ -255,49 +221,11 @@ impl<H: Host> Driver<H> {
                 self.stats.trouble = Some(error.to_string());
             }
         }
-        let steps = self.session.steps();
-        self.record(|recorder| recorder.stepped(steps));
         self.state += 1;
 
         let now = self.host.now();
         let due = self.due().unwrap_or(now);
         self.before = if self.stats.real_time && due + LAG > now { due } else { now };
-    }
-
-    /// Whether a recording has acts to be done before the step to come, or has come to its end.
-    fn is_replay_due(&self) -> bool {
-        let steps = self.session.steps();
-        self.replay.as_ref().is_some_and(|recording| recording.is_due(steps) || recording.is_over(steps))
-    }
-
-    /// Does recorded acts before the step to come, as many as a page can wait for, and pauses at the end of
-    /// the recording.
-    fn play_back(&mut self) {
-        let Some(mut recording) = self.replay.take() else { return };
-        let (steps, end) = (self.session.steps(), self.host.now() + TURN);
-        while self.host.now() < end
-            && let Some(act) = recording.next_before(steps)
-        {
-            if let Err(error) = self.act(&act) {
-                self.stats.trouble =
-                    Some(format!("the recording asks for what is refused: {}", for_page(&error)));
-            }
-        }
-        if recording.is_over(steps) {
-            self.stats.paused = true;
-        } else {
-            self.replay = Some(recording);
-        }
-        self.state += 1;
-    }
-
-    fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), Error>) {
-        if let Some(recorder) = &mut self.recorder
-            && let Err(error) = write(recorder)
-        {
-            self.recorder = None;
-            self.stats.recording_ended = Some(format!("the recording ends here: {}", for_page(&error)));
-        }
     }
 
     /// Sends the present state to the pages that have not seen it.
@@ -312,7 +240,6 @@ impl<H: Host> Driver<H> {
             self.revision += 1;
             self.is_setup_stale = false;
         }
-        self.stats.replays = self.replay.is_some();
         let frame = Frame {
             state: self.state,
             revision: self.revision,

@@ -1,4 +1,4 @@
-//! Why a viewer refuses an act, a state or a recording.
+//! Why a viewer refuses an act or a state.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::SealError;
 
-/// Why a viewer refuses an act, a state or a recording.
+/// Why a viewer refuses an act or a state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -28,31 +28,6 @@ pub enum Error {
         path: PathBuf,
         /// Reason.
         source: SealError,
-    },
-    /// A file is not a recording.
-    #[error("{}:{line}: is not a line of a recording: {reason}", path.display())]
-    NotRecording {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// Reason.
-        reason: String,
-    },
-    /// A recording is as long as one can be.
-    #[error("a recording has at most {0}")]
-    RecordingFull(
-        /// The limit.
-        &'static str,
-    ),
-    /// The file of a recording to be made holds something else.
-    #[error(
-        "{}: holds something else than a recording, and is left as it is; name another file with --record",
-        path.display()
-    )]
-    NotRecordedOver {
-        /// The file.
-        path: PathBuf,
     },
     /// The text of an energy is longer than the viewer takes.
     #[error(

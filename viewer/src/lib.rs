@@ -2,18 +2,16 @@
 //!
 //! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
 //! acts; [`driver`] makes its steps when they are due and waits for no page; [`conversation`] turns what the
-//! [`protocol`] allows a page to say into orders for it, and its answers into messages. [`state`] and
-//! [`recording`] are the files.
+//! [`protocol`] allows a page to say into orders for it, and its answers into messages. [`state`] is the
+//! file.
 //!
 //! The crate opens no socket and has no thread of its own. The time, by which steps are due, it learns from
-//! its [`Host`](driver::Host): a server on this machine, or a page without one. Only a recording that is
-//! being made looks at the clock itself.
+//! its [`Host`](driver::Host): a server on this machine, or a page without one.
 
 pub mod conversation;
 pub mod driver;
 pub mod error;
 pub mod protocol;
-pub mod recording;
 pub mod session;
 mod show;
 pub mod state;

@@ -25,7 +25,7 @@ pub enum Message {
     Look {},
 }
 
-/// A change of the state from which the next step starts; recordings consist of these.
+/// A change of the state from which the next step starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Act {
@@ -96,19 +96,6 @@ pub enum Run {
         /// Whether to keep to real time.
         real_time: bool,
     },
-    /// Ends a recording that is played back; what it pulls, it pulls until it is released.
-    TakeOver {},
-}
-
-impl Act {
-    /// Number of the drag that it is about, if it is about one.
-    #[must_use]
-    pub fn drag(&self) -> Option<u64> {
-        match self {
-            &Self::Pull { drag, .. } | &Self::Release { drag } => Some(drag),
-            _ => None,
-        }
-    }
 }
 
 impl Message {

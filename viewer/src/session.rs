@@ -39,7 +39,6 @@ pub struct Session {
     play: Play,
     pulls: BTreeMap<u64, Drag>,
     saved: Option<State>,
-    steps: u64,
 }
 
 impl Session {
@@ -53,7 +52,7 @@ impl Session {
         let geometry = Geometry::load(&settings)?;
         let play = at_start(&settings, &geometry)?;
         let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
-        Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None, steps: 0 })
+        Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None })
     }
 
     /// Continues from a saved state, to the last bit.
@@ -71,7 +70,6 @@ impl Session {
             play,
             pulls: state.pulls.clone(),
             saved: Some(state),
-            steps: 0,
         })
     }
 
@@ -111,12 +109,6 @@ impl Session {
         self.saved.as_ref()
     }
 
-    /// Number of steps in this session, resets or not.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
     /// Makes the next step, in the rayon pool of the caller.
     ///
     /// # Errors
@@ -134,7 +126,6 @@ impl Session {
         self.play.hold(springs.collect());
         let report = self.play.step()?;
         self.pulls = pulls;
-        self.steps += 1;
         Ok(report)
     }
 

@@ -35,18 +35,14 @@ pub struct Frame {
 pub(crate) struct FrameStats {
     pub(crate) paused: bool,
     pub(crate) real_time: bool,
-    /// Whether a recording decides what happens.
-    pub(crate) replays: bool,
     /// Steps per second of the solver's own time; `None` before the first.
     pub(crate) steps_per_second: Option<f64>,
     /// Newton iterations of the last step.
     pub(crate) newton_iterations: usize,
     /// Energies after the last step, J.
     pub(crate) energies: Energies,
-    /// Why the last step failed, or an act of a recording was refused.
+    /// Why the last step failed.
     pub(crate) trouble: Option<String>,
-    /// Why nothing is recorded any more.
-    pub(crate) recording_ended: Option<String>,
 }
 
 /// Triangles of the surface and edges of the tetrahedra, as a binary message: the first for a page.
@@ -148,7 +144,6 @@ pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
         "time": play.clock().time(),
         "paused": stats.paused,
         "real_time": stats.real_time,
-        "replays": stats.replays,
         "steps_per_second": stats.steps_per_second,
         "newton_iterations": stats.newton_iterations,
         "min_det_f": measure::min_det_f(&mesh.positions, positions, &mesh.tets),
@@ -158,7 +153,6 @@ pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
         "kinetic_energy": stats.energies.kinetic,
         "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
         "trouble": stats.trouble,
-        "recording_ended": stats.recording_ended,
     });
     json!({ "figures": figures }).to_string().into()
 }

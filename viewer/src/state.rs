@@ -8,7 +8,7 @@ use std::path::Path;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::moment::Moment;
-use piola_scenes::output::{Sealer, Unsealer, write_whole};
+use piola_scenes::output::{seal, unseal, write_whole};
 use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +16,8 @@ use crate::error::Error;
 
 /// The first field of a file, which names its format and version.
 const FORMAT: &str = "piola state 2";
-/// The longest file that is written or read, in bytes: a state of two million nodes, or hours of acts.
-pub(crate) const MAX_LENGTH: u64 = 256 << 20;
+/// The longest file that is written or read, in bytes: a state of two million nodes.
+const MAX_LENGTH: u64 = 256 << 20;
 /// Bound of the numbers of drags in files, above which there are others for drags to come.
 pub(crate) const MAX_DRAG: u64 = 1 << 62;
 
@@ -85,7 +85,7 @@ impl State {
     /// [`Error::Scene`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         let failed = |source| SceneError::Write { path: path.into(), source };
-        let text = Sealer::new().line(self).map_err(|error| failed(error.into()))?;
+        let text = seal(self).map_err(|error| failed(error.into()))?;
         if text.len() as u64 > MAX_LENGTH {
             return Err(
                 failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")).into()
@@ -99,7 +99,14 @@ impl State {
     /// # Errors
     /// [`Error::Unreadable`], or like [`State::parse`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        Self::parse(&text_of(path)?, path)
+        let mut text = String::new();
+        let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
+        let read = read.and_then(|length| match length as u64 > MAX_LENGTH {
+            true => Err(io::Error::new(ErrorKind::FileTooLarge, "it is longer than 256 MiB")),
+            false => Ok(()),
+        });
+        read.map_err(|source| Error::Unreadable { path: path.into(), source })?;
+        Self::parse(&text, path)
     }
 
     /// Parses the text of a file; `path` is for messages. Whether the state fits its scene is checked where a
@@ -108,17 +115,6 @@ impl State {
     /// # Errors
     /// [`Error::NotState`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
-        Unsealer::new().line(text).map_err(|source| Error::NotState { path: path.into(), source })
+        unseal(text).map_err(|source| Error::NotState { path: path.into(), source })
     }
-}
-
-/// Content of a state or a recording.
-pub(crate) fn text_of(path: &Path) -> Result<String, Error> {
-    let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
-    let read = read.and_then(|length| match length as u64 > MAX_LENGTH {
-        true => Err(io::Error::new(ErrorKind::FileTooLarge, "it is longer than 256 MiB")),
-        false => Ok(text),
-    });
-    read.map_err(|source| Error::Unreadable { path: path.into(), source })
 }

@@ -72,7 +72,7 @@ pub extern "C" fn begin() -> bool {
     BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
         Ok(session) => {
             border.words = [Words::Binary(topology(session.geometry()).into())].into();
-            border.behind = Some((Driver::new(Browser, session, None, None, None), Conversation::new(0)));
+            border.behind = Some((Driver::new(Browser, session, None), Conversation::new(0)));
             true
         }
         Err(error) => {

@@ -30,7 +30,6 @@ export class Panel {
       this.editor.giveUp();
       link.act({ restore: {} });
     });
-    click("take-over", () => link.run({ take_over: {} }));
     byId("real-time").addEventListener("change", ({ target }) => {
       link.run({ pace: { real_time: target.checked } });
     });
@@ -40,7 +39,7 @@ export class Panel {
       this.link.act({ material: { name: target.value, as_stiff: byId("as-stiff").checked } });
     });
     const keys = {
-      " ": "pause", ".": "step", r: "reset", l: "let-go", s: "save", b: "restore", t: "take-over", f: "real-time", w: "wireframe",
+      " ": "pause", ".": "step", r: "reset", l: "let-go", s: "save", b: "restore", f: "real-time", w: "wireframe",
     };
     window.addEventListener("keydown", (event) => {
       const isTyping = event.target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea");
@@ -140,10 +139,9 @@ export class Panel {
   /** What changes with each step. */
   setFigures(figures) {
     this.figures = figures;
-    const { inverted, replays } = figures;
+    const { inverted } = figures;
     byId("pause-text").textContent = figures.paused ? "Go on" : "Pause";
     byId("pause").classList.toggle("on", figures.paused);
-    byId("take-over").hidden = !replays;
     byId("let-go").disabled = figures.pulls.length === 0;
     byId("real-time").checked = figures.real_time;
     byId("time").textContent = `${fixed(figures.time, 2)} s, step ${figures.frame}`;
@@ -154,8 +152,7 @@ export class Panel {
     for (const id of ["det", "inverted"]) byId(id).parentElement.classList.toggle("alarm", inverted > 0);
     byId("from-rest").textContent = fixed(figures.from_rest, figures.from_rest < 0.01 ? 4 : 2);
     byId("energy").textContent = figures.elastic_energy === null ? "–" : joules(figures.elastic_energy);
-    this.show("recording-ended", figures.recording_ended);
-    this.trouble(figures.trouble ?? this.notice ?? (replays ? "A recording is played back." : null));
+    this.trouble(figures.trouble ?? this.notice);
   }
 
   setFramesPerSecond(frames) {
@@ -164,12 +161,8 @@ export class Panel {
 
   /** A word on what went wrong, or null. */
   trouble(reason) {
-    this.show("trouble", reason);
-  }
-
-  show(id, reason) {
-    byId(id).hidden = reason === null;
-    byId(id).textContent = reason === null ? "" : capital(reason);
+    byId("trouble").hidden = reason === null;
+    byId("trouble").textContent = reason === null ? "" : capital(reason);
   }
 }
 

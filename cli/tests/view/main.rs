@@ -3,7 +3,7 @@
 mod files;
 mod motion;
 mod page;
-mod playback;
+mod saving;
 mod sockets;
 
 use piola_cli::view::{Begin, Options, Viewer};

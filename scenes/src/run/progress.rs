@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::moment::Moment;
-use crate::output::{Sealer, StepCounts, Unsealer};
+use crate::output::{StepCounts, seal, unseal};
 use crate::settings::Settings;
 
 /// Time between states on the disk, at least: so much of a run that is killed must be computed again.
@@ -71,13 +71,12 @@ impl Saved {
 
     /// The state as one line with a checksum.
     pub(super) fn to_line(&self) -> std::io::Result<Vec<u8>> {
-        Ok(Sealer::new().line(self)?)
+        Ok(seal(self)?)
     }
 
     /// Reads a state, and checks that a run with these settings can go on from it.
     pub(super) fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Self, String> {
-        let saved: Self =
-            Unsealer::new().line(text).map_err(|error| format!("its state cannot be read: {error}"))?;
+        let saved: Self = unseal(text).map_err(|error| format!("its state cannot be read: {error}"))?;
         let frame = saved.moment.clock().frame();
         let motion = &saved.progress.motion;
         if motion.len() != frame + 1 || !motion.iter().all(|way| way.is_finite()) {

@@ -21,18 +21,14 @@ use piola_laboratory::chart::{self, Curve};
 use piola_laboratory::curve::{Volume, sweep};
 use piola_laboratory::data::Measurements;
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::output::Sealer;
+use piola_scenes::output::seal;
 use piola_scenes::run::{Output, run};
 use piola_scenes::scene::HORSE;
 use piola_scenes::settings::{Files, Settings};
-use piola_viewer::recording::Recording;
 use piola_viewer::session::Session;
 use piola_viewer::state::State;
 use serde_json::Value;
 use serde_json::value::RawValue;
-
-/// Steps of a recording that are played, and acts.
-const PLAYED: u64 = 20;
 
 /// A kind of file that piola reads.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +49,6 @@ pub const FORMATS: &[Format] = &[
     Format { name: "csv", judge: csv },
     Format { name: "energy", judge: energy },
     Format { name: "state", judge: state },
-    Format { name: "recording", judge: recording },
 ];
 
 /// The folder with the seeds of a format.
@@ -164,46 +159,23 @@ pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
     }
 }
 
-/// A recording of the viewer, as it is or sealed anew.
-pub fn recording(scratch: &Path, bytes: &[u8]) -> bool {
-    let Some(text) = sealed(bytes) else { return false };
-    let mut recording = match Recording::parse(&text, scratch) {
-        Ok(recording) => recording.with_files(cube()),
-        Err(error) => return refused(&error),
-    };
-    let mut session = match Session::resume(recording.start().clone()) {
-        Ok(session) => session,
-        Err(error) => return refused(&error),
-    };
-    for steps in 0..PLAYED {
-        for _ in 0..PLAYED {
-            let Some(act) = recording.next_before(steps) else { break };
-            session.apply(&act).unwrap_or_else(|error| check_message(&error));
-        }
-        step(&mut session);
-    }
-    true
-}
-
 /// The cube that states are of.
 fn cube() -> Option<Files> {
     Some(Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None })
 }
 
-/// The text with checksums that belong to it, so that more than checksums is tested: a line that is JSON has
-/// its content sealed again, unless the first byte of the text is `!`.
+/// The text with a checksum that belongs to it, so that more than the checksum is tested: if it is JSON its
+/// content is sealed again, unless the first byte of the text is `!`.
 fn sealed(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     if let Some(as_it_is) = text.strip_prefix('!') {
         return Some(as_it_is.into());
     }
-    let mut sealer = Sealer::new();
-    let seal = |line: &str| {
-        let line: std::collections::BTreeMap<String, &RawValue> = serde_json::from_str(line).ok()?;
-        String::from_utf8(sealer.line(line.get("content")?).ok()?).ok()
+    let again = || {
+        let line: std::collections::BTreeMap<String, &RawValue> = serde_json::from_str(text).ok()?;
+        String::from_utf8(seal(line.get("content")?).ok()?).ok()
     };
-    let lines: Option<Vec<_>> = text.lines().map(seal).collect();
-    Some(lines.map_or(text.into(), |lines| lines.concat()))
+    Some(again().unwrap_or_else(|| text.into()))
 }
 
 fn write(scratch: &Path, name: &str, bytes: &[u8]) -> PathBuf {
