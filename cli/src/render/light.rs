@@ -9,11 +9,11 @@ use super::raster::DepthBuffer;
 use super::{Surface, Vector};
 
 /// Pixels along a side of a shadow map.
-const MAP: usize = 448;
+const MAP: usize = 320;
 /// Lamps in the key light, on a disc wide enough for a soft penumbra.
 const KEY_LAMPS: usize = 16;
 /// Lamps in the sky; fewer would show as separate shadows on the floor.
-const SKY_LAMPS: usize = 56;
+const SKY_LAMPS: usize = 40;
 /// The angular radius of the key light as the tangent of half its opening.
 const KEY_RADIUS: f32 = 0.10;
 /// Linear RGB irradiance on open floor: they add up to about white.

@@ -15,6 +15,8 @@ const TILE: [usize; 2] = [480, 390];
 const CAPTION: usize = 28;
 /// Samples along each side of a pixel.
 const SAMPLES: usize = 3;
+/// Samples of a pixel from its middle outwards.
+const FROM_MIDDLE: [usize; SAMPLES * SAMPLES] = [4, 1, 3, 5, 7, 0, 2, 6, 8];
 const COLUMNS: usize = 4;
 /// Free pixels between the tiles and around them.
 const GUTTER: usize = 6;
@@ -114,16 +116,14 @@ impl Stage {
                 let places: [_; SAMPLES * SAMPLES] =
                     std::array::from_fn(|k| [row * SAMPLES + k / SAMPLES, column * SAMPLES + k % SAMPLES]);
                 let seen = places.map(|[row, column]| seen.triangle[row * width + column]);
-                // Within one triangle light hardly changes over a pixel: it is computed once for each in
-                // view.
-                let mut sum = Vector::zeros();
-                for (k, &triangle) in seen.iter().enumerate() {
-                    if !seen[..k].contains(&triangle) {
-                        let count = seen[k..].iter().filter(|&&other| other == triangle).count();
-                        sum += light(triangle, places[k]) * count as f32;
-                    }
-                }
-                *pixel = (sum / (SAMPLES * SAMPLES) as f32).map(encode).into();
+                // Light hardly changes over a pixel: it is computed once for the body and once for the floor.
+                let nearest = |is_floor: bool| {
+                    let k = FROM_MIDDLE.into_iter().find(|&k| (seen[k] == NOTHING) == is_floor);
+                    k.map_or_else(Vector::zeros, |k| light(seen[k], places[k]))
+                };
+                let floor = seen.iter().filter(|&&triangle| triangle == NOTHING).count();
+                let floor = floor as f32 / seen.len() as f32;
+                *pixel = nearest(false).lerp(&nearest(true), floor).map(encode).into();
             }
         });
         tile
