@@ -52,8 +52,9 @@
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
 //! point has its own.
 //!
-//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents; [`PointBatch`] has
-//! plane strain and plane stress, and what starts from displacement gradients.
+//! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents. Plane strain, plane
+//! stress and displacement gradients are computed point by point, by the functions of
+//! [`point`](crate::point).
 //!
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J, or in sums over the stretches
 //! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
@@ -81,7 +82,6 @@ mod measure;
 mod measured;
 #[cfg(feature = "bodies")]
 pub(crate) mod operator;
-mod point_by_point;
 mod quadrature;
 #[cfg(feature = "bodies")]
 pub(crate) mod rest;
@@ -93,7 +93,6 @@ mod tile;
 mod workspace;
 
 pub use material::{Arguments, Properties, TileMaterial};
-pub use point_by_point::PointBatch;
 pub use quadrature::Quadrature;
 pub use sink::Layout;
 pub use stage::Stages;

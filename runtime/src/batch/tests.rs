@@ -415,6 +415,25 @@ fn a_survey_counts_and_names_the_first() {
 }
 
 #[test]
+fn every_point_has_its_status_on_any_number_of_threads() {
+    // Enough tiles for threads to share, the last one not full.
+    const COUNT: usize = 64 * 20 + 5;
+    let is_inverted = |p: usize| p % 7 == 3;
+    let F: Vec<f64> = (0..COUNT)
+        .flat_map(|p| [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, if is_inverted(p) { -1.0 } else { 1.0 }])
+        .collect();
+    let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool of threads");
+    for threads in [false, true] {
+        let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
+        let batch = Batch::new(&NeoHookean).with_threads(threads).with_statuses(&statuses);
+        let survey =
+            two_threads.install(|| batch.stresses(&F, &mut vec![0.0; 9 * COUNT])).expect("lengths fit");
+        assert_eq!((survey.refused, survey.first), ((0..COUNT).filter(|&p| is_inverted(p)).count(), Some(3)));
+        assert!((0..COUNT).all(|p| statuses[p].get().refused == is_inverted(p)), "{threads}");
+    }
+}
+
+#[test]
 fn lengths_that_do_not_fit_are_errors() {
     let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
     let error = batch.stresses(&[1.0; 18], &mut [0.0; 17]).unwrap_err();

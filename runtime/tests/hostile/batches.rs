@@ -1,7 +1,7 @@
 //! Batches of points and of elements.
 
 use piola::StatusCell;
-use piola::batch::{Batch, FACTORS, Layout, PointBatch, Quadrature, REST, Tetrahedra};
+use piola::batch::{Batch, FACTORS, Layout, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 use piola::system::CsrPlaces;
@@ -40,30 +40,6 @@ fn batches() {
         let measure = hostile.one_of(&Measure::ALL);
         let _ = batch.measured_stresses(measure, &deformations, &mut six);
         let _ = batch.measured_tangents(measure, &deformations, &mut six, &mut tangents);
-    });
-}
-
-#[test]
-fn batches_in_the_plane() {
-    check(|hostile| {
-        let (rubber, points) = (hostile.rubber(), hostile.one_of(&[0, 1, 63, 64, 65]));
-        let statuses: Vec<StatusCell> = (0..hostile.length(points)).map(|_| StatusCell::default()).collect();
-        let mut batch = PointBatch::new(&rubber)
-            .with_filter(hostile.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute]))
-            .with_threads(hostile.0.once_in(2));
-        if hostile.0.once_in(2) {
-            batch = batch.with_statuses(&statuses);
-        }
-        let [deformations, axial] = [4, 1].map(|size| hostile.numbers(size * points));
-        let [mut across, mut one, mut other] = [(); 3].map(|()| hostile.numbers(points));
-        let [mut four, mut many] = [4, 16].map(|size| hostile.numbers(size * points));
-        let _ = batch.plane_strains(&deformations, &mut four, &mut many);
-        let _ = batch.plane_stresses(&deformations, &mut across, &mut four, &mut many);
-        let _ = batch.uniaxial_stresses(&axial, &mut across, &mut one, &mut other);
-        let [displacements, mut nine, mut all] = [9, 9, 81].map(|size| hostile.numbers(size * points));
-        let _ = batch.energies_from_displacements(&displacements, &mut one);
-        let _ = batch.stresses_from_displacements(&displacements, &mut nine);
-        let _ = batch.tangents_from_displacements(&displacements, &mut nine, &mut all);
     });
 }
 
