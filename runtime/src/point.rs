@@ -5,10 +5,9 @@
 //! as a block-diagonal map between the frames ([`tangent`], which derives it), made semidefinite on request
 //! ([`mod@project`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where there is one. Bodies
 //! that hardly deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that
-//! have their own elements find other [`measures`] of stress here, with their tangents, the
-//! [`split`](mod@split) into shape and volume, and points in the [`plane`]. Everything is generic over the
-//! real type, and what cannot be computed is reported in a [`Status`] instead of an error, because a point
-//! may be one of many in a batch.
+//! have their own elements find other [`measures`] of stress here, with their tangents, and points in the
+//! [`plane`]. Everything is generic over the real type, and what cannot be computed is reported in a
+//! [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
@@ -32,7 +31,6 @@ pub mod measures;
 pub mod plane;
 pub mod project;
 pub mod small_strain;
-pub mod split;
 pub mod stress;
 pub mod svd;
 pub mod tangent;

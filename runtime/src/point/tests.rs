@@ -13,7 +13,6 @@ mod measures;
 mod plane;
 mod rates;
 mod small_strain;
-mod split;
 mod statuses;
 
 fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
