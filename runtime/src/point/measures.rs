@@ -81,9 +81,9 @@
 //! ```
 //!
 //! because the left sides above differ by ε τ + τ ε. This is what Abaqus/Standard expects of a user material
-//! under the name DDSDDE; [`abaqus`] has it in its order. (The Jaumann rate of σ itself belongs to c° − σ ⊗
-//! I, which is not symmetric.) The *Green–Naghdi rate*, of shells and of Abaqus/Explicit, turns with the
-//! rotation R = U Vᵀ of the polar decomposition instead, Ω = dR Rᵀ, so that Rᵀ τ R changes by it alone:
+//! under the name DDSDDE, in an order that [`voigt`] states. (The Jaumann rate of σ itself belongs to
+//! c° − σ ⊗ I, which is not symmetric.) The *Green–Naghdi rate*, of shells and of Abaqus/Explicit, turns with
+//! the rotation R = U Vᵀ of the polar decomposition instead, Ω = dR Rᵀ, so that Rᵀ τ R changes by it alone:
 //!
 //! ```text
 //! dτ − Ω τ + τ Ω = J c★ : ε.
@@ -181,13 +181,10 @@ use super::svd::Svd;
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
-pub mod abaqus;
 mod measure;
-mod principal;
 pub mod voigt;
 
 pub use measure::Measure;
-pub use principal::{PrincipalStress, principal_cauchy, von_mises};
 use voigt::{Matrix6, ORDER, Principal};
 
 /// The second Piola–Kirchhoff stress S = F⁻¹P = V diag(ψi/λi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3.

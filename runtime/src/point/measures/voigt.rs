@@ -3,7 +3,7 @@
 //! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction
 //! that they lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22,
 //! 33, 12, 13, 23: its number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and
-//! columns of a tangent too; see [`abaqus`](super::abaqus).
+//! columns of a tangent too.
 //!
 //! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components:
 //! 11, 22, 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work,
@@ -54,15 +54,6 @@ pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
 pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
     let [e11, e22, e33, e23, e13, e12] = from_stress(strain);
     [e11, e22, e33, e23 + e23, e13 + e13, e12 + e12]
-}
-
-/// The strain of six numbers, shears halved.
-#[inline(always)]
-#[must_use]
-pub fn to_strain<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
-    let [e11, e22, e33, e23, e13, e12] = *numbers;
-    let half = R::splat(0.5);
-    to_stress(&[e11, e22, e33, half * e23, half * e13, half * e12])
 }
 
 /// A tangent in the principal frame of an isotropic body: what is not listed is zero or follows by symmetry.
