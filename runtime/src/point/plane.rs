@@ -1,13 +1,13 @@
-//! Plane strain, plane stress and uniaxial stress: 2×2 deformation gradients, with consistent tangents.
+//! Plane strain and plane stress: 2×2 deformation gradients, with consistent tangents.
 //!
 //! A membrane, a sheet or a slice of a long body is computed in its plane. What it does across, the stretch
-//! λ3 normal to the plane, is held in *plane strain*, λ3 = 1, and free in *plane stress*, P33 = 0. A bar
-//! that is free on all sides is in *uniaxial stress*. Here the free stretches are solved for, to rounding,
-//! and eliminated from the tangent, which is then the exact derivative of the stress that is left.
+//! λ3 normal to the plane, is held in *plane strain*, λ3 = 1, and free in *plane stress*, P33 = 0. Here the
+//! free stretch is solved for, to rounding, and eliminated from the tangent, which is then the exact
+//! derivative of the stress that is left.
 //!
 //! ```
 //! use piola::point::Filter;
-//! use piola::point::plane::{plane_strain, plane_stress, uniaxial_stress};
+//! use piola::point::plane::{plane_strain, plane_stress};
 //!
 //! /// Rubber.
 //! #[piola::material(domain(J > 0.0))]
@@ -33,9 +33,6 @@
 //!
 //! // Held across, the sheet would have to change its volume.
 //! assert!(plane_strain(&rubber, &F, Filter::None).stress[0][0] > 0.9 * bulk);
-//!
-//! // A bar: P = μ (λ − 1/λ²).
-//! assert!((uniaxial_stress(&rubber, 2.0).stress - 1.75 * mu).abs() < 10.0 * mu / bulk);
 //! # Ok(())
 //! # }
 //! ```
@@ -67,12 +64,6 @@
 //! eigenvalues are flip, twist and the two of the condensed 2×2 matrix, so that a filter is as simple as in
 //! space: of the condensed tangent, which is what a membrane assembles.
 //!
-//! **Uniaxial stress**, stretches λ, t, t with ψ2 = ψ3 = 0:
-//!
-//! ```text
-//! dt = −ψ12/(ψ22 + ψ23) dλ,     dP = (ψ11 − 2 ψ12²/(ψ22 + ψ23)) dλ.
-//! ```
-//!
 //! # What floating point does here
 //!
 //! The free stretch is found to a few u, as `release.rs` describes, whatever the ratio of the moduli. What is
@@ -102,14 +93,13 @@ mod axes;
 mod release;
 mod svd;
 mod tangent;
-mod uniaxial;
 
 use axes::Axes;
 
 use release::{Side, Unreleased, release};
-pub use svd::{PlaneSvd, plane_svd};
+use svd::PlaneSvd;
+pub(super) use svd::plane_svd;
 pub use tangent::PlaneTangent;
-pub use uniaxial::{UniaxialPoint, uniaxial_stress};
 
 /// A 2×2 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix2<R> = [[R; 2]; 2];

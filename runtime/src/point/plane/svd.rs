@@ -21,26 +21,20 @@ use crate::lanes::Real;
 
 /// A signed singular value decomposition F = U diag(λ1, λ2) Vᵀ in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlaneSvd<R> {
+pub(crate) struct PlaneSvd<R> {
     /// Left rotation, det U = +1.
-    pub U: Matrix2<R>,
+    pub(crate) U: Matrix2<R>,
     /// λ1 ≥ |λ2|; λ2 has the sign of det F.
-    pub stretches: [R; 2],
+    pub(crate) stretches: [R; 2],
     /// Right rotation, det V = +1.
-    pub V: Matrix2<R>,
+    pub(crate) V: Matrix2<R>,
 }
 
 /// Decomposes a 2×2 matrix; see [`PlaneSvd`].
 ///
 /// Both stretches have a relative error of a few u, where det F is not zero to 4 u² λ1². F = 0 gives two
 /// frames that are equal.
-///
-/// ```
-/// let svd = piola::point::plane::plane_svd(&[[0.0, -2.0], [-0.5, 0.0]]);
-/// assert_eq!(svd.stretches, [2.0, -0.5]);
-/// ```
-#[must_use]
-pub fn plane_svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
+pub(crate) fn plane_svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
     let [[p, q], [r, s]] = *F;
     let (scale, back) = p.abs().max(q.abs()).max(r.abs().max(s.abs())).power_of_two_scale();
     let (p, q, r, s) = (p * scale, q * scale, r * scale, s * scale);
@@ -134,6 +128,11 @@ mod tests {
         ] {
             check(F);
         }
+    }
+
+    #[test]
+    fn the_smaller_stretch_has_the_sign_of_the_determinant() {
+        assert_eq!(plane_svd(&[[0.0, -2.0], [-0.5, 0.0]]).stretches, [2.0, -0.5]);
     }
 
     #[test]

@@ -1,12 +1,10 @@
-//! Plane strain, plane stress and uniaxial stress against P and dP/dF in space, slopes and formulas.
+//! Plane strain and plane stress against P and dP/dF in space, slopes and formulas.
 
 use super::differences::check_slope;
 use super::*;
 use crate::convert::to_nalgebra;
 use crate::hand_written::ExtendedNeoHookean;
-use crate::point::plane::{
-    Matrix2, PlanePoint, in_space, plane_strain, plane_stress, plane_svd, uniaxial_stress,
-};
+use crate::point::plane::{Matrix2, PlanePoint, in_space, plane_strain, plane_stress, plane_svd};
 
 /// Stretches in the plane: apart, equal, at rest, nearly equal, large, small, and two that are inverted.
 const IN_PLANE: [[f64; 2]; 9] = [
@@ -184,36 +182,6 @@ fn nearly_incompressible_sheets_lose_no_digits_of_the_stress() {
 }
 
 #[test]
-fn bars_follow_their_formulas_and_slopes() {
-    for ratio in [1.0, 1e3, 1e6] {
-        let material = Polynomial::new(1.0, ratio).expect("parameters");
-        for stretch in [0.05, 0.5, 1.0, 1.0 + 1e-8, 2.0, 30.0] {
-            let point = uniaxial_stress(&material, stretch);
-            // K (J − 1) − μ = −μ/λ, so that J, the lateral stretch and P have formulas.
-            let J = 1.0 + (1.0 - 1.0 / stretch) / ratio;
-            if J <= 0.0 {
-                // At J = 0 the sides would be at rest with no width at all.
-                assert!(J == 0.0 || point.status.refused && point.no_equilibrium);
-                continue;
-            }
-            assert!(point.status.is_clean());
-            let t = (J / stretch).sqrt();
-            let error = (point.lateral_stretch - t).abs() / t;
-            assert!(error <= 16.0 * f64::EPSILON * (1.0 + 1.0 / stretch), "{error:e} at {stretch}");
-            let error = (point.stress - (stretch - t * t / stretch)).abs();
-            let size = stretch + t * t * (1.0 + 1.0 / stretch);
-            assert!(error <= 16.0 * f64::EPSILON * size, "{error:e} at {stretch}, K = {ratio:e} μ");
-            let at = |h: f64| uniaxial_stress(&material, stretch * (1.0 + h));
-            let rounding = 1000.0 * f64::EPSILON * (stretch + 1.0 / stretch);
-            check_slope(|h| [at(h).energy], [point.stress * stretch], rounding, "stress");
-            check_slope(|h| [at(h).stress], [point.tangent * stretch], rounding * 10.0, "tangent");
-            let slope = [point.lateral_slope * stretch];
-            check_slope(|h| [at(h).lateral_stretch], slope, rounding * 10.0, "lateral stretch");
-        }
-    }
-}
-
-#[test]
 fn filters_clamp_the_condensed_eigenvalues() {
     let mut random = Random::new(95);
     let material = ExtendedNeoHookean { epsilon: 0.3 };
@@ -252,13 +220,10 @@ fn what_has_no_equilibrium_or_no_energy_says_so() {
     // Saint Venant–Kirchhoff: t (μ (t² − 1) + λ/2 (Σ λ² − 3)) is positive for all t > 0 in a wide sheet.
     let wide = plane_stress(&SaintVenantKirchhoff, &[[3.0f64, 0.0], [0.0, 3.0]], Filter::None);
     assert!(wide.status.refused && wide.no_equilibrium && wide.stress[0][0].is_nan());
-    let bar = uniaxial_stress(&SaintVenantKirchhoff, 5.0);
-    assert!(bar.status.refused && bar.no_equilibrium);
     for bad in [f64::NAN, f64::INFINITY] {
         let F = [[1.0, bad], [0.0, 1.0]];
         assert!(plane_strain(&NeoHookean, &F, Filter::Clamp).status.nonfinite);
         assert!(plane_stress(&NeoHookean, &F, Filter::Clamp).status.nonfinite);
-        assert!(uniaxial_stress(&NeoHookean, bad).status.nonfinite);
     }
 }
 
@@ -276,9 +241,6 @@ fn no_bits_give_a_NaN_under_a_clean_status() {
                 }
             }
         }
-        let bar = uniaxial_stress(material, F[0][0]);
-        let sum = bar.lateral_stretch + bar.lateral_slope + bar.energy + bar.stress + bar.tangent;
-        assert!(!bar.status.is_clean() || sum.is_finite(), "{bar:?} at {F:?}");
     }
     let mut random = Random::new(96);
     for _ in 0..3000 {
