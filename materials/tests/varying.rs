@@ -1,7 +1,7 @@
 //! Each point with parameters of its own gets what it would get alone.
 
 use piola::lanes::{Lanes, Lanes2};
-use piola::material::{Blocks, Graded, MaterialError, Scaled};
+use piola::material::{Blocks, Graded, MaterialError, Scaled, Sum};
 use piola::{Inversion, Material, Spline};
 use piola_materials::{Gent, NeoHookean, Ogden, StVenantKirchhoff, StretchSpline};
 
@@ -80,6 +80,9 @@ fn each_point_gets_what_it_would_get_alone() -> Result<(), MaterialError> {
     // The bound of its domain is a parameter.
     let gent = |limit: f64| Gent::new(1.0, limit, 10.0);
     check([gent(0.5)?, gent(30.0)?, gent(1.0)?, gent(2.0)?]);
+
+    let sum = |size: f64| Ok::<_, MaterialError>(Sum::new(gent(size)?, Scaled::new(size, steel(3.0)?)?));
+    check([sum(0.5)?, sum(30.0)?, sum(1.0)?, sum(2.0)?]);
 
     // Functions, two of them the same.
     let drawn = |scale: f64| {

@@ -25,7 +25,6 @@ pub(crate) mod differences;
 mod error;
 mod fittable;
 mod mixed;
-mod normalised;
 mod parameter;
 #[cfg(feature = "batch")]
 pub(crate) mod properties;
@@ -36,7 +35,6 @@ pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
 pub use mixed::Mixed;
-pub use normalised::{Normalised, VolumetricPenalty};
 pub use parameter::{Graded, ParameterValue, PerElement, PerLane, PerPoint, PerPointError};
 pub use response::Response;
 #[doc(hidden)] // how whole tiles are handed to an interpreter: no part of the interface
@@ -380,16 +378,6 @@ pub trait Declared: Material + Sized {
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.
     fn moduli(&self) -> Moduli {
         Moduli::of(self)
-    }
-
-    /// The material with Young's modulus E > 0, Pa, and Poisson's ratio −1 < ν < ½ at small strain: s ψ + c/2
-    /// (J − 1)²; see [`Normalised`].
-    ///
-    /// # Errors
-    /// Those of [`Normalised::with_young_poisson`]: [`MaterialError::YoungPoisson`],
-    /// [`MaterialError::UnstableRest`], [`MaterialError::BelowOwnPoisson`].
-    fn normalised_to(self, young: f64, poisson: f64) -> Result<Normalised<Self>, MaterialError> {
-        Normalised::with_young_poisson(self, young, poisson)
     }
 }
 

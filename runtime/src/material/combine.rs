@@ -16,7 +16,7 @@ use crate::lanes::Real;
 ///
 /// ```
 /// use piola::material;
-/// use piola::material::{Moduli, Sum, VolumetricPenalty};
+/// use piola::material::{Moduli, Sum};
 ///
 /// /// μ Σ(λ − 1)²: has no resistance of its own to changes of volume.
 /// #[material]
@@ -24,8 +24,14 @@ use crate::lanes::Real;
 ///     mu * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
 /// }
 ///
+/// /// c/2 (J − 1)²: part of a sum, since it has no shear modulus.
+/// #[material(part)]
+/// fn Penalty([l1, l2, l3]: [f64; 3], /** First Lamé parameter, Pa. */ c: f64) -> f64 {
+///     c / 2.0 * (J - 1.0).powi(2)
+/// }
+///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let solid = Sum::new(Springs::new(1.0)?, VolumetricPenalty::new(3.0)?);
+/// let solid = Sum::new(Springs::new(1.0)?, Penalty::new(3.0)?);
 /// assert_eq!(Moduli::at_rest(&solid), Moduli { mu: 1.0, lambda: 3.0 });
 /// # Ok(())
 /// # }
@@ -284,7 +290,6 @@ impl<M: Graded> Graded for Scaled<M> {
 mod tests {
     use super::*;
     use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
-    use crate::material::VolumetricPenalty;
 
     const STRETCHES: [f64; 3] = [1.3, 0.9, 0.7];
 
@@ -308,7 +313,7 @@ mod tests {
     #[test]
     fn a_sum_is_defined_where_both_parts_are() {
         let inverted: [f64; 3] = [1.3, 0.9, -0.7];
-        let everywhere = Sum::new(RotatedLinear, VolumetricPenalty::new(1.0).expect("admissible"));
+        let everywhere = Sum::new(RotatedLinear, SaintVenantKirchhoff);
         assert!(everywhere.admits(inverted) && everywhere.inversion() == Inversion::Refuse);
         let refusing = Sum::new(RotatedLinear, NeoHookean);
         assert!(!refusing.admits(inverted) && refusing.ends_at_zero_volume());

@@ -76,13 +76,6 @@ pub enum MaterialError {
         /// The parameters that it names, as given.
         given: Vec<Argument>,
     },
-    /// The wanted Poisson's ratio is below that of the energy itself.
-    BelowOwnPoisson {
-        /// Poisson's ratio as asked for.
-        poisson: f64,
-        /// Poisson's ratio of the energy itself, the lowest that it can be normalised to.
-        lowest: f64,
-    },
     /// Lists of different lengths, a scalar given as a list, or too few or too many parameters.
     Shape {
         /// The expected shape in words.
@@ -171,14 +164,6 @@ impl fmt::Display for MaterialError {
                 "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {}; \
                  use `Inversion::Refuse` or other parameters",
                 listed(given)
-            ),
-            Self::BelowOwnPoisson { poisson, lowest } => write!(
-                f,
-                "Poisson's ratio {} is below {}, that of the energy itself, to which resistance to changes of \
-                 volume can be added but not taken away: lower its volumetric parameter first, or, of an energy of the \
-                 catalogue, let `Entry::matching` choose its parameters",
-                number(*poisson),
-                number(*lowest)
             ),
             Self::Shape { expected } => write!(f, "{expected}"),
         }

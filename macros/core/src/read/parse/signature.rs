@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
-const MEMBERS: [&str; 38] = [
+const MEMBERS: [&str; 37] = [
     // Of the type and of the traits of the language.
     "new",
     "from_young_poisson",
@@ -47,7 +47,6 @@ const MEMBERS: [&str; 38] = [
     "DESCRIPTION",
     "from_values",
     "moduli",
-    "normalised_to",
     // Of `Fittable`.
     "values",
     "with_values",
