@@ -1,13 +1,13 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent there.
 //!
-//! F = U diag(λ) Vᵀ ([`mod@svd`]); an energy gives its derivatives in the stretches λ
-//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`mod@stress`]) and dP/dF
-//! as a block-diagonal map between the frames ([`tangent`], which derives it), made semidefinite on request
-//! ([`mod@project`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where there is one. Bodies
-//! that hardly deform start from the displacement gradient F − I instead ([`small_strain`]), and codes that
-//! have their own elements find other [`measures`] of stress here, with their tangents, and points in the
-//! [`plane`]. Everything is generic over the real type, and what cannot be computed is reported in a
-//! [`Status`] instead of an error, because a point may be one of many in a batch.
+//! F = U diag(λ) Vᵀ ([`svd()`]); an energy gives its derivatives in the stretches λ
+//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF
+//! as a block-diagonal map between the frames ([`Tangent`]; `point/tangent.rs` derives it), made
+//! semidefinite on request ([`project()`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where
+//! there is one. Bodies that hardly deform start from the displacement gradient F − I instead
+//! ([`small_strain`]), and codes that have their own elements find other [`measures`] of stress here, with
+//! their tangents, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
+//! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
@@ -24,16 +24,16 @@ use crate::status::Status;
 
 mod deflation;
 mod dense;
-pub mod gradient;
+mod gradient;
 pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
 pub mod plane;
-pub mod project;
+mod project;
 pub mod small_strain;
-pub mod stress;
-pub mod svd;
-pub mod tangent;
+mod stress;
+pub(crate) mod svd;
+mod tangent;
 
 #[cfg(test)]
 mod tests;

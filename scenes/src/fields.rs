@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 
 use piola::batch::{Batch, TileMaterial};
-use piola::point::svd::svd;
+use piola::point::svd;
 use piola::step::Simulation;
 
 use crate::output::{Field, write_vtu};

@@ -6,7 +6,7 @@
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
 use piola::interpreter::Interpreted;
-use piola::point::project::Filter;
+use piola::point::Filter;
 use piola::point::{self, Matrix3};
 use piola::random::Random;
 use piola::{Inversion, Material, Real};

@@ -8,7 +8,7 @@
 //!
 //! # From two unit vectors to a triangle
 //!
-//! Between the principal frames dP/dF is the map of [`piola::point::tangent`]: the Hessian ψij on the
+//! Between the principal frames dP/dF is the map of [`piola::point::Tangent`]: the Hessian ψij on the
 //! diagonal entries of dF, and for each pair a on dFij and dFji and b between them. With pi = mi Ni, xij = mi
 //! Nj,
 //!

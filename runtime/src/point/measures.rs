@@ -91,7 +91,7 @@
 //!
 //! # In the principal frames
 //!
-//! [`tangent`](super::tangent) derives how F and P change there: with dF̂ = Uᵀ dF V, the Hessian ψij takes
+//! `point/tangent.rs` derives how F and P change there: with dF̂ = Uᵀ dF V, the Hessian ψij takes
 //! the diagonal entries of dF̂ to those of Uᵀ dP V, and a, b do it for each pair. S is Vᵀ S V = diag(si) with
 //! si = ψi/λi, and dE is, with Λ = diag(λ),
 //!
@@ -131,7 +131,7 @@
 //!
 //! Components that the symmetries don't give are zero. The shear of c° is bij/λk + (σi + σj)/2.
 //!
-//! **Green and Naghdi.** With Ωᵁ and Θ of the essay on the [tangent](super::tangent), dR = U (Ωᵁ + Θ) Vᵀ, and
+//! **Green and Naghdi.** With Ωᵁ and Θ of `point/tangent.rs`, dR = U (Ωᵁ + Θ) Vᵀ, and
 //! (λi + λj)(Ωᵁij + Θij) = dF̂ij − dF̂ji. From dF̂ij = (εij + ωij) λj then follows
 //!
 //! ```text

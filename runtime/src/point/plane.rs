@@ -41,7 +41,7 @@
 //!
 //! The normal of the plane is a principal direction of F = diag(F̃, λ3) with the 2×2 matrix F̃, and so the
 //! stretches of F are those of F̃ = U diag(λ1, λ2) Vᵀ and λ3, each belonging to its axis. With derivatives of
-//! ψ(λ1, λ2, λ3) by the stretches of the axes, and dF̂ = Uᵀ dF̃ V, [`tangent`](super::tangent) says that
+//! ψ(λ1, λ2, λ3) by the stretches of the axes, and dF̂ = Uᵀ dF̃ V, `point/tangent.rs` says that
 //!
 //! ```text
 //! P̃ = U diag(ψ1, ψ2) Vᵀ,     P33 = ψ3

@@ -49,7 +49,7 @@ pub struct Svd<R> {
 /// exceeds the largest finite number, it is infinite.
 ///
 /// ```
-/// let svd = piola::point::svd::svd(&[[0.0, -2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -0.5]]);
+/// let svd = piola::point::svd(&[[0.0, -2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -0.5]]);
 /// assert_eq!(svd.stretches, [2.0, 1.0, -0.5]);
 /// ```
 #[inline(always)]

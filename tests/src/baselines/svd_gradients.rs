@@ -1,6 +1,6 @@
 //! dP/dF by differentiating U, λ and V \[SZLSB11\], one entry of F after the other.
 //!
-//! The equations are the paper's with its misprints mended (they are named in [`piola::point::tangent`]),
+//! The equations are the paper's with its misprints mended (`point/tangent.rs` of the runtime names them),
 //! otherwise literal: for each of the nine entries of F and each pair of stretches a 2×2 system gives the
 //! derivatives of U and V,
 //!
