@@ -44,7 +44,6 @@ fn settings_come_back() {
     for linear in [
         LinearSolver::Automatic,
         LinearSolver::Cholesky,
-        LinearSolver::RefinedCholesky { tolerance: 0.1 * third },
         LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
     ] {
         let newton = NewtonSettings::default().with_linear(linear).with_tolerance(third);

@@ -9,18 +9,15 @@ mod direct;
 mod interface;
 mod own;
 mod preconditioner;
-mod refined;
 
 use std::sync::Arc;
 
-use crate::system::linear::refined::RefinedCholesky;
 use crate::system::linear::{Cholesky, LinearError};
 use crate::system::{Body, Pins};
 
 use assembled::Assembled;
 use conjugate::Conjugate;
 use direct::Direct;
-use refined::Refined;
 
 pub use own::SparseSolver;
 
@@ -49,23 +46,12 @@ pub enum LinearSolver {
     /// Chosen by the number of elements: [`LinearSolver::for_elements`].
     #[default]
     Automatic,
-    /// Sparse Cholesky factorisation in f64.
+    /// Sparse Cholesky factorisation.
     ///
     /// The fastest for bodies of up to a few thousand elements (`cargo speed-report` shows all of them from
     /// a thousand to a million), and the only one without a tolerance. An indefinite matrix gets inertia
     /// until it is definite.
     Cholesky,
-    /// A factor in f32, of half the memory and traffic, and conjugate gradients in f64 that it preconditions,
-    /// until ‖b − A p‖ ≤ tolerance ‖b‖.
-    ///
-    /// For bodies of thousands of elements whose factor stays sparse, because they are thin. Stiffness may
-    /// have any unit. A factor that fails in f32 gets a larger diagonal, which costs iterations but no
-    /// accuracy. The system is given up at negative curvature and after a hundred iterations; a handful is
-    /// the rule.
-    RefinedCholesky {
-        /// ‖b − A p‖/‖b‖ at which to stop.
-        tolerance: f64,
-    },
     /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the
     /// diagonal or, where these take many iterations, by multigrid (smoothed aggregation), whose iterations
     /// hardly grow with the number of elements.
@@ -101,7 +87,6 @@ impl LinearSolver {
     pub(super) fn broken_rule(&self) -> Option<&'static str> {
         let (tolerance, max_iterations) = match *self {
             Self::Automatic | Self::Cholesky => return None,
-            Self::RefinedCholesky { tolerance } => (tolerance, usize::MAX),
             Self::ConjugateGradients { tolerance, max_iterations } => (tolerance, max_iterations),
         };
         if !(tolerance > 0.0 && tolerance < 1.0) {
@@ -125,9 +110,6 @@ impl LinearSolver {
             Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
             Self::Cholesky => Box::new(Assembled::new(body, pins, pairs, |pattern| {
                 Ok(Direct { solver: Cholesky::of_pattern(pattern.shared_entries())? })
-            })?),
-            Self::RefinedCholesky { tolerance } => Box::new(Assembled::new(body, pins, pairs, |pattern| {
-                Ok(Refined { factor: RefinedCholesky::new(pattern.shared_entries())?, tolerance })
             })?),
             Self::ConjugateGradients { tolerance, max_iterations } => {
                 Box::new(Conjugate::new(body, pins, pairs, tolerance, max_iterations)?)

@@ -4,9 +4,8 @@
 //! they bring. Supernodal: columns of one pattern are factored as dense panels. This module knows no nodes;
 //! unknowns come already in an order that keeps L sparse.
 //!
-//! Its children are the alternatives that a simulation can choose: conjugate gradients, a preconditioner for
-//! them where there is no matrix, and a factor in f32 that they refine. Lanczos' method finds the smallest
-//! eigenvalue of a matrix from its factor.
+//! Its children are the alternative that a simulation can choose, conjugate gradients, with their
+//! preconditioners. Lanczos' method finds the smallest eigenvalue of a matrix from its factor.
 
 use std::fmt;
 use std::sync::Arc;
@@ -18,7 +17,6 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::traits::RealField;
 use faer::{Conj, MatMut, Par, Side};
 
 pub(crate) mod block_jacobi;
@@ -26,10 +24,9 @@ pub(crate) mod conjugate_gradients;
 pub(crate) mod dense;
 pub(crate) mod lanczos;
 pub(crate) mod multigrid;
-pub(crate) mod refined;
 pub(crate) mod symmetric_blocks;
 
-/// A factorisation in f64 or f32, and the memory for the next one.
+/// A factorisation, and the memory for the next one.
 ///
 /// Matrices are given by their lower triangle in compressed columns: see
 /// [`LowerTriangle`](super::LowerTriangle).
@@ -45,30 +42,30 @@ pub(crate) mod symmetric_blocks;
 /// assert_eq!(x, [1.0, 2.0]);
 /// # Ok::<(), piola::system::LinearError>(())
 /// ```
-pub struct Cholesky<E = f64> {
+pub struct Cholesky {
     pattern: Arc<SymbolicSparseColMat<usize>>,
     symbolic: Arc<SymbolicCholesky<usize>>,
-    factor: Vec<E>,
+    factor: Vec<f64>,
     /// Whether `factor` is that of a matrix: not before the first, nor after one that is not positive.
     is_factored: bool,
     memory: MemBuffer,
 }
 
-impl<E> fmt::Debug for Cholesky<E> {
+impl fmt::Debug for Cholesky {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Cholesky {{ unknowns: {}, entries: {} }}", self.symbolic.nrows(), self.factor.len())
     }
 }
 
-impl<E: RealField> Clone for Cholesky<E> {
+impl Clone for Cholesky {
     fn clone(&self) -> Self {
         let (pattern, symbolic) = (self.pattern.clone(), self.symbolic.clone());
-        let memory = MemBuffer::new(scratch::<E>(&symbolic));
+        let memory = MemBuffer::new(scratch(&symbolic));
         Self { pattern, symbolic, factor: self.factor.clone(), is_factored: self.is_factored, memory }
     }
 }
 
-impl<E: RealField> Cholesky<E> {
+impl Cholesky {
     /// Analyses the lower triangle of a symmetric pattern and allocates all memory that later calls need.
     ///
     /// Entries of column c are those from `column_starts[c]` to `column_starts[c + 1]`, their rows ascending
@@ -108,10 +105,10 @@ impl<E: RealField> Cholesky<E> {
         let symbolic =
             factorize_symbolic_cholesky(upper.as_ref(), Side::Upper, SymmetricOrdering::Identity, parameters)
                 .map_err(|_| LinearError::OutOfMemory)?;
-        let memory = MemBuffer::try_new(scratch::<E>(&symbolic)).map_err(|_| LinearError::OutOfMemory)?;
+        let memory = MemBuffer::try_new(scratch(&symbolic)).map_err(|_| LinearError::OutOfMemory)?;
         let mut factor = Vec::new();
         factor.try_reserve_exact(symbolic.len_val()).map_err(|_| LinearError::OutOfMemory)?;
-        factor.resize(symbolic.len_val(), E::zero_impl());
+        factor.resize(symbolic.len_val(), 0.0);
         let (pattern, symbolic) = (pattern.clone(), Arc::new(symbolic));
         Ok(Self { pattern, symbolic, factor, is_factored: false, memory })
     }
@@ -121,7 +118,7 @@ impl<E: RealField> Cholesky<E> {
     /// # Errors
     /// [`LinearError::NotPositive`] if it is not numerically positive definite, [`LinearError::Length`] if
     /// there are not as many values as entries.
-    pub fn factor(&mut self, values: &[E]) -> Result<(), LinearError> {
+    pub fn factor(&mut self, values: &[f64]) -> Result<(), LinearError> {
         fits("values", values.len(), self.pattern.row_idx().len())?;
         let result = self.symbolic.factorize_numeric_llt(
             &mut self.factor,
@@ -144,7 +141,7 @@ impl<E: RealField> Cholesky<E> {
     /// # Errors
     /// [`LinearError::Length`] if b does not hold one entry for each unknown, [`LinearError::NotFactored`]
     /// before [`Cholesky::factor`] has succeeded, or after it has failed. b is then as it was.
-    pub fn solve(&mut self, b: &mut [E]) -> Result<(), LinearError> {
+    pub fn solve(&mut self, b: &mut [f64]) -> Result<(), LinearError> {
         fits("b", b.len(), self.symbolic.nrows())?;
         if !self.is_factored {
             return Err(LinearError::NotFactored);
@@ -154,7 +151,7 @@ impl<E: RealField> Cholesky<E> {
     }
 
     /// Solves with a factor that there is, for one entry of b for each unknown.
-    pub(crate) fn substitute(&mut self, b: &mut [E]) {
+    pub(crate) fn substitute(&mut self, b: &mut [f64]) {
         let b = MatMut::from_column_major_slice_mut(b, self.symbolic.nrows(), 1);
         let factor = LltRef::new(&self.symbolic, &self.factor);
         factor.solve_in_place_with_conj(Conj::No, b, Par::Seq, MemStack::new(&mut self.memory));
@@ -167,10 +164,10 @@ pub(super) fn fits(slice: &'static str, found: usize, expected: usize) -> Result
 }
 
 /// Memory that a factorisation or a solution takes beside the factor.
-fn scratch<E: RealField>(symbolic: &SymbolicCholesky<usize>) -> StackReq {
+fn scratch(symbolic: &SymbolicCholesky<usize>) -> StackReq {
     symbolic
-        .factorize_numeric_llt_scratch::<E>(Par::Seq, Default::default())
-        .or(symbolic.solve_in_place_scratch::<E>(1, Par::Seq))
+        .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
+        .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))
 }
 
 /// Product A x of a symmetric matrix given by its lower triangle.
@@ -281,7 +278,7 @@ mod tests {
 
     #[test]
     fn patterns_are_checked() {
-        let error = |starts: &[usize], rows: &[usize]| Cholesky::<f64>::new(starts, rows).err();
+        let error = |starts: &[usize], rows: &[usize]| Cholesky::new(starts, rows).err();
         assert_eq!(error(&[0, 2, 3], &[0, 1, 1]), None);
         let at = |column| Some(LinearError::Pattern { column });
         assert_eq!(error(&[], &[]), at(0));

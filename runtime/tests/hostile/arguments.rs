@@ -156,10 +156,9 @@ impl Hostile {
     }
 
     pub(crate) fn settings(&mut self) -> SimulationSettings {
-        let linear = match self.0.below(4) {
+        let linear = match self.0.below(3) {
             0 => LinearSolver::Automatic,
             1 => LinearSolver::Cholesky,
-            2 => LinearSolver::RefinedCholesky { tolerance: self.about(1e-6) },
             _ => LinearSolver::ConjugateGradients {
                 tolerance: self.about(1e-3),
                 max_iterations: self.one_of(&[0, 1, 100]),

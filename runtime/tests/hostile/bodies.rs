@@ -48,8 +48,8 @@ fn patterns_of_ones_own() {
             starts.sort_unstable();
         }
         let rows: Vec<usize> = (0..hostile.0.below(6)).map(|_| hostile.node(4)).collect();
-        if let Ok(mut cholesky) = Cholesky::<f32>::new(&starts, &rows) {
-            let mut b: Vec<f32> = hostile.numbers(starts.len() - 1).iter().map(|&x| x as f32).collect();
+        if let Ok(mut cholesky) = Cholesky::new(&starts, &rows) {
+            let mut b = hostile.numbers(starts.len() - 1);
             let _ = cholesky.factor(&vec![1.0; hostile.length(rows.len())]);
             let _ = cholesky.solve(&mut b);
         }

@@ -60,7 +60,6 @@ pub(crate) fn plan(is_quick: bool) -> Vec<Series> {
     let iterative = |tolerance| Some(LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 });
     let solvers = [
         (DIRECT, Some(LinearSolver::Cholesky), true),
-        ("Cholesky f32", Some(LinearSolver::RefinedCholesky { tolerance: 1e-6 }), true),
         (ITERATIVE, iterative(LOOSE), false),
         ("CG 1e-6", iterative(1e-6), true),
         (COMPRESSED_ROWS, None, true),

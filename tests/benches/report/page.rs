@@ -84,7 +84,7 @@ const GROWTH: &str = "\
 ## Growth
 
 A cube of rubber under its own weight, one iteration of Newton's method a step of 1/100 s, from a thousand elements on. Memory is all that is allocated,
-the mesh included. CG: conjugate gradients to that residual; Cholesky f32: refined to 10⁻⁶ by conjugate gradients in f64.
+the mesh included. CG: conjugate gradients to that residual.
 ";
 
 fn pictures(text: &mut String, charts: &[Chart], prefixes: &[&str]) -> fmt::Result {

@@ -296,8 +296,6 @@ fn ways() -> Vec<Way> {
         ways.push(way("filter", name, 1.0, full.with_filtering(filtering)));
     }
     ways.push(way("solver", "Cholesky f64", 1.0, full));
-    let refined = LinearSolver::RefinedCholesky { tolerance: 1e-10 };
-    ways.push(way("solver", "Cholesky f32, refined", 1.0, full.with_linear(refined)));
     for tolerance in [1e-1, 1e-2, 1e-4, 1e-8] {
         let linear = LinearSolver::ConjugateGradients { tolerance, max_iterations: 10_000 };
         let setting = format!("conjugate gradients {tolerance:e}");

@@ -64,18 +64,15 @@ fn a_step_balances_momentum_with_the_damping_force() {
 
 #[test]
 fn all_solvers_damp_alike() {
-    let ends = [
-        LinearSolver::Cholesky,
-        LinearSolver::RefinedCholesky { tolerance: 1e-10 },
-        LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 },
-    ]
-    .map(|linear| {
-        let mut simulation = shaken(Damping::Stiffness { time: BETA }, linear);
-        for _ in 0..5 {
-            simulation.step(DT).expect("a step");
-        }
-        simulation.positions().to_vec()
-    });
+    let ends =
+        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 }]
+            .map(|linear| {
+                let mut simulation = shaken(Damping::Stiffness { time: BETA }, linear);
+                for _ in 0..5 {
+                    simulation.step(DT).expect("a step");
+                }
+                simulation.positions().to_vec()
+            });
     for other in &ends[1..] {
         for (x, expected) in other.iter().zip(&ends[0]) {
             for c in 0..3 {

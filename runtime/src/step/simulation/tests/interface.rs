@@ -98,7 +98,7 @@ fn no_setting_returns_nan() {
         let filtering = [Filtering::OnDemand, Filtering::TrustRegion { tolerance: number() }];
         let linear = [
             LinearSolver::Automatic,
-            LinearSolver::RefinedCholesky { tolerance: number() },
+            LinearSolver::Cholesky,
             LinearSolver::ConjugateGradients { tolerance: number(), max_iterations: number() as usize % 50 },
         ];
         let damping =
@@ -176,11 +176,9 @@ fn the_solver_fits_the_body_and_may_be_chosen() {
 #[test]
 fn a_clone_is_independent_and_exact() {
     let mesh = beam(4);
-    for linear in [
-        LinearSolver::Cholesky,
-        LinearSolver::RefinedCholesky { tolerance: 1e-8 },
-        LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
-    ] {
+    for linear in
+        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
+    {
         let newton = NewtonSettings::default()
             .with_linear(linear)
             .with_filtering(Filtering::TrustRegion { tolerance: 0.01 });
