@@ -8,7 +8,7 @@ use piola::lanes::Backend;
 use piola::material::{Graded, PerElement, PerPoint, PerPointError};
 use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
-use piola::system::{Body, BodyError, ElasticResponse, Part, StiffnessOperator};
+use piola::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
 use piola::{Inversion, Spline, Survey};
 use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
 
@@ -124,6 +124,30 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
     Ok(())
 }
 
+/// The energy at these positions, and the product of the clamped stiffness there with them.
+fn energy_and_product(
+    body: &Body,
+    x: &[[f64; 3]],
+) -> Result<(f64, Vec<[f64; 3]>), Box<dyn std::error::Error>> {
+    let mut response = ElasticResponse::new(body);
+    let (energy, survey) = response.energy(body, x)?;
+    assert!(survey.is_clean());
+    let mut stiffness = NodalStiffness::of_body(body)?;
+    response.stiffness_here(body, Filter::Clamp, &mut vec![[0.0; 3]; x.len()], &mut stiffness)?;
+    let mut product = vec![[0.0; 3]; x.len()];
+    for (row, column, block) in stiffness.blocks() {
+        for a in 0..3 {
+            for c in 0..3 {
+                product[row][a] += block[a][c] * x[column][c];
+                if row != column {
+                    product[column][c] += block[a][c] * x[row][a];
+                }
+            }
+        }
+    }
+    Ok((energy, product))
+}
+
 /// Parts of many elements, with a material for each in their order, are parts of one element each.
 #[test]
 fn each_element_of_a_part_has_its_material() -> Outcome {
@@ -141,21 +165,13 @@ fn each_element_of_a_part_has_its_material() -> Outcome {
     };
     let body = Body::from_parts(&mesh, vec![part(Some("first"), first)?, part(None, second)?])?;
     let bent: Vec<[f64; 3]> = mesh.positions.iter().map(|&[x, y, z]| [1.2 * x, y + x * x, 0.9 * z]).collect();
-    let (found, survey) = ElasticResponse::new(&body).energy(&body, &bent)?;
-    assert!(survey.is_clean());
-    let mut stiffness = StiffnessOperator::new(&body);
-    stiffness.linearise(&body, &bent, Filter::Clamp)?;
-    let mut product = vec![[0.0; 3]; bent.len()];
-    stiffness.multiply(&bent, &mut product)?;
+    let (found, product) = energy_and_product(&body, &bent)?;
     let (mut energy, mut sum) = (0.0, vec![[0.0; 3]; bent.len()]);
     for (tet, material) in mesh.tets.iter().zip(&materials) {
         let one = TetMesh::new(tet.map(|node| mesh.positions[node]).to_vec(), vec![[0, 1, 2, 3]]);
         let (body, x) = (Body::new(&one, *material, 1000.0)?, tet.map(|node| bent[node]));
-        energy += ElasticResponse::new(&body).energy(&body, &x)?.0;
-        let mut alone = StiffnessOperator::new(&body);
-        alone.linearise(&body, &x, Filter::Clamp)?;
-        let mut product = [[0.0; 3]; 4];
-        alone.multiply(&x, &mut product)?;
+        let (alone, product) = energy_and_product(&body, &x)?;
+        energy += alone;
         for (&node, product) in tet.iter().zip(product) {
             (0..3).for_each(|c| sum[node][c] += product[c]);
         }

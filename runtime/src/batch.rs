@@ -59,7 +59,7 @@
 //! **Without a decomposition.** Of an energy that is written in I1, I2 and J, or in sums over the stretches
 //! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
 //! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where
-//! the terms by invariants cancel takes the way of all others, and so does a tangent in factors.
+//! the terms by invariants cancel takes the way of all others.
 //! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) says whether an energy is of this kind.
 //!
 //! This module knows no sparsity and no particular material.
@@ -80,8 +80,6 @@ mod jobs;
 mod material;
 mod measure;
 mod measured;
-#[cfg(feature = "bodies")]
-pub(crate) mod operator;
 mod quadrature;
 #[cfg(feature = "bodies")]
 pub(crate) mod rest;
@@ -107,7 +105,7 @@ pub(crate) use form::MAX_STIFFNESS_RATIO;
 pub(crate) use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::Source;
-use stage::{Deform, Product, StiffnessForm, Stress, StressByInvariants, TangentForm};
+use stage::{Deform, StiffnessForm, Stress, StressByInvariants, TangentForm};
 use tile::first_bits;
 use workspace::Workspace;
 
@@ -277,14 +275,6 @@ impl<'a, E: Stages> Batch<'a, E> {
         self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
     }
 
-    /// Stresses P, Pa, and the filtered dP/dF as the [`FACTORS`] components that [`Batch::products`] takes.
-    ///
-    /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn factored_tangents(&self, F: &[E], P: &mut [E], factors: &mut [E]) -> Result<Survey, LengthError> {
-        self.respond(TangentForm::Factored, F, P, ("factors", factors, FACTORS))
-    }
-
     /// Energies ψ, stresses P and filtered dP/dF, Pa: [`Batch::energies`] and [`Batch::tangents`] with one
     /// decomposition of each F.
     ///
@@ -306,28 +296,6 @@ impl<'a, E: Stages> Batch<'a, E> {
                 batch.respond(TangentForm::Full, F, start, count, rooms, P, tangents, Some(energies))
             },
         )
-    }
-
-    /// Products dP = (dP/dF) dF of each point, Pa, from the factors of [`Batch::factored_tangents`].
-    ///
-    /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn products(&self, factors: &[E], dF: &[E], dP: &mut [E]) -> Result<(), LengthError> {
-        let inputs = [("factors", factors, FACTORS), ("dF", dF, 9)];
-        self.run(inputs, [("dP", dP, 9)], |batch, tile| {
-            let Workspace { dF: increments, factors: stored, line, .. } = tile.workspace;
-            let ([factors, dF], [dP]) = (tile.inputs, tile.outputs);
-            let kernel = Product {
-                stored: Source::new(batch.backend, batch.layout, factors, stored),
-                dF: Source::new(batch.backend, batch.layout, dF, increments),
-                count: tile.count,
-                line,
-                dP: batch.sink(dP, 0),
-            };
-            E::product(batch.backend, kernel);
-            Status::default()
-        })?;
-        Ok(())
     }
 
     /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
@@ -537,9 +505,6 @@ impl<'a, E: Stages> Batch<'a, E> {
         Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| body(call, tile)))
     }
 }
-
-/// Components per point that [`Batch::factored_tangents`] writes: U, V, ψij, flips, twists.
-pub const FACTORS: usize = 30;
 
 /// Components of an element's rest shape: Dm⁻¹ row by row, 1/m, then the volume, m³.
 pub const REST: usize = 10;

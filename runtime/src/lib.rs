@@ -44,8 +44,7 @@
 //! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`contract`](mod@contract): what a material must satisfy, as tests in one line or functions;
 //! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `bodies`);
-//! * [`system`]: forces, stiffness, its sparse assembly or its products without a matrix, pins, linear
-//!   solvers (feature `bodies`);
+//! * [`system`]: forces, stiffness, its sparse assembly, pins, linear solvers (feature `bodies`);
 //! * [`step`]: steps of time by Newton's method, implicit Euler and integrators of higher order (feature
 //!   `bodies`);
 //! * `interpreter`: materials whose energy is known at run time only, as `piola-declare` makes them (feature

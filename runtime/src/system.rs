@@ -1,5 +1,4 @@
-//! Linear tetrahedral finite elements: elements, masses, sparsity, assembly, pins, linear solvers; products
-//! without a matrix.
+//! Linear tetrahedral finite elements: elements, masses, sparsity, assembly, pins, linear solvers.
 //!
 //! This module knows no time: inertia and damping belong to [`crate::step`]. All of it is in f64, materials
 //! included.
@@ -10,14 +9,12 @@ mod body;
 mod csr;
 mod discrete_gradient;
 pub(crate) mod element;
-pub(crate) mod factored;
 mod fill;
 pub(crate) mod graph;
 pub(crate) mod linear;
 mod lower_triangle;
 mod memory;
 pub(crate) mod nodal_stiffness;
-mod operator;
 pub(crate) mod pattern;
 mod pins;
 mod response;
@@ -33,7 +30,6 @@ pub use element::Tetrahedron;
 pub use linear::{Cholesky, LinearError};
 pub use lower_triangle::LowerTriangle;
 pub use nodal_stiffness::NodalStiffness;
-pub use operator::StiffnessOperator;
 pub use pattern::Pattern;
 pub use pins::{PinError, Pins};
 pub use response::ElasticResponse;

@@ -179,8 +179,7 @@ static void parameters_may_vary(void) {
 static void batches_are_derivatives(void) {
     enum { POINTS = 16 };
     piola_material *material = rubber();
-    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], T[81 * POINTS], packed[45 * POINTS],
-        factors[30 * POINTS];
+    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], T[81 * POINTS], packed[45 * POINTS];
     for (int k = 0; k < 9 * POINTS; k++) F[k] = SHEAR[k % 9] + 0.05 * sin(3.0 * k);
     piola_survey survey;
     CHECK(
@@ -205,32 +204,22 @@ static void batches_are_derivatives(void) {
     }
     /* Central differences in direction k, whose error is of the order of h^2. */
     const double h = 1e-5;
-    CHECK(
-        piola_tangents(
-            material, NULL, PIOLA_FORM_FACTORED, F, LENGTH(F), P2, LENGTH(P2), factors, LENGTH(factors),
-            NULL) == PIOLA_CODE_OK);
     for (int k = 0; k < 9; k++) {
         double ahead[9 * POINTS], behind[9 * POINTS], P_ahead[9 * POINTS], P_behind[9 * POINTS];
-        double e_ahead[POINTS], e_behind[POINTS], dF[9 * POINTS], dP[9 * POINTS];
-        memset(dF, 0, sizeof dF);
+        double e_ahead[POINTS], e_behind[POINTS];
         for (int i = 0; i < 9 * POINTS; i++) {
             ahead[i] = F[i] + (i % 9 == k ? h : 0.0);
             behind[i] = F[i] - (i % 9 == k ? h : 0.0);
-            dF[i] = i % 9 == k;
         }
         CHECK(piola_energies(material, NULL, ahead, LENGTH(F), e_ahead, POINTS, NULL) == PIOLA_CODE_OK);
         CHECK(piola_energies(material, NULL, behind, LENGTH(F), e_behind, POINTS, NULL) == PIOLA_CODE_OK);
         CHECK(piola_stresses(material, NULL, ahead, LENGTH(F), P_ahead, LENGTH(P), NULL) == PIOLA_CODE_OK);
         CHECK(piola_stresses(material, NULL, behind, LENGTH(F), P_behind, LENGTH(P), NULL) == PIOLA_CODE_OK);
-        CHECK(
-            piola_products(material, NULL, factors, LENGTH(factors), dF, LENGTH(dF), dP, LENGTH(dP)) ==
-            PIOLA_CODE_OK);
         for (int p = 0; p < POINTS; p++) {
             CHECK(fabs((e_ahead[p] - e_behind[p]) / (2 * h) - P[9 * p + k]) <= 1e-5 * MU);
             for (int r = 0; r < 9; r++) {
                 const double slope = (P_ahead[9 * p + r] - P_behind[9 * p + r]) / (2 * h);
                 CHECK(fabs(slope - T[81 * p + 9 * r + k]) <= 1e-5 * LAMBDA);
-                CHECK(fabs(dP[9 * p + r] - T[81 * p + 9 * r + k]) <= 1e-12 * LAMBDA);
             }
         }
     }
@@ -428,7 +417,6 @@ static void elements_and_bodies_agree(void) {
 
     piola_body *body = NULL;
     piola_response *response = NULL;
-    piola_stiffness *stiffness = NULL;
     piola_survey survey;
     const size_t part_of[2] = {1, 0};
     const piola_part parts[2] = {{material, 1000.0}, {material, 2000.0}};
@@ -455,22 +443,6 @@ static void elements_and_bodies_agree(void) {
         CHECK(fabs((ahead - behind) / (2 * h) - gradient[k]) <= 1e-4 * MU);
         CHECK(fabs(sum[k] - gradient[k]) <= 1e-10 * MU);
     }
-    CHECK(piola_stiffness_new(body, &stiffness) == PIOLA_CODE_OK);
-    CHECK(piola_stiffness_linearise(stiffness, x, 15, PIOLA_FILTER_NONE, &survey) == PIOLA_CODE_OK);
-    double d[15], product[15], blocks[45];
-    for (int k = 0; k < 15; k++) d[k] = cos(k);
-    CHECK(piola_stiffness_multiply(stiffness, d, 15, product, 15) == PIOLA_CODE_OK);
-    CHECK(piola_stiffness_diagonal(stiffness, blocks, 45) == PIOLA_CODE_OK);
-    for (int r = 0; r < 15; r++) {
-        double row = 0.0;
-        for (int c = 0; c < 15; c++) row += values[15 * r + c] * d[c];
-        CHECK(fabs(row - product[r]) <= 1e-9 * LAMBDA);
-        for (int c = 0; c < 3; c++)
-            CHECK(fabs(blocks[3 * r + c] - values[15 * r + r / 3 * 3 + c]) <= 1e-9 * LAMBDA);
-    }
-    FAILS(piola_stiffness_diagonal(stiffness, blocks, 44), PIOLA_CODE_LENGTH, "`blocks` has 44 entries");
-    FAILS(piola_stiffness_multiply(stiffness, d, 15, d, 15), PIOLA_CODE_POINTER, "`product` overlaps");
-    FAILS(piola_stiffness_linearise(stiffness, x, 15, 4, NULL), PIOLA_CODE_VALUE, "`filter` is 4");
     FAILS(
         piola_response_evaluate(response, x, 14, &energy, NULL, 0, NULL), PIOLA_CODE_LENGTH,
         "`positions` has 14 entries");
@@ -481,7 +453,6 @@ static void elements_and_bodies_agree(void) {
     memset(x + 12, 0, 3 * sizeof *x);
     CHECK(piola_response_evaluate(response, x, 15, &energy, NULL, 0, &survey) == PIOLA_CODE_OK);
     CHECK(survey.refused == 1 && survey.first == 1);
-    piola_stiffness_free(stiffness);
     piola_response_free(response);
     piola_body_free(body);
 

@@ -75,8 +75,7 @@ void batches(T tolerance) {
     for (std::size_t p = 0; p < points; p++) {
         F[p] << T(1.1), T(0.2), 0, T(-0.1), T(0.9), T(0.05), 0, T(0.3), T(1.0) + T(0.01) * T(p);
     }
-    std::vector<T> energies(points), P(9 * points), full(81 * points), packed(45 * points),
-        factors(30 * points);
+    std::vector<T> energies(points), P(9 * points), full(81 * points), packed(45 * points);
     std::vector<std::uint8_t> statuses(points, 255);
     piola::batch<T> batch(rubber());
     batch.filter(PIOLA_FILTER_NONE).threads(true).statuses(statuses);
@@ -89,15 +88,10 @@ void batches(T tolerance) {
         CHECK((piola::matrix(P, p) - expected).norm() < tolerance * T(1e6));
         CHECK((piola::tangent(full, p) - piola::tangent(full, p).transpose()).norm() == 0);
     }
-    std::vector<T> alone(9 * points), dP(9 * points);
+    std::vector<T> alone(9 * points);
     CHECK(batch.stresses(piola::numbers(F), alone).is_clean());
     CHECK(batch.tangents(piola::numbers(F), P, packed).is_clean());
-    CHECK(batch.tangents(piola::numbers(F), P, factors).is_clean());
-    // Along F itself.
-    batch.products(factors, piola::numbers(F), dP);
     for (std::size_t p = 0; p < points; p++) {
-        const Eigen::Map<const Eigen::Matrix<T, 9, 1>> direction(F[p].data()), found(dP.data() + 9 * p);
-        CHECK((found - piola::tangent(full, p) * direction).norm() < T(40) * tolerance * T(1e6));
         CHECK(
             packed[45 * p + 44] == full[81 * p + 80] ||
             std::fabs(packed[45 * p + 44] - full[81 * p + 80]) < tolerance * T(1e7));
@@ -232,8 +226,7 @@ void bodies() {
     const std::vector<double> x = {0, 0, 0, 1.2, 0.1, 0, 0, 0.9, 0.2, 0.1, 0, 1.1};
     const piola::body body(corners_at, corners, {}, {piola::part{rubber(), 1000.0}});
     const std::vector<double> rest = piola::rest_shapes(corners_at, corners);
-    std::vector<double> gradients(12), stiffnesses(144), packed(78), from_body(12), d(12), product(12),
-        blocks(36);
+    std::vector<double> gradients(12), stiffnesses(144), packed(78), from_body(12);
     const piola::batch<> batch(rubber());
     CHECK(batch.stiffnesses_at(x, corners, rest, gradients, stiffnesses).is_clean());
     CHECK(batch.stiffnesses_at(x, corners, rest, gradients, packed).is_clean());
@@ -244,15 +237,8 @@ void bodies() {
     CHECK(batch.stiffnesses(F, rest, again, stiffnesses).is_clean());
     piola::survey survey{};
     CHECK(piola::response(body).evaluate(x, from_body, &survey) > 0.0 && survey.is_clean());
-    const piola::stiffness K(body);
-    CHECK(K.linearise(x).is_clean());
-    for (std::size_t k = 0; k < 12; k++) d[k] = std::cos(double(k));
-    K.multiply(d, product);
-    K.diagonal(blocks);
     for (std::size_t r = 0; r < 12; r++) {
-        double row = 0.0;
-        for (std::size_t c = 0; c < 12; c++) row += stiffnesses[12 * r + c] * d[c];
-        CHECK(std::fabs(row - product[r]) < 1e-6 && std::fabs(gradients[r] - from_body[r]) < 1e-6);
+        CHECK(std::fabs(gradients[r] - from_body[r]) < 1e-6);
         CHECK(std::fabs(gradients[r] - again[r]) < 1e-6);
     }
     // A matrix with indices of 64 bits.

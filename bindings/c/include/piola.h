@@ -127,8 +127,6 @@ typedef enum piola_form {
     PIOLA_FORM_FULL = 0,
     // The entries on and above the diagonal, row by row: 45, or 78.
     PIOLA_FORM_PACKED = 1,
-    // 30 factors of dP/dF, which `piola_products` takes.
-    PIOLA_FORM_FACTORED = 2,
 } piola_form;
 
 // A measure of stress with the tangent that belongs to it.
@@ -196,10 +194,6 @@ typedef struct piola_response piola_response;
 // A body with positions and velocities, which steps change. A call while another thread's is under way
 // returns PIOLA_CODE_BUSY.
 typedef struct piola_simulation piola_simulation;
-
-// The stiffness K of a body, N/m, where it was linearised last: zero before. Threads may share it: calls
-// wait for each other.
-typedef struct piola_stiffness piola_stiffness;
 
 // Description of a parameter.
 typedef struct piola_parameter_description {
@@ -532,27 +526,6 @@ enum piola_code piola_energies_and_tangents_f32(const struct piola_material *mat
                                                 size_t dP_dF_length,
                                                 struct piola_survey *survey);
 
-// Products dP = (dP/dF) dF, Pa, nine numbers for each point, from the 30 factors that `piola_tangents` has
-// written. The material does not matter, unless it is one of a given number of points.
-enum piola_code piola_products(const struct piola_material *material,
-                               const struct piola_options *options,
-                               const double *factors,
-                               size_t factors_length,
-                               const double *dF,
-                               size_t dF_length,
-                               double *dP,
-                               size_t dP_length);
-
-// `piola_products` in single precision.
-enum piola_code piola_products_f32(const struct piola_material *material,
-                                   const struct piola_options *options,
-                                   const float *factors,
-                                   size_t factors_length,
-                                   const float *dF,
-                                   size_t dF_length,
-                                   float *dP,
-                                   size_t dP_length);
-
 // Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
 // numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
 // null, with a length of 0.
@@ -770,34 +743,6 @@ enum piola_code piola_response_evaluate(const struct piola_response *response,
 // Frees a response, or does nothing with null.
 void piola_response_free(struct piola_response *response);
 
-// Makes the stiffness of a body, which it keeps: about 400 bytes for each tetrahedron.
-enum piola_code piola_stiffness_new(const struct piola_body *body,
-                                    struct piola_stiffness **stiffness);
-
-// Takes the stiffness with the nodes at `positions`, three numbers each, m, and with the filter, one of
-// `piola_filter`, on dP/dF of each tetrahedron. The survey, which may go to null, counts these.
-enum piola_code piola_stiffness_linearise(const struct piola_stiffness *stiffness,
-                                          const double *positions,
-                                          size_t positions_length,
-                                          int32_t filter,
-                                          struct piola_survey *survey);
-
-// The product K x, N, for a displacement `x`, three numbers for each node, m. Shared among threads, with the
-// same bits for any number of them.
-enum piola_code piola_stiffness_multiply(const struct piola_stiffness *stiffness,
-                                         const double *x,
-                                         size_t x_length,
-                                         double *product,
-                                         size_t product_length);
-
-// The blocks on the diagonal of K, N/m, nine numbers for each node, which a preconditioner inverts.
-enum piola_code piola_stiffness_diagonal(const struct piola_stiffness *stiffness,
-                                         double *blocks,
-                                         size_t blocks_length);
-
-// Frees a stiffness, or does nothing with null.
-void piola_stiffness_free(struct piola_stiffness *stiffness);
-
 // Makes a simulation of a body at rest, with the nodes `pins` held, from 0 and in any order.
 //
 // `settings` is a text in JSON, null for the defaults. Keys that are left out have the first of their
@@ -809,7 +754,6 @@ void piola_stiffness_free(struct piola_stiffness *stiffness);
 //   `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
 // - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
 //   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
-//     `{"trust_region": {"tolerance": 0.01}}`,
 //   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
 //   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
 //

@@ -208,7 +208,6 @@ struct functions<double> {
     static constexpr auto stresses = piola_stresses;
     static constexpr auto tangents = piola_tangents;
     static constexpr auto energies_and_tangents = piola_energies_and_tangents;
-    static constexpr auto products = piola_products;
     static constexpr auto stresses_in = piola_stresses_in;
     static constexpr auto stiffnesses = piola_stiffnesses;
     static constexpr auto stiffnesses_at = piola_stiffnesses_at;
@@ -221,7 +220,6 @@ struct functions<float> {
     static constexpr auto stresses = piola_stresses_f32;
     static constexpr auto tangents = piola_tangents_f32;
     static constexpr auto energies_and_tangents = piola_energies_and_tangents_f32;
-    static constexpr auto products = piola_products_f32;
     static constexpr auto stresses_in = piola_stresses_in_f32;
     static constexpr auto stiffnesses = piola_stiffnesses_f32;
     static constexpr auto stiffnesses_at = piola_stiffnesses_at_f32;
@@ -267,21 +265,13 @@ public:
         return call(functions::energies, F, energies);
     }
     survey stresses(span<const T> F, span<T> P) const { return call(functions::stresses, F, P); }
-    /// In the form that the size of dP_dF tells: 81, 45 or 30 numbers for each point.
+    /// In the form that the size of dP_dF tells: 81 or 45 numbers for each point.
     survey tangents(span<const T> F, span<T> P, span<T> dP_dF) const {
-        const std::size_t points = F.size() / 9;
-        const piola_form form = dP_dF.size() == 30 * points   ? PIOLA_FORM_FACTORED
-                                : dP_dF.size() == 45 * points ? PIOLA_FORM_PACKED
-                                                              : PIOLA_FORM_FULL;
+        const piola_form form = dP_dF.size() == F.size() / 9 * 45 ? PIOLA_FORM_PACKED : PIOLA_FORM_FULL;
         return call_with(functions::tangents, form, F, P, dP_dF);
     }
     survey energies_and_tangents(span<const T> F, span<T> energies, span<T> P, span<T> dP_dF) const {
         return call(functions::energies_and_tangents, F, energies, P, dP_dF);
-    }
-    void products(span<const T> factors, span<const T> dF, span<T> dP) const {
-        detail::check(functions::products(
-            material_.get(), &options_, factors.data(), factors.size(), dF.data(), dF.size(), dP.data(),
-            dP.size()));
     }
     survey
     stresses_in(piola_measure measure, span<const T> F, span<T> stresses, span<T> tangents = {}) const {
@@ -440,35 +430,6 @@ public:
 
 private:
     std::unique_ptr<piola_response, detail::freed_by<piola_response_free>> handle_;
-};
-
-/// The stiffness of a body as an operator, without a matrix.
-class stiffness {
-public:
-    explicit stiffness(const body &body) {
-        piola_stiffness *handle = nullptr;
-        detail::check(piola_stiffness_new(body.get(), &handle));
-        handle_.reset(handle);
-    }
-
-    survey linearise(span<const double> positions, piola_filter filter = PIOLA_FILTER_NONE) const {
-        survey survey{};
-        detail::check(
-            piola_stiffness_linearise(handle_.get(), positions.data(), positions.size(), filter, &survey));
-        return survey;
-    }
-
-    void multiply(span<const double> x, span<double> product) const {
-        detail::check(
-            piola_stiffness_multiply(handle_.get(), x.data(), x.size(), product.data(), product.size()));
-    }
-
-    void diagonal(span<double> blocks) const {
-        detail::check(piola_stiffness_diagonal(handle_.get(), blocks.data(), blocks.size()));
-    }
-
-private:
-    std::unique_ptr<piola_stiffness, detail::freed_by<piola_stiffness_free>> handle_;
 };
 
 /// Where a term puts its second derivatives.

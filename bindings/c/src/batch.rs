@@ -17,8 +17,6 @@ pub enum Form {
     Full = 0,
     /// The entries on and above the diagonal, row by row: 45, or 78.
     Packed = 1,
-    /// 30 factors of dP/dF, which `piola_products` takes.
-    Factored = 2,
 }
 
 /// A measure of stress with the tangent that belongs to it.
@@ -216,53 +214,6 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
     }
 }
 
-/// Products dP = (dP/dF) dF, Pa, nine numbers for each point, from the 30 factors that `piola_tangents` has
-/// written. The material does not matter, unless it is one of a given number of points.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_products(
-    material: *const Material,
-    options: *const Options,
-    factors: *const f64,
-    factors_length: usize,
-    dF: *const f64,
-    dF_length: usize,
-    dP: *mut f64,
-    dP_length: usize,
-) -> Code {
-    let (inputs, outputs) =
-        ([("factors", factors, factors_length), ("dF", dF, dF_length)], [("dP", dP, dP_length)]);
-    // SAFETY: what the header asks of its caller.
-    unsafe {
-        call(material, options, inputs, outputs, std::ptr::null_mut(), |batch, [factors, dF], [dP]| {
-            batch.products(factors, dF, dP)?;
-            Ok(piola::Survey::default())
-        })
-    }
-}
-
-/// `piola_products` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_products_f32(
-    material: *const Material,
-    options: *const Options,
-    factors: *const f32,
-    factors_length: usize,
-    dF: *const f32,
-    dF_length: usize,
-    dP: *mut f32,
-    dP_length: usize,
-) -> Code {
-    let (inputs, outputs) =
-        ([("factors", factors, factors_length), ("dF", dF, dF_length)], [("dP", dP, dP_length)]);
-    // SAFETY: what the header asks of its caller.
-    unsafe {
-        call(material, options, inputs, outputs, std::ptr::null_mut(), |batch, [factors, dF], [dP]| {
-            batch.products(factors, dF, dP)?;
-            Ok(piola::Survey::default())
-        })
-    }
-}
-
 /// Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
 /// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
 /// null, with a length of 0.
@@ -374,10 +325,9 @@ fn tangents<E: Precision>(
     P: &mut [E],
     dP_dF: &mut [E],
 ) -> Result<piola::Survey, Failure> {
-    Ok(match lent::choice("form", form, [Form::Full, Form::Packed, Form::Factored])? {
+    Ok(match lent::choice("form", form, [Form::Full, Form::Packed])? {
         Form::Full => batch.tangents(F, P, dP_dF),
         Form::Packed => batch.packed_tangents(F, P, dP_dF),
-        Form::Factored => batch.factored_tangents(F, P, dP_dF),
     }?)
 }
 

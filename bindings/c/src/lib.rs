@@ -26,7 +26,6 @@ pub mod csr;
 
 pub mod body;
 pub mod response;
-pub mod stiffness;
 
 pub mod simulation;
 pub mod term;

@@ -135,7 +135,6 @@ impl From<piola::step::StepReport> for StepReport {
 ///   `"energy_momentum"`, `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
 /// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
 ///   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
-///     `{"trust_region": {"tolerance": 0.01}}`,
 ///   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
 ///   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
 ///

@@ -124,9 +124,7 @@ impl<E: Stages> Call<'_, E> {
     ) -> Status<u64> {
         let Rooms { points, invariants, derivatives, energies: values, blocks, line, short_line } = rooms;
         let fence = self.fence();
-        let has_energy = energies.is_none() || self.properties.has_energy_by_invariants;
-        let is_by_invariants = has_energy && form != TangentForm::Factored;
-        let mut served = if is_by_invariants {
+        let mut served = if energies.is_none() || self.properties.has_energy_by_invariants {
             self.derivatives_by_invariants(F, start, count, invariants, derivatives)
         } else {
             0

@@ -8,7 +8,6 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::material::{Arguments, Properties, TileMaterial};
-use super::operator::StiffnessFactors;
 use super::rest::{RestShapes, by_elements};
 use super::sink::{Lines, Sink};
 use super::stage::{
@@ -134,17 +133,6 @@ impl ElementTile {
             return Status::default();
         }
         self.respond(material, filter, gradients, StiffnessForm::Blocks, by_elements(stiffnesses))
-    }
-
-    /// Gradients, N, and filtered stiffnesses as their factors U, W, ψij, flips, twists.
-    pub(crate) fn factored_stiffnesses(
-        &mut self,
-        material: &dyn TileMaterial<f64>,
-        filter: Filter,
-        gradients: &mut [f64],
-        factors: &mut StiffnessFactors,
-    ) -> Status<u64> {
-        self.respond(material, filter, gradients, StiffnessForm::Factored, factors.sink())
     }
 
     /// Gradients and unfiltered stiffnesses by invariants. Returns whether these serve all elements; else the

@@ -143,47 +143,6 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
 pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
 pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
-/// dP/dF in factors: U, V, ψij, flips, twists.
-pub(super) struct Factored;
-
-impl Factored {
-    /// The tangent restored from its factors.
-    #[inline(always)]
-    pub(super) fn restore<R: Real>(numbers: [R; 30]) -> Tangent<R> {
-        let [u1, u2, u3, u4, u5, u6, u7, u8, u9, v1, v2, v3, v4, v5, v6, v7, v8, v9, rest @ ..] = numbers;
-        let [h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23] = rest;
-        let blocks = Blocks {
-            gradient: [R::splat(0.0); 3],
-            hessian: [h11, h22, h33, h12, h13, h23],
-            flip: [f12, f13, f23],
-            twist: [t12, t13, t23],
-        };
-        Tangent {
-            U: [[u1, u2, u3], [u4, u5, u6], [u7, u8, u9]],
-            V: [[v1, v2, v3], [v4, v5, v6], [v7, v8, v9]],
-            blocks,
-        }
-    }
-}
-
-impl Form<0, 30> for Factored {
-    #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
-        put_factors(&tangent.U, &tangent.V, &tangent.blocks, to);
-    }
-}
-
-/// Writes U, W and the blocks of a point: 30 entries as [`Factored::restore`] takes, W in the place of V.
-#[inline(always)]
-fn put_factors<R: Lanes>(U: &Matrix3<R>, W: &Matrix3<R>, blocks: &Blocks<R>, to: &mut [R::Scalar]) {
-    let line = <R::Scalar as Scalar>::LINE;
-    put_all(to_row_major(*U), to);
-    put_all(to_row_major(*W), &mut to[9 * line..]);
-    put_all(blocks.hessian, &mut to[18 * line..]);
-    put_all(blocks.flip, &mut to[24 * line..]);
-    put_all(blocks.twist, &mut to[27 * line..]);
-}
-
 /// Dm⁻¹ row by row, its volume last: what an element's forms need of its shape at rest.
 struct Rest<R> {
     inverse: [[R; 3]; 3],
@@ -287,7 +246,7 @@ pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
 /// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at
 /// 3n+a.
 #[inline(always)]
-pub(super) fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Scalar]) {
+fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Scalar]) {
     put(to, a, -(g1 + g2 + g3));
     put(to, 3 + a, g1);
     put(to, 6 + a, g2);
@@ -406,23 +365,5 @@ stiffness_form! {
     BlockStiffness of 90, |i, a, j, c| {
         let start = 9 * (i * (i + 1) / 2 + j);
         (start + 3 * a + c, (i == j).then_some(start + 3 * c + a))
-    }
-}
-
-/// An element's stiffness in factors: U, W, ψij, flips, twists.
-#[cfg(feature = "bodies")]
-pub(super) struct FactoredStiffness;
-
-#[cfg(feature = "bodies")]
-impl Form<10, 30> for FactoredStiffness {
-    #[inline(always)]
-    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
-        prepare_stiffness(blocks, rest, has_pole)
-    }
-
-    #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
-        let W = Rest::new(*rest).shape_gradients(&tangent.V);
-        put_factors(&tangent.U, &W, &tangent.blocks, to);
     }
 }

@@ -103,11 +103,6 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
     pub(super) fn source(&self) -> Source<'_, E, N> {
         Source(self.0.as_flattened())
     }
-
-    #[cfg(feature = "bodies")]
-    pub(super) fn sink(&mut self) -> Sink<'_, E> {
-        Sink { to: self.0.as_flattened_mut(), layout: Layout::Lines, non_temporal: None, served: 0 }
-    }
 }
 
 /// Room for up to 144 components of one line of points, on their way to a slice in another layout.

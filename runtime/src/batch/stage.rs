@@ -8,10 +8,10 @@
 use std::cell::Cell;
 
 #[cfg(feature = "bodies")]
-use super::form::{BlockStiffness, FactoredStiffness};
+use super::form::BlockStiffness;
 use super::form::{
-    Factored, Form, FormByInvariants, FullStiffness, FullTangent, PackedStiffness, PackedTangent,
-    gradient_is_finite, put_all, put_gradient,
+    Form, FormByInvariants, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite,
+    put_all, put_gradient,
 };
 use super::material::{from_rows, to_rows};
 use super::measure::{MeasuredStress, MeasuredTangent};
@@ -430,36 +430,11 @@ where
     }
 }
 
-/// Kernel of products dP = (dP/dF) dF from what [`Factored`] has stored.
-pub(super) struct Product<'a, E> {
-    pub(super) stored: Source<'a, E, 30>,
-    pub(super) dF: Source<'a, E, 9>,
-    pub(super) count: usize,
-    pub(super) line: &'a mut Line<E>,
-    pub(super) dP: Sink<'a, E>,
-}
-
-impl<E: Scalar> Kernel<E> for Product<'_, E> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) {
-        let Self { stored, dF, count, line, mut dP } = self;
-        for_each_group!(R, count, |at| {
-            let tangent = Factored::restore(stored.get_all::<R>(at));
-            let product = tangent.apply(&to_matrix(dF.get_all(at)));
-            put_all(to_row_major(product), dP.place::<R, 9>(line, at));
-            dP.finish::<R, 9>(line, at, count);
-        });
-    }
-}
-
 /// The second output of a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TangentForm {
     Full,
     Packed,
-    Factored,
 }
 
 /// The second output of an element's response.
@@ -469,8 +444,6 @@ pub(super) enum StiffnessForm {
     Packed,
     #[cfg(feature = "bodies")]
     Blocks,
-    #[cfg(feature = "bodies")]
-    Factored,
 }
 
 /// The kernels above for one format: no function is generic, so that each is compiled once, here. With the
@@ -502,22 +475,20 @@ pub trait Stages: Scalar {
     fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
     #[doc(hidden)]
     fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
-    /// The points served: none for a form that needs a decomposition.
+    /// The points served.
     #[doc(hidden)]
     fn tangent_by_invariants(
         backend: Backend,
         form: TangentForm,
         kernel: RespondByInvariants<'_, Self, 0>,
     ) -> u64;
-    /// The points served: none for a form that needs a decomposition.
+    /// The points served.
     #[doc(hidden)]
     fn stiffness_by_invariants(
         backend: Backend,
         form: StiffnessForm,
         kernel: RespondByInvariants<'_, Self, 10>,
     ) -> u64;
-    #[doc(hidden)]
-    fn product(backend: Backend, kernel: Product<'_, Self>);
     #[doc(hidden)]
     fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
@@ -568,7 +539,6 @@ macro_rules! stages {
                 match form {
                     TangentForm::Full => backend.run(Shaped(kernel, FullTangent)),
                     TangentForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
-                    TangentForm::Factored => backend.run(Shaped(kernel, Factored)),
                 }
             }
 
@@ -578,8 +548,6 @@ macro_rules! stages {
                     StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
                     #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
-                    #[cfg(feature = "bodies")]
-                    StiffnessForm::Factored => backend.run(Shaped(kernel, FactoredStiffness)),
                 }
             }
 
@@ -591,7 +559,6 @@ macro_rules! stages {
                 match form {
                     TangentForm::Full => shape_by_invariants(backend, kernel, FullTangent),
                     TangentForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
-                    TangentForm::Factored => 0,
                 }
             }
 
@@ -605,13 +572,7 @@ macro_rules! stages {
                     StiffnessForm::Packed => shape_by_invariants(backend, kernel, PackedStiffness),
                     #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
-                    #[cfg(feature = "bodies")]
-                    StiffnessForm::Factored => 0,
                 }
-            }
-
-            fn product(backend: Backend, kernel: Product<'_, Self>) {
-                backend.run(kernel);
             }
 
             fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64> {

@@ -67,11 +67,10 @@ fn Isochoric(
     c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
-/// Rest shapes, deformation gradients and increments of so many elements, inverted and collapsed ones among
+/// Rest shapes and deformation gradients of so many elements, inverted and collapsed ones among
 /// them.
 struct Sample<E> {
     F: Vec<[E; 9]>,
-    dF: Vec<[E; 9]>,
     rest: Vec<[E; REST]>,
 }
 
@@ -93,14 +92,13 @@ impl<E: Number> Sample<E> {
                 _ => nine(0.5, 1.0),
             })
             .collect();
-        let dF = (0..count).map(|_| nine(1.0, 0.0)).collect();
         let rest = (0..count)
             .map(|p| {
                 let shape = nine(0.3, 1.0);
                 std::array::from_fn(|k| if k < 9 { shape[k] } else { E::of(0.5 + 0.01 * p as f64) })
             })
             .collect();
-        Self { F, dF, rest }
+        Self { F, rest }
     }
 }
 
@@ -122,13 +120,12 @@ fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: u
 /// Everything that a batch gives.
 #[derive(Debug, PartialEq)]
 struct All<E> {
-    surveys: [Survey; 7],
+    surveys: [Survey; 6],
     energies: Vec<E>,
     P: Vec<E>,
     P_with_tangent: Vec<E>,
     full: Vec<E>,
     packed: Vec<E>,
-    dP: Vec<E>,
     gradients: Vec<E>,
     stiffnesses: Vec<E>,
     packed_stiffnesses: Vec<E>,
@@ -136,18 +133,16 @@ struct All<E> {
 
 fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
     let count = sample.F.len();
-    let [F, dF] = [&sample.F, &sample.dF].map(|points| lay(batch.layout, points));
+    let F = lay(batch.layout, &sample.F);
     let rest = lay(batch.layout, &sample.rest);
     let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
-    let mut factors = zero(FACTORS);
     let mut all = All {
-        surveys: [Survey::default(); 7],
+        surveys: [Survey::default(); 6],
         energies: zero(1),
         P: zero(9),
         P_with_tangent: zero(9),
         full: zero(81),
         packed: zero(45),
-        dP: zero(9),
         gradients: zero(12),
         stiffnesses: zero(144),
         packed_stiffnesses: zero(78),
@@ -157,12 +152,10 @@ fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
         batch.stresses(&F, &mut all.P),
         batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
         batch.packed_tangents(&F, &mut all.P_with_tangent, &mut all.packed),
-        batch.factored_tangents(&F, &mut all.P_with_tangent, &mut factors),
         batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
         batch.packed_stiffnesses(&F, &rest, &mut all.gradients, &mut all.packed_stiffnesses),
     ];
     all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
-    batch.products(&factors, &dF, &mut all.dP).expect("lengths fit");
     all
 }
 
@@ -207,7 +200,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
                 }
                 check_point(&mut worst, &found, &sample, p, material, &F, &point);
             }
-            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 7], "{backend}");
+            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 6], "{backend}");
             // Twice the 20 u of a decomposition, times what a material makes of it.
             assert!(worst.0 <= 400.0, "{backend}, {filter:?}: {} u", worst.0);
         }
@@ -233,8 +226,6 @@ fn check_point<E: Number>(
     for k in 0..9 {
         worst.see(found.P[9 * p + k], point.stress[k / 3][k % 3], stress);
         worst.see(found.P_with_tangent[9 * p + k], point.stress[k / 3][k % 3], stress);
-        let product = (0..9).fold(E::of(0.0), |sum, l| sum + dP_dF[k][l] * sample.dF[p][l]);
-        worst.see(found.dP[9 * p + k], product, 9.0 * stiff * size * size);
         for l in 0..9 {
             worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
             if l >= k {
@@ -308,7 +299,6 @@ fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
         (&all.P_with_tangent, 9),
         (&all.full, 81),
         (&all.packed, 45),
-        (&all.dP, 9),
         (&all.gradients, 12),
         (&all.stiffnesses, 144),
         (&all.packed_stiffnesses, 78),
@@ -345,11 +335,7 @@ fn check_bits<E: Number>(energy: &dyn TileMaterial<E>, filter: Filter) {
             assert!(bits(variant.layout, &found, COUNT) == expected, "{backend}, {:?}", variant.layout);
         }
         // Another place in the tile, other neighbours, another number of points.
-        let shifted = Sample {
-            F: sample.F[37..300].to_vec(),
-            dF: sample.dF[37..300].to_vec(),
-            rest: sample.rest[37..300].to_vec(),
-        };
+        let shifted = Sample { F: sample.F[37..300].to_vec(), rest: sample.rest[37..300].to_vec() };
         let found = bits(Layout::Points, &all(&batch, &shifted), 263);
         let per_point = expected.len() / COUNT;
         assert!(found == expected[37 * per_point..300 * per_point], "{backend}, shifted");

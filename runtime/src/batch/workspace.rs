@@ -9,7 +9,6 @@ use crate::lanes::Scalar;
 #[derive(Debug)]
 pub struct Workspace<E> {
     pub(super) F: Lines<E, 9>,
-    pub(super) dF: Lines<E, 9>,
     pub(super) points: SvdTile<E>,
     pub(super) energies: Rows<E, 1>,
     pub(super) gradients: Rows<E, 3>,
@@ -17,7 +16,6 @@ pub struct Workspace<E> {
     pub(super) derivatives: Rows<E, 9>,
     pub(super) blocks: Rows<E, 15>,
     pub(super) rest: Lines<E, 10>,
-    pub(super) factors: Lines<E, 30>,
     pub(super) line: Line<E>,
     /// Room for P or gradients beside what is in [`line`](Self::line).
     pub(super) short_line: Line<E>,
@@ -44,7 +42,6 @@ impl<E: Scalar> Workspace<E> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             F: Lines::zero(),
-            dF: Lines::zero(),
             points: SvdTile::new(),
             energies: Rows::zero(),
             gradients: Rows::zero(),
@@ -52,7 +49,6 @@ impl<E: Scalar> Workspace<E> {
             derivatives: Rows::zero(),
             blocks: Rows::zero(),
             rest: Lines::zero(),
-            factors: Lines::zero(),
             line: Line::zero(),
             short_line: Line::zero(),
         })

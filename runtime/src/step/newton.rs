@@ -41,8 +41,7 @@ pub(crate) fn minimize(
     }
     workspace.solver.begin();
     let report = NewtonReport::before(settings);
-    Iteration { objective, workspace, settings, line_search, survey, report, ratio: None, moved: None }
-        .run(x, pins_move)
+    Iteration { objective, workspace, settings, line_search, survey, report, moved: None }.run(x, pins_move)
 }
 
 /// A minimisation under way.
@@ -54,8 +53,6 @@ struct Iteration<'a, 'b> {
     /// Survey of the energies evaluated last.
     survey: Evaluated,
     report: NewtonReport,
-    /// Ratio of actual to predicted decrease in the step before, where a prediction was made.
-    ratio: Option<f64>,
     /// The largest displacement of a node in the iteration before, m.
     moved: Option<f64>,
 }
@@ -192,7 +189,7 @@ impl Iteration<'_, '_> {
         tolerance: f64,
     ) -> Result<bool, NewtonError> {
         let filtering = self.settings.filtering;
-        self.linearise(filtering.choice(self.ratio), x, pins_move)?;
+        self.linearise(filtering.choice(), x, pins_move)?;
         if pins_move.is_none()
             && self.report.iterations == 0
             && self.report.note_residual(self.workspace.free_norm(), self.settings)?
@@ -268,13 +265,10 @@ impl Iteration<'_, '_> {
 
     /// Moves `x` along the direction as far as it is good.
     fn search(&mut self, x: &mut [[f64; 3]]) -> Result<Progress, NewtonError> {
-        let NewtonWorkspace { model, direction, trial, gradient, .. } = &mut *self.workspace;
+        let NewtonWorkspace { direction, trial, gradient, .. } = &mut *self.workspace;
         let slope = product(gradient, direction);
         if !slope.is_finite() {
             return Err(NewtonError::NotFinite);
-        }
-        if let Some(model) = model {
-            model.take(self.objective, slope, direction, trial);
         }
         let first = self.objective.terms.longest_step(x, direction);
         let mut line = self.objective.along(x, direction, trial, gradient);
@@ -283,7 +277,6 @@ impl Iteration<'_, '_> {
         match outcome {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {
                 x.copy_from_slice(trial);
-                self.ratio = model.as_ref().map(|model| model.ratio(step, difference));
                 self.report.step_lengths.push(step);
                 self.report.refused_trials += refused;
                 self.report.change += difference;

@@ -104,7 +104,7 @@ impl Simulation {
         }
         check_settings(&settings)?;
         let choice = Choice::Setting(settings.newton.linear);
-        let workspace = NewtonWorkspace::new(&body, pins, choice, settings.newton.filtering)?;
+        let workspace = NewtonWorkspace::new(&body, pins, choice)?;
         Ok(Self {
             settings,
             springs: Vec::new(),

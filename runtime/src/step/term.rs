@@ -156,16 +156,6 @@ impl NodeBlocks {
         }
     }
 
-    /// dᵀ H d for a displacement d of each node.
-    pub(super) fn curvature(&self, d: &[[f64; 3]]) -> f64 {
-        let of_block = |&NodeBlock { row, column, entries }: &NodeBlock| {
-            let twice = if row == column { 1.0 } else { 2.0 };
-            let products = (0..9).map(|k| d[row][k / 3] * entries[k / 3][k % 3] * d[column][k % 3]);
-            twice * products.sum::<f64>()
-        };
-        self.blocks.iter().map(of_block).sum()
-    }
-
     /// Adds the blocks of free nodes to the entries of a pattern that has all their pairs.
     pub(super) fn add_to_entries(&self, pattern: &Pattern, values: &mut [f64]) {
         for NodeBlock { row, column, entries } in &self.blocks {

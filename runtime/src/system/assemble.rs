@@ -14,9 +14,8 @@
 //! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a
 //! division. A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720
 //! bytes of stiffness for each element, which stays in the cache for the bodies this is made for. It
-//! belongs to the caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); for products a
-//! third of it is enough ([`FactoredStiffness`](super::factored::FactoredStiffness)), and large bodies are
-//! assembled in waves, which share one small buffer
+//! belongs to the caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); large bodies
+//! are assembled in waves, which share one small buffer
 //! ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken

@@ -25,7 +25,6 @@ use std::ops::Add;
 
 use crate::batch::TileMaterial;
 use crate::batch::element::{ElementTile, TILE};
-use crate::batch::operator::StiffnessFactors;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::{Filter, Matrix3, stretches_in_range, svd};
@@ -162,18 +161,6 @@ impl ElementGroup {
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
         of_derivatives(self.tile.stiffnesses(material, filter, gradients, stiffnesses))
-    }
-
-    /// Gradients, and second derivatives after the filter as their factors.
-    pub(crate) fn evaluate_factors(
-        &mut self,
-        material: &dyn TileMaterial<f64>,
-        elements: &[Tetrahedron],
-        filter: Filter,
-        factors: &mut StiffnessFactors,
-    ) -> Status<u64> {
-        let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        of_derivatives(self.tile.factored_stiffnesses(material, filter, gradients, factors))
     }
 }
 

@@ -1,9 +1,12 @@
 //! Materials and meshes for the tests of bodies: the runtime knows no particular material.
 
+use crate::batch::Batch;
 use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 pub(crate) use crate::material::Scaled;
 use crate::mesh::{TetMesh, tetrahedral_box};
+use crate::point::Filter;
 use crate::random::Random;
+use crate::system::Body;
 
 // The hand-written energies have moduli of about 1 Pa; these are as stiff as rubber foam.
 pub(crate) const KIRCHHOFF: Scaled<SaintVenantKirchhoff> =
@@ -22,4 +25,30 @@ pub(crate) fn beam(cells: usize) -> TetMesh {
 /// Positions moved by up to `amplitude` in each coordinate.
 pub(crate) fn shake(random: &mut Random, positions: &[[f64; 3]], amplitude: f64) -> Vec<[f64; 3]> {
     positions.iter().map(|x| x.map(|c| c + random.uniform(-amplitude, amplitude))).collect()
+}
+
+/// Product of the filtered stiffness at these positions with a displacement of each node, summed element by
+/// element: no sum is shared with an assembled matrix.
+pub(crate) fn stiffness_product(
+    body: &Body,
+    positions: &[[f64; 3]],
+    filter: Filter,
+    x: &[[f64; 3]],
+) -> Vec<[f64; 3]> {
+    let mut product = vec![[0.0; 3]; x.len()];
+    for (number, element) in body.elements().iter().enumerate() {
+        let deformation = element.deformation_gradient(positions);
+        let rest: Vec<f64> =
+            element.shape.inverse.as_flattened().iter().copied().chain([element.shape.volume]).collect();
+        let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 144]);
+        Batch::new(body.material(number))
+            .with_filter(filter)
+            .stiffnesses(deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
+            .expect("one element");
+        for row in 0..12 {
+            let sum = (0..12).map(|k| stiffness[12 * row + k] * x[element.nodes[k / 3]][k % 3]).sum::<f64>();
+            product[element.nodes[row / 3]][row % 3] += sum;
+        }
+    }
+    product
 }

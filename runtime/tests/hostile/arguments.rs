@@ -164,10 +164,9 @@ impl Hostile {
                 max_iterations: self.one_of(&[0, 1, 100]),
             },
         };
-        let filtering = match self.0.below(3) {
+        let filtering = match self.0.below(2) {
             0 => Filtering::OnDemand,
-            1 => Filtering::Always(self.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute])),
-            _ => Filtering::TrustRegion { tolerance: self.about(0.01) },
+            _ => Filtering::Always(self.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute])),
         };
         let damping = match self.0.below(3) {
             0 => Damping::None,

@@ -1,7 +1,7 @@
 //! Batches of points and of elements.
 
 use piola::StatusCell;
-use piola::batch::{Batch, FACTORS, Layout, Quadrature, REST, Tetrahedra};
+use piola::batch::{Batch, Layout, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 use piola::system::CsrPlaces;
@@ -29,9 +29,6 @@ fn batches() {
         let _ = batch.energies_and_tangents(&deformations, &mut one, &mut nine, &mut many);
         let mut packed = hostile.numbers(45 * points);
         let _ = batch.packed_tangents(&deformations, &mut nine, &mut packed);
-        let mut factors = hostile.numbers(FACTORS * points);
-        let _ = batch.factored_tangents(&deformations, &mut nine, &mut factors);
-        let _ = batch.products(&factors, &deformations, &mut nine);
         let (rest, mut gradients) = (hostile.numbers(REST * points), hostile.numbers(12 * points));
         let [mut full, mut packed] = [144, 78].map(|size| hostile.numbers(size * points));
         let _ = batch.stiffnesses(&deformations, &rest, &mut gradients, &mut full);

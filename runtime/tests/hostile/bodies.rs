@@ -5,7 +5,6 @@ use piola::point::Filter;
 use piola::step::{Integrator, StagedSteps};
 use piola::system::{
     BlockMatrix, Body, Cholesky, DiscreteGradient, ElasticResponse, NodalStiffness, Part, Pattern, Pins,
-    StiffnessOperator,
 };
 
 use crate::arguments::{TOO_MANY, check};
@@ -68,13 +67,8 @@ fn bodies() {
         });
         let parts = parts.collect();
         let Ok(mut body) = Body::from_parts(&mesh, parts) else { return };
-        let mut stiffness = StiffnessOperator::new(&body);
         let positions = hostile.points(body.rest());
-        let _ = stiffness.linearise(&body, &positions, Filter::Clamp);
         let mut product = hostile.points(body.rest());
-        let _ = stiffness.multiply(&positions, &mut product);
-        let mut blocks = vec![[[0.0; 3]; 3]; hostile.length(body.rest().len())];
-        let _ = stiffness.diagonal_blocks(&mut blocks);
         let _ = Pattern::new(hostile.node(9), body.elements(), &Pins::none());
         let mut response = ElasticResponse::new(&body);
         let _ = response.energy(&body, &positions);

@@ -291,7 +291,6 @@ fn ways() -> Vec<Way> {
         ("clamp", Filtering::Always(Filter::Clamp)),
         ("absolute", Filtering::Always(Filter::Absolute)),
         ("on demand", Filtering::OnDemand),
-        ("trust region", Filtering::TrustRegion { tolerance: 0.01 }),
     ] {
         ways.push(way("filter", name, 1.0, full.with_filtering(filtering)));
     }

@@ -40,7 +40,7 @@ pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
     for task in Task::ALL {
         for &filter in task.filters() {
             let mut cells = vec![task.label(filter)];
-            for (_, energy) in task.materials(&materials) {
+            for (_, energy) in &materials {
                 let batch = Batch::new(&**energy).with_backend(backend).with_filter(filter);
                 for layout in [Layout::Lines, Layout::Points] {
                     cells.push(cell(measure_in_cache(effort, task, layout, &batch)));
@@ -91,7 +91,7 @@ pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
         let mut arrays = Arrays::<E>::new(task, Layout::Lines, STREAMING);
         for &filter in task.filters() {
             let mut cells = vec![task.label(filter)];
-            for (_, energy) in task.materials(&materials) {
+            for (_, energy) in &materials {
                 cells.extend(measure_streaming(effort, &mut arrays, &**energy, filter).map(cell));
             }
             row(&mut table, &cells);

@@ -116,7 +116,7 @@ fn kernels_in<E: Stages>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
     }
     for task in Task::ALL {
         for &filter in task.filters() {
-            let count = task.materials(&materials::<E>()).len();
+            let count = materials::<E>().len();
             for (name, energy) in materials::<E>().into_iter().take(count) {
                 let mut arrays = Arrays::new(task, Layout::Lines, IN_CACHE);
                 let call =

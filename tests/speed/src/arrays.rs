@@ -58,9 +58,6 @@ impl<E: Stages> Arrays<E> {
             Task::Stresses => batch.stresses(F, first).map(drop),
             Task::Tangents => batch.tangents(F, first, large).map(drop),
             Task::PackedTangents => batch.packed_tangents(F, first, large).map(drop),
-            Task::FactoredTangents => batch.factored_tangents(F, first, large).map(drop),
-            // What stands where F does elsewhere are the factors.
-            Task::Products => batch.products(F, second, first),
             Task::Stiffnesses => batch.stiffnesses(F, second, first, large).map(drop),
             Task::PackedStiffnesses => batch.packed_stiffnesses(F, second, first, large).map(drop),
             Task::StiffnessesAt => {

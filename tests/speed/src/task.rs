@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use piola::batch::{FACTORS, REST};
+use piola::batch::REST;
 use piola::point::Filter;
 
 use piola::random::Random;
@@ -18,10 +18,6 @@ pub enum Task {
     Tangents,
     /// P and 45 entries of dP/dF.
     PackedTangents,
-    /// P and what dP/dF is made of.
-    FactoredTangents,
-    /// dP from the latter and dF.
-    Products,
     /// Gradients and stiffnesses of elements, 144 entries.
     Stiffnesses,
     /// Gradients and packed symmetric stiffnesses of elements, 78 entries.
@@ -32,13 +28,11 @@ pub enum Task {
 
 impl Task {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 7] = [
         Self::Energies,
         Self::Stresses,
         Self::Tangents,
         Self::PackedTangents,
-        Self::FactoredTangents,
-        Self::Products,
         Self::Stiffnesses,
         Self::PackedStiffnesses,
         Self::StiffnessesAt,
@@ -52,8 +46,6 @@ impl Task {
             Self::Stresses => "stresses",
             Self::Tangents => "tangents",
             Self::PackedTangents => "packed_tangents",
-            Self::FactoredTangents => "factored_tangents",
-            Self::Products => "products",
             Self::Stiffnesses => "stiffnesses",
             Self::PackedStiffnesses => "packed_stiffnesses",
             Self::StiffnessesAt => "stiffnesses_at",
@@ -75,21 +67,14 @@ impl Task {
     #[must_use]
     pub fn filters(self) -> &'static [Filter] {
         match self {
-            Self::Energies | Self::Stresses | Self::Products => &[Filter::None],
+            Self::Energies | Self::Stresses => &[Filter::None],
             _ => &[Filter::None, Filter::Clamp],
         }
-    }
-
-    /// The materials that make a difference to it: all, or the first where none is evaluated.
-    #[must_use]
-    pub fn materials<T>(self, all: &[T]) -> &[T] {
-        if self == Self::Products { &all[..1] } else { all }
     }
 
     /// The quantities that the task reads at each point.
     pub(super) fn inputs(self) -> [Input; 2] {
         match self {
-            Self::Products => [Input::Factors, Input::Increment],
             Self::Stiffnesses | Self::PackedStiffnesses => [Input::Deformation, Input::RestShape],
             Self::StiffnessesAt => [Input::Nothing, Input::RestShapeAtNodes],
             _ => [Input::Deformation, Input::Nothing],
@@ -100,10 +85,9 @@ impl Task {
     pub(super) fn outputs(self) -> [usize; 2] {
         match self {
             Self::Energies => [1, 0],
-            Self::Stresses | Self::Products => [9, 0],
+            Self::Stresses => [9, 0],
             Self::Tangents => [9, 81],
             Self::PackedTangents => [9, 45],
-            Self::FactoredTangents => [9, FACTORS],
             Self::Stiffnesses | Self::StiffnessesAt => [12, 144],
             Self::PackedStiffnesses => [12, 78],
         }
@@ -124,18 +108,14 @@ pub(super) enum Input {
     RestShape,
     /// Dm⁻¹ with which [`CORNERS`] have a deformation gradient as above, and a volume.
     RestShapeAtNodes,
-    /// Any numbers: nothing depends on them.
-    Factors,
-    Increment,
 }
 
 impl Input {
     pub(super) fn numbers(self) -> usize {
         match self {
             Self::Nothing => 0,
-            Self::Deformation | Self::Increment => 9,
+            Self::Deformation => 9,
             Self::RestShape | Self::RestShapeAtNodes => REST,
-            Self::Factors => FACTORS,
         }
     }
 
@@ -151,9 +131,6 @@ impl Input {
                 let entry = |k: usize| (0..3).map(|m| inverse(k / 3, m) * F[3 * m + k % 3]).sum();
                 let shape = (0..9).map(entry);
                 shape.chain([random.uniform(0.5, 1.5)]).collect()
-            }
-            Self::Factors | Self::Increment => {
-                (0..self.numbers()).map(|_| random.uniform(-1.0, 1.0)).collect()
             }
         }
     }

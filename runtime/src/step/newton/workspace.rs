@@ -1,6 +1,5 @@
 //! Memory of Newton's method.
 
-use crate::step::filtering::{Filtering, Model};
 use crate::step::solver::{Choice, Solver};
 use crate::step::term::NodeBlocks;
 use crate::system::{Body, LinearError, Pins};
@@ -11,7 +10,6 @@ pub(crate) struct NewtonWorkspace {
     pub(super) solver: Box<dyn Solver>,
     choice: Choice,
     pins: Pins,
-    pub(crate) model: Option<Model>,
     pub(super) gradient: Vec<[f64; 3]>,
     pub(super) direction: Vec<[f64; 3]>,
     pub(super) trial: Vec<[f64; 3]>,
@@ -19,18 +17,12 @@ pub(crate) struct NewtonWorkspace {
 
 impl NewtonWorkspace {
     /// Allocates the memory for a body with these pins.
-    pub(crate) fn new(
-        body: &Body,
-        pins: &Pins,
-        choice: Choice,
-        filtering: Filtering,
-    ) -> Result<Self, LinearError> {
+    pub(crate) fn new(body: &Body, pins: &Pins, choice: Choice) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         Ok(Self {
             solver: choice.set_up(body, pins, &[])?,
             choice,
             pins: pins.clone(),
-            model: filtering.model(body),
             gradient: vec![[0.0; 3]; nodes],
             direction: vec![[0.0; 3]; nodes],
             trial: vec![[0.0; 3]; nodes],

@@ -187,10 +187,9 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        let is_other = (new.linear, new.filtering) != (old.linear, old.filtering);
-        if is_other || self.workspace.has_own_solver() {
+        if new.linear != old.linear || self.workspace.has_own_solver() {
             let choice = Choice::Setting(new.linear);
-            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, new.filtering)?;
+            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice)?;
         }
         if settings.integrator != self.settings.integrator {
             self.stages = Stages::new(settings.integrator, self.state.x.len());
@@ -208,8 +207,8 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        let (choice, filtering) = (Choice::Own(Arc::new(solver)), self.settings.newton.filtering);
-        self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice, filtering)?;
+        let choice = Choice::Own(Arc::new(solver));
+        self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice)?;
         Ok(())
     }
 

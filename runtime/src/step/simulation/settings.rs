@@ -57,7 +57,6 @@ pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupE
     ];
     let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
     let broken = broken.or(damping.broken_rule()).or(integrator.broken_rule());
-    let broken = broken.or(newton.filtering.broken_rule());
     match broken.or(newton.linear.broken_rule()) {
         Some(rule) => Err(SetupError::Setting { rule }),
         None => Ok(()),
