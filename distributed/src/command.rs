@@ -113,8 +113,7 @@ pub struct RunOptions {
     pub checkpoint_every: usize,
 
     /// Method by which steps advance in time: implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint,
-    /// energy-momentum (with --newton full; nothing is filtered), newmark, or generalized-alpha=R for a
-    /// spectral radius R.
+    /// newmark, or generalized-alpha=R for a spectral radius R.
     #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
     integrator: Integrator,
 
@@ -220,10 +219,6 @@ impl RunOptions {
         settings.tolerance = self.tolerance;
         settings.newton = self.newton;
         settings.check()?;
-        if self.integrator == Integrator::EnergyMomentum && self.newton == Newton::Single {
-            let reason = "--integrator energy-momentum keeps the energy as far as its equation is solved: add --newton full";
-            return Err(Error::Options(reason.to_owned()));
-        }
         Ok(task)
     }
 
@@ -346,12 +341,11 @@ fn integrator(text: &str) -> Result<Integrator, String> {
         "sdirk2" => Ok(Integrator::Sdirk2),
         "sdirk3" => Ok(Integrator::Sdirk3),
         "implicit-midpoint" => Ok(Integrator::ImplicitMidpoint),
-        "energy-momentum" => Ok(Integrator::EnergyMomentum),
         "newmark" => Ok(Integrator::Newmark),
         _ => {
             let radius = text.strip_prefix("generalized-alpha=").and_then(|radius| radius.parse().ok());
             let radius = radius.filter(|radius| (0.0..=1.0).contains(radius)).ok_or(
-                "write implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint, energy-momentum, newmark, or \
+                "write implicit-euler, bdf2, sdirk2, sdirk3, implicit-midpoint, newmark, or \
                  generalized-alpha=R with R from 0 to 1",
             )?;
             Ok(Integrator::GeneralizedAlpha { spectral_radius: radius })

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use piola::mesh::{Group, TetMesh};
 use piola::point::Filter;
 use piola::step::EnergyChange;
-use piola::system::{Body, DiscreteGradient, DiscreteGradientError, ElasticResponse, NodalStiffness, Part};
+use piola::system::{Body, ElasticResponse, NodalStiffness, Part};
 use piola_scenes::material::MaterialSpec;
 
 use crate::error::Error;
@@ -48,8 +48,6 @@ struct Piece {
     positions: Vec<[f64; 3]>,
     gradient: Vec<[f64; 3]>,
     stiffness: NodalStiffness,
-    /// The gradient between two states, made by the first step that needs it.
-    between: Option<DiscreteGradient>,
     energy: f64,
     /// Tag of the first element that has no energy, gradient or tangent where one was evaluated last.
     refused: Option<usize>,
@@ -178,63 +176,6 @@ impl Elastic {
         Ok(())
     }
 
-    /// Sets the state before, by positions of all nodes of the rank, m, for gradients between two states.
-    pub fn begin_between(&mut self, positions: &[[f64; 3]]) {
-        for piece in self.pieces_mut() {
-            piece.gather(positions);
-            let Piece { between, body, positions, .. } = piece;
-            let begun = between.get_or_insert_with(|| DiscreteGradient::new(body)).begin(body, positions);
-            piece.note(begun);
-        }
-    }
-
-    /// Replaces `gradient`, N, of the owned nodes by that of all ranks' elements between the state before and
-    /// the one with all nodes of the rank displaced from it, m.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn gradient_between(
-        &mut self,
-        exchange: &mut GhostedVector,
-        displacement: &[[f64; 3]],
-        gradient: &mut [[f64; 3]],
-    ) -> Result<(), PetscError> {
-        self.sum(exchange, gradient, |piece| {
-            piece.gather(displacement);
-            let Piece { between, body, positions, gradient, .. } = piece;
-            gradient.fill([0.0; 3]);
-            let evaluated = between.as_mut().map_or(Ok(()), |between| {
-                between.evaluate(body, positions)?;
-                Ok(between.add_gradient(body, gradient)?)
-            });
-            piece.note(evaluated);
-        })
-    }
-
-    /// Takes the tangents of the gradient between two states, where it was evaluated last.
-    pub fn linearise_between(&mut self) {
-        for piece in self.pieces_mut() {
-            let Piece { between, body, .. } = piece;
-            let linearised = between.as_mut().map_or(Ok(()), |between| between.linearise(body));
-            piece.note(linearised);
-        }
-    }
-
-    /// Nodes of each element, by their places in the share, in an order that does not change.
-    pub fn elements(&self) -> impl Iterator<Item = [usize; 4]> {
-        self.pieces().flat_map(|Piece { body, nodes, .. }| {
-            body.elements().iter().map(|element| element.nodes.map(|node| nodes[node]))
-        })
-    }
-
-    /// The tangent, N/m, of the gradient between two states of each element, in the order of
-    /// [`Elastic::elements`], where tangents were taken last.
-    pub fn tangents_between(&self) -> impl Iterator<Item = [[f64; 12]; 12]> {
-        self.pieces()
-            .filter_map(|Piece { between, body, .. }| Some(between.as_ref()?.tangents(body)))
-            .flatten()
-    }
-
     /// Evaluates the border, begins to send its part, evaluates the elements inside, and adds up.
     fn sum(
         &mut self,
@@ -352,31 +293,15 @@ impl Piece {
             nodes,
             positions: vec![[0.0; 3]; count],
             gradient: vec![[0.0; 3]; count],
-            between: None,
             energy: 0.0,
             refused: None,
         }))
     }
 
-    /// Takes the vectors of its nodes from those of all nodes of the rank.
-    fn gather(&mut self, vectors: &[[f64; 3]]) {
-        for (here, &node) in self.positions.iter_mut().zip(&self.nodes) {
-            *here = vectors[node];
-        }
-    }
-
-    /// Keeps the tag of an element that has no gradient between two states.
-    fn note(&mut self, evaluated: Result<(), DiscreteGradientError>) {
-        self.refused = match evaluated {
-            Ok(()) => None,
-            Err(DiscreteGradientError::Element { tag }) => Some(tag),
-            // Lengths are those that all of it was made with.
-            Err(_) => Some(0),
-        };
-    }
-
     fn evaluate(&mut self, positions: &[[f64; 3]]) {
-        self.gather(positions);
+        for (here, &node) in self.positions.iter_mut().zip(&self.nodes) {
+            *here = positions[node];
+        }
         // Lengths are those that both were made with.
         if let Ok((energy, survey)) = self.response.energy(&self.body, &self.positions) {
             self.energy = energy;

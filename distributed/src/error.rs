@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::step::{NewtonError, SetupError};
+use piola::step::SetupError;
 use piola::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
@@ -102,18 +102,6 @@ pub enum Error {
         residual: f64,
         /// Number of trials that left the domain of a material.
         refused: usize,
-    },
-    /// Newton's method fails to solve the equation of an energy–momentum step.
-    #[error(transparent)]
-    Newton(#[from] NewtonError),
-    /// The linear solver does not solve a system of an energy–momentum step.
-    #[error(
-        "the linear solver has not solved a system of an energy–momentum step in {iterations} iterations; take shorter steps, or, \
-         for a small body, a direct solver: -pc_type lu -pc_factor_mat_solver_type mumps"
-    )]
-    Unsolved {
-        /// Number of iterations.
-        iterations: usize,
     },
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]

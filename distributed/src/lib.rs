@@ -3,8 +3,7 @@
 //!
 //! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
 //! and steps as [`piola::step`] says. What is here is how a mesh is divided ([`portion`], [`share`]), what
-//! ranks tell each other ([`team`], [`petsc`]), and Newton's method with sums over ranks ([`newton`],
-//! [`conservation`]).
+//! ranks tell each other ([`team`], [`petsc`]), and Newton's method with sums over ranks ([`newton`]).
 //!
 //! Every rank calls every function, in one order. An error that concerns one rank is told to all, and ends
 //! them together.
@@ -13,7 +12,6 @@
 
 pub mod checkpoint;
 pub mod command;
-pub mod conservation;
 pub mod elastic;
 pub mod error;
 pub mod newton;

@@ -95,19 +95,13 @@ pub struct Objective<'a> {
 
 impl Objective<'_> {
     /// Second derivative of inertia and damping in each coordinate of a node.
-    pub(crate) fn diagonal(&self, node: usize) -> f64 {
+    fn diagonal(&self, node: usize) -> f64 {
         let [tau, sigma] = self.stage.lengths();
         self.masses[node] * (1.0 / sigma + self.damping) / tau
     }
 
-    /// Second derivative of inertia alone in each coordinate of a node.
-    pub(crate) fn inertia(&self, node: usize) -> f64 {
-        let [tau, sigma] = self.stage.lengths();
-        self.masses[node] / (tau * sigma)
-    }
-
     /// Stiffness of the springs at each owned node, N/m.
-    pub(crate) fn spring_stiffness(&self) -> Vec<f64> {
+    fn spring_stiffness(&self) -> Vec<f64> {
         let mut stiffness = vec![0.0; self.share.owned];
         for spring in self.springs {
             for (node, weight) in spring.anchor.nodes.iter().zip(spring.anchor.weights) {
@@ -127,13 +121,13 @@ impl Objective<'_> {
     }
 
     /// The smallest tag of an element of any rank that what was evaluated last does not exist of.
-    pub(crate) fn refused(&self) -> Option<u64> {
+    fn refused(&self) -> Option<u64> {
         let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
         tag.is_finite().then_some(tag as u64)
     }
 
     /// Adds the gradient of all but deformation at the owned nodes, N.
-    pub(crate) fn add_quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+    fn add_quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         for (node, total) in gradient.iter_mut().enumerate() {
             let [v, a] = self.stage.motion(node, x[node]);
             for c in 0..3 {
@@ -151,7 +145,7 @@ impl Objective<'_> {
     }
 
     /// Sum over all ranks of products of the free nodes.
-    pub(crate) fn product(&self, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    fn product(&self, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
         let pairs = a[..self.share.free].iter().zip(b);
         let own: f64 = pairs.map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum();
         self.team.sum([own])[0]

@@ -4,13 +4,12 @@ use piola::step::{
     Integrator, Pace, Repeatable, SetupError, Spring, Stage, StagedSteps, Term, advance_within, on_the_way,
 };
 
-use crate::conservation;
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
 use crate::newton::{NewtonReport, NewtonSettings, Objective, minimize};
 use crate::petsc::{GhostedVector, PetscError};
 use crate::share::Share;
-use crate::system::{Kind, LinearSystem};
+use crate::system::LinearSystem;
 use crate::team::Team;
 
 /// Number of units of regularisation, in statics, for a body that may move as a whole.
@@ -85,14 +84,11 @@ impl Simulation {
         let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
 
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
-        let steps = match settings.integrator {
-            Integrator::EnergyMomentum => StagedSteps::energy_momentum(&start),
-            integrator => StagedSteps::new(integrator, &start)?,
-        };
+        let steps = StagedSteps::new(settings.integrator, &start)?;
         let pinned = share.pinned();
         Ok(Self {
             pins: team.count(share.owned - share.free),
-            system: LinearSystem::new(team, &share, &elastic, kind(settings.integrator, false))?,
+            system: LinearSystem::new(team, &share, &elastic)?,
             team: team.clone(),
             settings,
             elastic,
@@ -165,10 +161,6 @@ impl Simulation {
             self.accelerate()?;
         }
         let is_static = dt == f64::INFINITY;
-        let kind = kind(self.settings.integrator, is_static);
-        if kind != self.system.kind() {
-            self.system = LinearSystem::new(&self.team, &self.share, &self.elastic, kind)?;
-        }
         let mut reports = Vec::new();
         for stage in 0..self.steps.begin(dt) {
             let moves = self.steps.begin_stage(stage, &self.pinned, &self.targets);
@@ -195,10 +187,7 @@ impl Simulation {
             };
             let pins_move = moves.then_some(self.steps.pins_move());
             let (system, newton) = (&mut self.system, &self.settings.newton);
-            reports.push(match kind {
-                Kind::Stiffness => minimize(objective, system, newton, &mut x, pins_move)?,
-                Kind::Between => conservation::solve(objective, system, newton, &mut x, pins_move)?,
-            });
+            reports.push(minimize(objective, system, newton, &mut x, pins_move)?);
             self.steps.end_stage(stage, &x);
         }
         let ends_with_last_stage = self.steps.ends_with_last_stage();
@@ -304,11 +293,6 @@ impl Simulation {
             self.team.sum([self.elastic.energy(), kinetic, gravity, springs]);
         Energies { elastic: if is_admissible { elastic } else { f64::NAN }, kinetic, gravity, springs }
     }
-}
-
-/// The matrix of a step.
-fn kind(integrator: Integrator, is_static: bool) -> Kind {
-    if integrator == Integrator::EnergyMomentum && !is_static { Kind::Between } else { Kind::Stiffness }
 }
 
 /// The time that a simulation is advanced over, and what moves evenly meanwhile.

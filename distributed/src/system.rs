@@ -9,9 +9,9 @@ use crate::petsc::{Ending, Krylov, Matrix, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
-/// Options of PETSc unless the user sets others: smoothed aggregation for conjugate gradients or GMRES, two
-/// steps of Chebyshev's iteration and Jacobi's diagonal on each level, and the aggregates of the first system
-/// for all later ones.
+/// Options of PETSc unless the user sets others: smoothed aggregation for conjugate gradients, two steps of
+/// Chebyshev's iteration and Jacobi's diagonal on each level, and the aggregates of the first system for all
+/// later ones.
 const DEFAULTS: &[(&str, &str)] = &[
     ("pc_type", "gamg"),
     ("pc_gamg_type", "agg"),
@@ -21,27 +21,14 @@ const DEFAULTS: &[(&str, &str)] = &[
     ("mg_levels_ksp_type", "chebyshev"),
     ("mg_levels_ksp_max_it", "2"),
     ("mg_levels_pc_type", "jacobi"),
-    // Tangents between two states may be far from definite, where GMRES needs a long memory.
-    ("ksp_gmres_restart", "200"),
-    ("fallback_ksp_gmres_restart", "200"),
     ("fallback_pc_type", "jacobi"),
 ];
 
 /// An old preconditioner may take so many times the iterations that it took for its own matrix.
 const PATIENCE: f64 = 2.0;
 
-/// The source of the entries of a [`LinearSystem`]'s matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// The stiffness of the elements, symmetric: solved by conjugate gradients.
-    Stiffness,
-    /// The tangents between two states, not symmetric: solved by GMRES.
-    Between,
-}
-
 /// The unknowns of free nodes, matrix and solver.
 pub struct LinearSystem {
-    kind: Kind,
     matrix: Rc<RefCell<Matrix>>,
     krylov: Krylov,
     fallback: Krylov,
@@ -61,25 +48,18 @@ impl LinearSystem {
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not know.
-    pub fn new(team: &Team, share: &Share, elastic: &Elastic, kind: Kind) -> Result<Self, Error> {
+    pub fn new(team: &Team, share: &Share, elastic: &Elastic) -> Result<Self, Error> {
         let library = team.library();
         let mut blocks = Vec::new();
         let mut block = |row: usize, column: usize| {
             blocks.extend(share.free_numbers[row].zip(share.free_numbers[column]).map(<[usize; 2]>::from));
         };
-        match kind {
-            Kind::Stiffness => elastic.blocks(|row, column, _| {
-                block(row, column);
-                if row != column {
-                    block(column, row);
-                }
-            }),
-            Kind::Between => {
-                for nodes in elastic.elements() {
-                    nodes.iter().for_each(|&row| nodes.iter().for_each(|&column| block(row, column)));
-                }
+        elastic.blocks(|row, column, _| {
+            block(row, column);
+            if row != column {
+                block(column, row);
             }
-        }
+        });
         let diagonal = share.free_numbers[..share.free].iter().flatten();
         let entries = |[row, column]: [usize; 2]| {
             (0..9).map(move |entry| [Some(3 * row + entry / 3), Some(3 * column + entry % 3)])
@@ -87,9 +67,7 @@ impl LinearSystem {
         let on_diagonal = |&node: &usize| (0..3).map(move |c| [Some(3 * node + c); 2]);
         let places = blocks.iter().copied().flat_map(entries).chain(diagonal.flat_map(on_diagonal));
         let mut matrix = Matrix::new(library, 3 * share.free, 3, places)?;
-        if kind == Kind::Stiffness {
-            matrix.set_symmetric()?;
-        }
+        matrix.set_symmetric()?;
         let values = vec![0.0; 9 * blocks.len() + 3 * share.free];
         drop(blocks);
         for (name, value) in DEFAULTS {
@@ -97,14 +75,9 @@ impl LinearSystem {
         }
         let matrix = Rc::new(RefCell::new(matrix));
         let vector = || Vector::new(library, share.free);
-        let method = match kind {
-            Kind::Stiffness => "cg",
-            Kind::Between => "gmres",
-        };
         Ok(Self {
-            kind,
-            krylov: Krylov::new(library, matrix.clone(), method, "")?,
-            fallback: Krylov::new(library, matrix.clone(), method, "fallback_")?,
+            krylov: Krylov::new(library, matrix.clone(), "cg", "")?,
+            fallback: Krylov::new(library, matrix.clone(), "cg", "fallback_")?,
             matrix,
             right: vector()?,
             solution: vector()?,
@@ -116,14 +89,7 @@ impl LinearSystem {
         })
     }
 
-    /// The source of the entries of the matrix.
-    #[must_use]
-    pub fn kind(&self) -> Kind {
-        self.kind
-    }
-
-    /// Assembles what the elements have taken last, plus a diagonal of each free node, N/m: their stiffness,
-    /// or twice their tangents between two states, the derivative by positions in the middle of the step. The
+    /// Assembles the stiffness that the elements have taken last, plus a diagonal of each free node, N/m. The
     /// nodes are at `positions`, m.
     ///
     /// # Errors
@@ -142,27 +108,14 @@ impl LinearSystem {
             rest = after;
         };
         let is_free = |node: usize| share.free_numbers[node].is_some();
-        match self.kind {
-            Kind::Stiffness => elastic.blocks(|row, column, entries| {
-                if is_free(row) && is_free(column) {
-                    put(*entries);
-                    if row != column {
-                        put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
-                    }
-                }
-            }),
-            Kind::Between => {
-                for (nodes, tangent) in elastic.elements().zip(elastic.tangents_between()) {
-                    let pairs = (0..16).map(|pair| (pair / 4, pair % 4));
-                    for (i, j) in pairs.filter(|&(i, j)| is_free(nodes[i]) && is_free(nodes[j])) {
-                        // The state after the step moves twice as far as the middle.
-                        put(std::array::from_fn(|r| {
-                            std::array::from_fn(|c| 2.0 * tangent[3 * i + r][3 * j + c])
-                        }));
-                    }
+        elastic.blocks(|row, column, entries| {
+            if is_free(row) && is_free(column) {
+                put(*entries);
+                if row != column {
+                    put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
                 }
             }
-        }
+        });
         for (node, entries) in rest.chunks_exact_mut(3).enumerate() {
             entries.fill(diagonal(node));
         }

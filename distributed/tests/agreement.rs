@@ -118,7 +118,6 @@ fn integrators_go_the_same_way() -> TestResult {
         ("sdirk2", Integrator::Sdirk2),
         ("sdirk3", Integrator::Sdirk3),
         ("implicit-midpoint", Integrator::ImplicitMidpoint),
-        ("energy-momentum", Integrator::EnergyMomentum),
         ("newmark", Integrator::Newmark),
         ("generalized-alpha=0.5", generalized),
     ] {

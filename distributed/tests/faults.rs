@@ -37,15 +37,10 @@ fn wrong_options_are_named_once() -> TestResult {
         ("box --elemens 6", "--elemens"),
         ("box --elements 60 -ksp_typ cg", "PETSc has no use for -ksp_typ:"),
         ("box --elements 60 -ksp_type nonsense", "piola-mpi: PETSc:"),
-        (
-            "run dinosaur --integrator energy-momentum --newton full -ksp_typ cg --out FOLDER",
-            "PETSc has no use for -ksp_typ:",
-        ),
         ("box --elements 6 --newton-tolerance 2", "--newton-tolerance 2"),
         ("run no-such-scene", "there is no scene `no-such-scene`"),
         ("run horse --mesh no-such-file.msh", "no-such-file.msh"),
         ("run horse --vary no-such-table.csv", "--vary no-such-table.csv: "),
-        ("run horse --integrator energy-momentum", "add --newton full"),
         ("run horse --frames 1 --dt 0.1 --resume --out no-such-folder", "cannot go on from no-such-folder"),
     ] {
         let options = options.replace("FOLDER", folder.to_str().ok_or("UTF-8")?);

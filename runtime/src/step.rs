@@ -3,9 +3,8 @@
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
 //! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts beside the
-//! material. `staged` hands the stages of steps to minimisers of a caller's own. `conservation` makes the
-//! steps that keep energy and momenta, which are no minima: `equation` solves for them. `equilibrium`
-//! classifies a body that has come to rest. Reports are values; nothing prints.
+//! material. `staged` hands the stages of steps to minimisers of a caller's own. `equilibrium` classifies
+//! a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!
@@ -17,9 +16,7 @@
 //! assert_eq!(settings.newton.tolerance, 1e-9);
 //! ```
 
-mod conservation;
 mod damping;
-mod equation;
 mod equilibrium;
 mod filtering;
 mod halving;
@@ -34,7 +31,6 @@ mod staged;
 mod term;
 
 pub use damping::Damping;
-pub use equation::{StepEquation, StepStart, solve_step};
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
 pub use halving::{Pace, Repeatable, advance_within, on_the_way};

@@ -110,11 +110,6 @@ impl Viscosity {
         stiffnesses.add(self.factor, &self.stiffnesses);
     }
 
-    /// Adds β/h K of an element to a matrix of its twelve unknowns.
-    pub(super) fn add_element_to(&self, element: usize, to: &mut [[f64; 12]; 12]) {
-        self.stiffnesses.add_element_to(self.factor, element, to);
-    }
-
     /// Adds β/h K to the stiffnesses of the elements of some tiles.
     pub(crate) fn add_tiles_to(&self, tiles: Range<usize>, to: &mut [[Stiffness; TILE]]) {
         self.stiffnesses.add_tiles_to(self.factor, tiles, to);

@@ -42,14 +42,9 @@
 //! **Prescribed motion.** Pinned nodes and targets of springs move evenly through the step: a stage has them
 //! at its share of their way, Σ aij or 1 − αf.
 //!
-//! **Energy and momenta.** The energy–momentum method has the stage and the end of the midpoint rule, and
-//! another stress: see [`super::conservation`].
-//!
 //! \[Alexander77\] Alexander, *Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s*, 1977.
 //! \[CH93\] Chung, Hulbert, *A time integration algorithm for structural dynamics with improved numerical
 //! dissipation: the generalized-α method*, 1993.
-//! \[Gon00\] Gonzalez, *Exact energy and momentum conserving algorithms for general models in nonlinear
-//! elasticity*, 2000.
 //! \[Gear71\] Gear, *Numerical Initial Value Problems in Ordinary Differential Equations*, 1971.
 //! \[Newmark59\] Newmark, *A method of computation for structural dynamics*, 1959.
 
@@ -85,19 +80,6 @@ pub enum Integrator {
     /// are far from linear. The state after a step lies beyond the one that was minimised, and a body that
     /// leaves the domain of its material there fails the step.
     ImplicitMidpoint,
-    /// An energy–momentum method, with a stress of Gonzalez's kind between two states \[Gon00\]: second
-    /// order.
-    ///
-    /// Keeps energy and momenta of a free body for any length of steps, as far as the
-    /// [tolerance](super::NewtonSettings::tolerance) of Newton's method goes, with 10⁻¹² to rounding. Gravity,
-    /// given forces, damping and springs act as they do on the midpoint rule, and add and take energy as they
-    /// should; other terms do so up to an error of second order. Calms nothing down.
-    ///
-    /// A step is no minimum: its matrix is not symmetric and is factored by a sparse LU decomposition,
-    /// whatever the linear solver in the settings, and nothing is filtered, so that an iteration costs
-    /// several of other methods. A step fails whose equation is not solved, and one in which an element is
-    /// inverted: a stress by strains does not see mirror images.
-    EnergyMomentum,
     /// Newmark's method with β = ¼ and γ = ½, of constant average acceleration \[Newmark59\]: second order,
     /// in one minimisation.
     ///
@@ -160,7 +142,7 @@ impl Integrator {
                 const SECOND: f64 = 0.25 * ((6.0 * GAMMA_3 - 20.0) * GAMMA_3 + 5.0);
                 stiffly_accurate(GAMMA_3, &[&[], &[0.5 * (1.0 - GAMMA_3)], &[FIRST, SECOND]])
             }
-            Self::ImplicitMidpoint | Self::EnergyMomentum => {
+            Self::ImplicitMidpoint => {
                 Method::RungeKutta(Tableau { diagonal: 0.5, rows: &[&[]], weights: Some(&[1.0]) })
             }
             Self::Newmark => Method::Alpha(Alpha { m: 0.0, f: 0.0, beta: 0.25, gamma: 0.5 }),
@@ -179,7 +161,6 @@ impl Integrator {
             Self::Bdf2
             | Self::Sdirk2
             | Self::ImplicitMidpoint
-            | Self::EnergyMomentum
             | Self::Newmark
             | Self::GeneralizedAlpha { .. } => 2,
             Self::Sdirk3 => 3,

@@ -53,12 +53,6 @@ impl Quadratic<'_> {
         self.masses[node] * (1.0 / sigma + self.damping) / tau
     }
 
-    /// The part of inertia alone: m/(τ σ).
-    pub(super) fn inertia(&self, node: usize) -> f64 {
-        let [tau, sigma] = self.stage.lengths;
-        self.masses[node] / (tau * sigma)
-    }
-
     /// Second derivative in each coordinate of a node, with the guard against drift.
     pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
         self.diagonal(node) + self.masses[node] * self.guard

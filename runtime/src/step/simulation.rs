@@ -9,7 +9,6 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, Pins};
 
-use super::conservation::Conservation;
 use super::damping::Viscosity;
 use super::integrator::{Stages, State};
 use super::line_search::LineSearch;
@@ -70,8 +69,6 @@ pub struct Simulation {
     elastic: Elastic,
     workspace: NewtonWorkspace,
     viscosity: Option<Viscosity>,
-    /// Memory of the energy–momentum method, made by its first step.
-    conservation: Option<Box<Conservation>>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     next: State,
@@ -119,7 +116,6 @@ impl Simulation {
             elastic: Elastic::new(&body),
             workspace,
             viscosity: settings.damping.viscosity(&body),
-            conservation: None,
             static_regularisation: static_regularisation(&body),
             next: State::at_rest(body.rest()),
             stages: Stages::new(settings.integrator, nodes),

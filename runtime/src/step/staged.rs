@@ -18,9 +18,6 @@ use super::spring::Spring;
 ///
 /// for the s, w, τ and σ of its [`Stage`].
 ///
-/// Steps of [`Integrator::EnergyMomentum`] are no minima, and are begun with
-/// [`StagedSteps::energy_momentum`].
-///
 /// ```
 /// use piola::step::{Integrator, StagedSteps};
 ///
@@ -53,32 +50,13 @@ impl StagedSteps {
     /// Nodes at rest at these positions, m.
     ///
     /// # Errors
-    /// [`SetupError::Setting`] for a parameter of the integrator that is out of range, and for the
-    /// energy–momentum method.
+    /// [`SetupError::Setting`] for a parameter of the integrator that is out of range.
     pub fn new(integrator: Integrator, positions: &[[f64; 3]]) -> Result<Self, SetupError> {
-        let no_minimum = (integrator == Integrator::EnergyMomentum).then_some(
-            "steps of the energy–momentum method are no minima; begin with `StagedSteps::energy_momentum`",
-        );
-        match integrator.broken_rule().or(no_minimum) {
-            Some(rule) => Err(SetupError::Setting { rule }),
-            None => Ok(Self::of(integrator, positions)),
+        if let Some(rule) = integrator.broken_rule() {
+            return Err(SetupError::Setting { rule });
         }
-    }
-
-    /// Nodes at rest at these positions, m, for steps of [`Integrator::EnergyMomentum`].
-    ///
-    /// A step has the stage of the midpoint rule, and another force: the
-    /// [gradient between two states](crate::system::DiscreteGradient), [positions](StagedSteps::positions) xₙ
-    /// before the step and 2 x − xₙ after it, in the place of ∇Ψ(x). [`solve_step`](super::solve_step) solves
-    /// for x.
-    #[must_use]
-    pub fn energy_momentum(positions: &[[f64; 3]]) -> Self {
-        Self::of(Integrator::EnergyMomentum, positions)
-    }
-
-    fn of(integrator: Integrator, positions: &[[f64; 3]]) -> Self {
         let state = State::at_rest(positions);
-        Self {
+        Ok(Self {
             integrator,
             method: integrator.method(1.0, &state),
             dt: 0.0,
@@ -86,7 +64,7 @@ impl StagedSteps {
             stages: Stages::new(integrator, positions.len()),
             pins_move: vec![[0.0; 3]; positions.len()],
             state,
-        }
+        })
     }
 
     /// Position of each node after the last step, m.
@@ -255,26 +233,6 @@ impl Stage {
         &self.velocities
     }
 
-    /// Displacement of a node from `x` to where its velocity alone would take it, s + τ w − x, m.
-    ///
-    /// # Panics
-    /// If there is no such node.
-    #[must_use]
-    pub fn ahead(&self, node: usize, x: [f64; 3]) -> [f64; 3] {
-        self.extrapolation(node, x, 0.0)
-    }
-
-    /// Acceleration of a node at `x`, m/s², if τ and σ were this share of what they are: that of
-    /// [`Stage::motion`] for the whole.
-    ///
-    /// # Panics
-    /// If there is no such node.
-    #[must_use]
-    pub fn acceleration(&self, node: usize, x: [f64; 3], share: f64) -> [f64; 3] {
-        let [tau, sigma] = self.lengths.map(|length| share * length);
-        std::array::from_fn(|c| ((x[c] - self.start[node][c]) / tau - self.velocities[node][c]) / sigma)
-    }
-
     /// τ and σ, s.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {
@@ -312,42 +270,16 @@ mod tests {
         Simulation::new(body, pins, settings).expect("a simulation")
     }
 
-    fn integrators() -> [Integrator; 8] {
+    fn integrators() -> [Integrator; 7] {
         [
             Integrator::ImplicitEuler,
             Integrator::Bdf2,
             Integrator::Sdirk2,
             Integrator::Sdirk3,
             Integrator::ImplicitMidpoint,
-            Integrator::EnergyMomentum,
             Integrator::Newmark,
             Integrator::GeneralizedAlpha { spectral_radius: 0.6 },
         ]
-    }
-
-    fn steps_of(integrator: Integrator, positions: &[[f64; 3]]) -> StagedSteps {
-        match integrator {
-            Integrator::EnergyMomentum => StagedSteps::energy_momentum(positions),
-            _ => StagedSteps::new(integrator, positions).expect("an integrator"),
-        }
-    }
-
-    /// A shorter stage has the velocities of its share, from the same start.
-    #[test]
-    fn a_stage_is_shortened() {
-        let (x, share) = ([0.3, -0.2, 0.1], 0.25);
-        let stage = |dt: f64| {
-            let mut steps = StagedSteps::new(Integrator::ImplicitEuler, &[[0.1; 3]]).expect("an integrator");
-            steps.set_state(&[[0.1; 3]], &[[1.0, 2.0, 3.0]]).expect("lengths");
-            steps.begin(dt);
-            steps.begin_stage(0, &[], &[[0.1; 3]]);
-            steps.stage().clone()
-        };
-        let (whole, shorter) = (stage(DT), stage(share * DT));
-        let [_, expected] = shorter.motion(0, x);
-        close(&[whole.acceleration(0, x, share)], &[expected], 1e-9);
-        let ahead = whole.ahead(0, [0.1; 3]);
-        close(&[ahead], &[[DT, 2.0 * DT, 3.0 * DT]], 1e-15);
     }
 
     /// A step in which all free nodes fall: the minimum of a stage is known.
@@ -388,7 +320,7 @@ mod tests {
         for integrator in integrators() {
             let mut simulation = simulation(integrator, &Pins::none());
             let rest = simulation.positions().to_vec();
-            let mut steps = steps_of(integrator, &rest);
+            let mut steps = StagedSteps::new(integrator, &rest).expect("an integrator");
             for _ in 0..3 {
                 simulation.step(DT).expect("a step");
                 fall(&mut steps, &[], &rest);
@@ -404,7 +336,7 @@ mod tests {
             let pins = Pins::at(0..8);
             let mut simulation = simulation(integrator, &pins);
             let mut targets = simulation.positions().to_vec();
-            let mut steps = steps_of(integrator, &targets);
+            let mut steps = StagedSteps::new(integrator, &targets).expect("an integrator");
             for _ in 0..3 {
                 for node in 0..8 {
                     targets[node][0] += 0.01;
@@ -420,9 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_lengths_and_steps_that_are_no_minima_are_refused() {
-        let refused = StagedSteps::new(Integrator::EnergyMomentum, &[]).expect_err("no minimum");
-        assert!(refused.to_string().contains("StagedSteps::energy_momentum"), "{refused}");
+    fn wrong_lengths_are_refused() {
         let mut steps = StagedSteps::new(Integrator::Newmark, &[[0.0; 3]]).expect("an integrator");
         let expected = Err(SetupError::Length { expected: 1, found: 2 });
         assert_eq!(steps.set_state(&[[0.0; 3]; 2], &[[0.0; 3]]), expected);

@@ -131,17 +131,6 @@ impl NodeBlocks {
         self.blocks.iter().map(|block| [block.row, block.column]).filter(|[row, column]| row != column)
     }
 
-    /// Row, column and entries of each block of the whole matrix, those above the diagonal too.
-    pub(super) fn both_ways(&self) -> impl Iterator<Item = (usize, usize, [[f64; 3]; 3])> {
-        self.blocks
-            .iter()
-            .flat_map(|&NodeBlock { row, column, entries }| {
-                let transpose = std::array::from_fn(|a| std::array::from_fn(|c| entries[c][a]));
-                [Some((row, column, entries)), (row != column).then_some((column, row, transpose))]
-            })
-            .flatten()
-    }
-
     /// Adds the product with a displacement of each node.
     pub(super) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
         for &NodeBlock { row, column, entries } in &self.blocks {

@@ -54,19 +54,6 @@ impl ElementStiffnesses {
         }
     }
 
-    /// Adds a factor times the stiffness of an element to a matrix of its twelve unknowns.
-    pub(crate) fn add_element_to(&self, factor: f64, element: usize, to: &mut [[f64; 12]; 12]) {
-        let (tile, lane) = self.places[element];
-        let stiffness = &self.tiles[tile as usize][lane as usize];
-        for (row, entries) in to.iter_mut().enumerate() {
-            for (column, entry) in entries.iter_mut().enumerate() {
-                let ((i, a), (j, c)) = ((row / 3, row % 3), (column / 3, column % 3));
-                *entry +=
-                    factor * if i >= j { stiffness[pair(i, j)][a][c] } else { stiffness[pair(j, i)][c][a] };
-            }
-        }
-    }
-
     /// Adds a factor times K d to `total` for the displacement d of each node. Nodes with d = 0 cost little.
     pub(crate) fn add_product(
         &self,

@@ -4,7 +4,7 @@ use piola::batch::Layout;
 use piola::point::Filter;
 use piola::step::{Integrator, StagedSteps};
 use piola::system::{
-    BlockMatrix, Body, Cholesky, DiscreteGradient, ElasticResponse, NodalStiffness, Part, Pattern, Pins,
+    BlockMatrix, Body, Cholesky, ElasticResponse, NodalStiffness, Part, Pattern, Pins,
 };
 
 use crate::arguments::{TOO_MANY, check};
@@ -81,12 +81,6 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
         }
         let _ = response.difference_noise(&body);
-        let mut between = DiscreteGradient::new(&body);
-        let _ = between.begin(&body, &positions);
-        let _ = between.evaluate(&body, &product);
-        let _ = between.linearise(&body);
-        let _ = between.add_gradient(&body, &mut product);
-        assert_eq!(between.tangents(&body).count(), body.elements().len());
         let integrator = Integrator::GeneralizedAlpha { spectral_radius: hostile.number() };
         if let Ok(mut steps) = StagedSteps::new(integrator, body.rest()) {
             let _ = steps.set_state(&positions, &product);

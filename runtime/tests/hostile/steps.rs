@@ -1,13 +1,10 @@
-//! Steps and equilibria, with terms, solvers and equations that answer nonsense.
+//! Steps and equilibria, with terms and solvers that answer nonsense.
 
 use piola::mesh::{Anchor, tetrahedral_box};
-use piola::step::{
-    Equilibrium, NewtonError, NodeBlocks, Simulation, SimulationSettings, SparseSolver, Spring, StepEquation,
-    StepStart, Term, solve_step,
-};
+use piola::step::{Equilibrium, NodeBlocks, Simulation, SparseSolver, Spring, Term};
 use piola::system::{Body, LinearError, LowerTriangle};
 
-use crate::arguments::{Hostile, SEEDS, check};
+use crate::arguments::{SEEDS, check};
 
 /// A term of hostile numbers: it refuses, it is not finite, it names nodes that are missing or share no
 /// element.
@@ -50,60 +47,6 @@ impl SparseSolver for Wrong {
         b.fill(self.x);
         Ok(0)
     }
-}
-
-/// An equation that answers with hostile numbers.
-struct Nowhere<'a>(&'a mut Hostile);
-
-impl Nowhere<'_> {
-    fn number(&mut self, good: f64) -> Result<f64, NewtonError> {
-        if self.0.0.once_in(8) { Err(NewtonError::NotFinite) } else { Ok(self.0.about(good)) }
-    }
-}
-
-impl StepEquation for Nowhere<'_> {
-    type Jacobian = ();
-    type Error = NewtonError;
-
-    fn start(&mut self, share: f64, start: StepStart) -> Result<f64, NewtonError> {
-        let [before, ahead, kept] = [(); 3].map(|()| self.0.point());
-        let _ = start.position(share, before, ahead, kept);
-        self.number(1.0)
-    }
-
-    fn linearise(&mut self) -> Result<(), NewtonError> {
-        self.number(0.0).map(|_| ())
-    }
-
-    fn correct(&mut self, (): &()) -> Result<f64, NewtonError> {
-        self.number(0.5)
-    }
-
-    fn take_direction(&mut self) -> f64 {
-        self.0.about(1.0)
-    }
-
-    fn try_step(&mut self, _: f64) -> Result<Option<f64>, NewtonError> {
-        let refuses = self.0.0.once_in(8);
-        self.number(0.5).map(|residual| (!refuses).then_some(residual))
-    }
-
-    fn accept(&mut self) {}
-
-    fn keep_solution(&mut self) {}
-}
-
-#[test]
-fn equations() {
-    let mut solved = 0;
-    check(|hostile| {
-        let SimulationSettings { newton, line_search, .. } = hostile.settings();
-        if let Ok(report) = solve_step(&mut Nowhere(hostile), &newton, &line_search) {
-            assert!(report.residual.is_finite(), "{report:?}");
-            solved += 1;
-        }
-    });
-    assert!(solved > 0, "no equation counts as solved");
 }
 
 /// A step that succeeds leaves numbers behind.

@@ -7,14 +7,8 @@ use crate::system::{Body, Pins};
 const ALPHA: Integrator = Integrator::GeneralizedAlpha { spectral_radius: 0.6 };
 
 /// All methods of second order.
-const SECOND: [Integrator; 6] = [
-    Integrator::Bdf2,
-    Integrator::Sdirk2,
-    Integrator::ImplicitMidpoint,
-    Integrator::EnergyMomentum,
-    Integrator::Newmark,
-    ALPHA,
-];
+const SECOND: [Integrator; 5] =
+    [Integrator::Bdf2, Integrator::Sdirk2, Integrator::ImplicitMidpoint, Integrator::Newmark, ALPHA];
 
 /// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, as far as the order
 /// goes.

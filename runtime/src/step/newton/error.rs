@@ -23,11 +23,6 @@ pub enum NewtonError {
         /// Tag of the element.
         element: usize,
     },
-    /// An element is inverted, before or after the step, which the energy–momentum method does not allow.
-    Inverted {
-        /// Tag of the element.
-        element: usize,
-    },
     /// The motion of the pins alone takes an element out of the domain of its material.
     PinsMoveTooFar {
         /// Tag of the element.
@@ -63,13 +58,6 @@ pub enum NewtonError {
         /// Norm of the gradient, N.
         residual: f64,
     },
-    /// The equation of an energy–momentum step is not solved, and so the energy would not be kept.
-    NotSolved {
-        /// Number of iterations.
-        iterations: usize,
-        /// Norm of the residual, N.
-        residual: f64,
-    },
     /// The linear solver failed for another reason.
     Linear(LinearError),
 }
@@ -87,11 +75,6 @@ impl fmt::Display for NewtonError {
                 f,
                 "the energy or a force of element {element} is not finite before the step: the deformation, the moduli of the \
                  material or the reciprocal of its `epsilon` exceed the range of f64"
-            ),
-            Self::Inverted { element } => write!(
-                f,
-                "element {element} is inverted, or would be after the step, and `Integrator::EnergyMomentum` needs strains that \
-                 tell an element from its mirror image; take a shorter step, or another integrator"
             ),
             Self::PinsMoveTooFar { element } => write!(
                 f,
@@ -119,11 +102,6 @@ impl fmt::Display for NewtonError {
                 f,
                 "no step down to {step:e} of the Newton direction decreases the energy (residual {residual:e} N, \
                  {refused} trials outside the domain of a material)"
-            ),
-            Self::NotSolved { iterations, residual } => write!(
-                f,
-                "{iterations} iterations do not solve the equation of an energy–momentum step (residual {residual:e} N); take a \
-                 shorter step, or another integrator"
             ),
             Self::Linear(error) => error.fmt(f),
         }

@@ -22,7 +22,7 @@ pub struct NewtonSettings {
     /// Share of the first gradient's norm at which the minimum counts as found.
     pub tolerance: f64,
     /// Share of the error in time that a step has anyway at which the minimum counts as found as well; 0 for
-    /// the tolerance alone. Has no effect in statics and on the energy–momentum method.
+    /// the tolerance alone. Has no effect in statics.
     ///
     /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a of methods of higher
     /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two

@@ -54,11 +54,6 @@ impl NewtonWorkspace {
         Ok(())
     }
 
-    /// The nodes that are not pinned.
-    pub(crate) fn free_nodes(&self) -> &[usize] {
-        self.solver.free_nodes()
-    }
-
     /// Norm of the gradient over the free nodes.
     pub(super) fn free_norm(&self) -> f64 {
         let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];

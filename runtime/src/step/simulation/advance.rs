@@ -1,6 +1,5 @@
 //! A step from one state to the next, stage by stage.
 
-use crate::step::conservation::Conservation;
 use crate::step::integrator::{Integrator, Method};
 use crate::step::line_search::Search;
 use crate::step::newton::{NewtonError, NewtonReport, demand_admissible, inadmissible, minimize};
@@ -175,19 +174,6 @@ impl Simulation {
             blocks: &mut self.blocks,
             viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
-        if !is_static && self.settings.integrator == Integrator::EnergyMomentum {
-            let conservation =
-                self.conservation.get_or_insert_with(|| Box::new(Conservation::new(&self.body)));
-            let report = conservation.solve(
-                &mut objective,
-                self.workspace.free_nodes(),
-                &mut self.next.x,
-                pins_move.then_some(&self.pins_move),
-                &self.settings.newton,
-                &self.settings.line_search,
-            )?;
-            return Ok((report, survey));
-        }
         minimize(
             &mut objective,
             &mut self.workspace,

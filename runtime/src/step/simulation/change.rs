@@ -213,7 +213,7 @@ impl Simulation {
     }
 
     /// Shortens the steps of Newton's method by a line search that is not piola's own; `None` for that of the
-    /// settings. The energy–momentum method, which has no objective, keeps to the settings.
+    /// settings.
     ///
     /// ```
     /// # use piola::mesh::tetrahedral_box;

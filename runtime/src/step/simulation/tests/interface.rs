@@ -102,13 +102,12 @@ fn no_setting_returns_nan() {
         ];
         let damping =
             [Damping::None, Damping::Mass { rate: number() }, Damping::Stiffness { time: number() }];
-        let integrators =
-            [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3, Integrator::EnergyMomentum];
+        let integrators = [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3];
         let guesses = [InitialGuess::Position, InitialGuess::Velocity, InitialGuess::Acceleration];
         let settings = SimulationSettings {
             gravity: [0.0, if case % 5 == 0 { number() } else { -9.81 }, 0.0],
             damping: damping[case % 3],
-            integrator: integrators[case / 4 % 4],
+            integrator: integrators[case / 4 % 3],
             newton: NewtonSettings {
                 filtering: if case % 2 == 0 { filters[case / 2 % 3] } else { Filtering::OnDemand },
                 start: guesses[case / 3 % 3],
