@@ -74,15 +74,6 @@ pub enum Error {
         /// Tag of the element.
         element: u64,
     },
-    /// The state beyond the last stage of a step is outside of the domain of a material.
-    #[error(
-        "the step ends with element {element} outside the domain of its material; take a shorter one, or an integrator that \
-         ends with its last stage, such as sdirk2"
-    )]
-    EndsBeyondDomain {
-        /// Tag of the element.
-        element: u64,
-    },
     /// A force, a direction or a slope is infinite or NaN.
     #[error("a force or the Newton direction is not finite; the motion exceeds the range of f64")]
     NotFinite,

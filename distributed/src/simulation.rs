@@ -1,13 +1,13 @@
 //! A body that is divided among ranks, stepped in time.
 
 use piola::step::{
-    Integrator, Pace, Repeatable, SetupError, Spring, Stage, StagedSteps, Term, advance_within, on_the_way,
+    Integrator, Pace, Repeatable, SetupError, Spring, Stage, StagedSteps, advance_within, on_the_way,
 };
 
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
 use crate::newton::{NewtonReport, NewtonSettings, Objective, minimize};
-use crate::petsc::{GhostedVector, PetscError};
+use crate::petsc::GhostedVector;
 use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;
@@ -84,7 +84,7 @@ impl Simulation {
         let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
 
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
-        let steps = StagedSteps::new(settings.integrator, &start)?;
+        let steps = StagedSteps::new(settings.integrator, &start);
         let pinned = share.pinned();
         Ok(Self {
             pins: team.count(share.owned - share.free),
@@ -116,8 +116,8 @@ impl Simulation {
         &self.steps
     }
 
-    /// Replaces the state of the nodes of this rank and of its copies. Accelerations are those from which
-    /// Newmark's method and generalised α go on.
+    /// Replaces the state of the nodes of this rank and of its copies. Accelerations are those at the
+    /// end of the step before.
     ///
     /// # Errors
     /// [`SetupError::Length`].
@@ -157,9 +157,6 @@ impl Simulation {
     /// # Errors
     /// An [`Error`] of Newton's method or of PETSc.
     pub fn step(&mut self, dt: f64) -> Result<Vec<NewtonReport>, Error> {
-        if self.steps.needs_accelerations() {
-            self.accelerate()?;
-        }
         let is_static = dt == f64::INFINITY;
         let mut reports = Vec::new();
         for stage in 0..self.steps.begin(dt) {
@@ -190,11 +187,7 @@ impl Simulation {
             reports.push(minimize(objective, system, newton, &mut x, pins_move)?);
             self.steps.end_stage(stage, &x);
         }
-        let ends_with_last_stage = self.steps.ends_with_last_stage();
-        self.steps.finish(&self.pinned, &self.targets);
-        if !ends_with_last_stage {
-            self.evaluate().map_err(|element| Error::EndsBeyondDomain { element })?;
-        }
+        self.steps.finish();
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
         }
@@ -246,34 +239,6 @@ impl Simulation {
         self.elastic.evaluate_border(x);
         let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
         if tag.is_finite() { Err(tag as u64) } else { Ok(()) }
-    }
-
-    /// Sets the accelerations that the forces at the current state give, zero at pinned nodes.
-    fn accelerate(&mut self) -> Result<(), Error> {
-        self.evaluate().map_err(|element| Error::Inadmissible { element })?;
-        let mut total = vec![[0.0; 3]; self.share.owned];
-        self.elastic.gradient(&mut self.exchange, &mut total)?;
-        self.springs.add_gradient(self.steps.positions(), &mut total);
-        let v = self.steps.velocities();
-        let SimulationSettings { damping, gravity, .. } = self.settings;
-        for (node, total) in total.iter_mut().enumerate() {
-            let is_free = node < self.share.free;
-            for c in 0..3 {
-                let a = gravity[c] - damping * v[node][c] - total[c] / self.masses[node];
-                total[c] = if is_free { a } else { 0.0 };
-            }
-        }
-        let all = self.with_copies(total)?;
-        Ok(self.steps.set_accelerations(&all)?)
-    }
-
-    /// Vectors of the owned nodes, followed by those of the copies.
-    fn with_copies(&mut self, mut owned: Vec<[f64; 3]>) -> Result<Vec<[f64; 3]>, PetscError> {
-        self.exchange.begin_copies(&owned)?;
-        let count = owned.len();
-        owned.resize(self.share.ids.len(), [0.0; 3]);
-        self.exchange.end_copies(&mut owned[count..])?;
-        Ok(owned)
     }
 
     /// Energies of the current state; the elastic one is NaN if an element is outside its domain.

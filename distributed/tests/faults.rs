@@ -59,7 +59,7 @@ fn more_ranks_than_elements_are_refused() -> TestResult {
 fn a_run_goes_on_with_other_ranks() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let [whole, parts] = ["whole", "parts"].map(|name| scratch.path().join(name));
-    let solved = "run dinosaur --newton full --newton-tolerance 1e-12 --filter clamp --integrator newmark";
+    let solved = "run dinosaur --newton full --newton-tolerance 1e-12 --filter clamp --integrator sdirk2";
     let expected = state_after(1, words(&format!("{solved} --frames 9 --out {}", whole.display())), &whole)?;
     let mut found = None;
     for (ranks, frames, how) in [(3, 3, ""), (2, 6, "--resume"), (4, 9, "--resume")] {

@@ -1,5 +1,5 @@
-//! A rubber cube falls on the ground: contact as a term of one's own, Newmark's method, and three solvers of
-//! the linear systems, one of which is not piola's.
+//! A rubber cube falls on the ground: contact as a term of one's own, an integrator of second order, and three
+//! solvers of the linear systems, one of which is not piola's.
 
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let body = Body::new(&mesh, NeoHookean::new(3e4, 1.2e5)?, 1000.0)?;
     let newton = NewtonSettings::default().with_tolerance(1e-10);
     let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
-    let mut cube = Simulation::new(body, &Pins::none(), settings.with_integrator(Integrator::Newmark))?;
+    let mut cube = Simulation::new(body, &Pins::none(), settings.with_integrator(Integrator::Sdirk2))?;
     cube.set_positions(&mesh.positions.iter().map(|&[x, y, z]| [x, y + 0.1, z]).collect::<Vec<_>>())?;
     cube.set_terms(vec![Arc::new(Ground(2e4))]);
     let mut cubes = [cube.clone(), cube.clone(), cube];

@@ -145,9 +145,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
 }
 
 /// With how many steps a frame, for each of which an integrator is tried.
-const INTEGRATORS: [(&str, Integrator, usize); 6] = [
+const INTEGRATORS: [(&str, Integrator, usize); 5] = [
     ("implicit Euler", Integrator::ImplicitEuler, 1),
-    ("BDF2", Integrator::Bdf2, 1),
     ("SDIRK2", Integrator::Sdirk2, 1),
     ("SDIRK3", Integrator::Sdirk3, 1),
     ("implicit Euler", Integrator::ImplicitEuler, 8),

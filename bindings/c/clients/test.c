@@ -617,7 +617,7 @@ static void bodies_move(void) {
         "tolerance");
     CHECK(
         piola_simulation_set_settings(
-            simulation, "{\"integrator\": \"bdf2\", \"newton\": {\"filtering\": {\"always\": \"clamp\"}}}") ==
+            simulation, "{\"integrator\": \"sdirk2\", \"newton\": {\"filtering\": {\"always\": \"clamp\"}}}") ==
         PIOLA_CODE_OK);
     CHECK(piola_simulation_step(simulation, 0.001, NULL) == PIOLA_CODE_OK);
     piola_simulation_free(simulation);

@@ -212,7 +212,7 @@ void simulations() {
     moved.springs(std::vector<piola_spring>{{{3, 3, 3, 3}, {1, 0, 0, 0}, {0, 0, 2}, 100.0}});
     CHECK(moved.step(0.01).springs > 0.0);
     moved.write(PIOLA_QUANTITY_VELOCITIES, std::vector<double>(12, 0.0));
-    moved.settings(R"({"integrator": "newmark"})");
+    moved.settings(R"({"integrator": "sdirk3"})");
     CHECK(moved.step(0.001).convergence != PIOLA_CONVERGENCE_LIMIT);
     fails([&] { moved.settings("{\"gravitas\": 1}"); }, PIOLA_CODE_VALUE, "unknown field `gravitas`");
     fails([&] { moved.step(-1.0); }, PIOLA_CODE_STEP, "the time step is -1 s");

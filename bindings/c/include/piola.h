@@ -750,8 +750,7 @@ void piola_response_free(struct piola_response *response);
 //
 // - `gravity`: `[0, 0, 0]`, m/s²;
 // - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`, `{"stiffness": {"time": s}}`;
-// - `integrator`: `"implicit_euler"`, `"bdf2"`, `"sdirk2"`, `"sdirk3"`, `"implicit_midpoint"`,
-//   `"newmark"`, `{"generalized_alpha": {"spectral_radius": 0 to 1}}`;
+// - `integrator`: `"implicit_euler"`, `"sdirk2"`, `"sdirk3"`;
 // - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
 //   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
 //   - `start`: `"position"`, `"velocity"`, `"acceleration"`,

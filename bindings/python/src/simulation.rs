@@ -18,7 +18,7 @@ use crate::threads::on_threads;
 ///     Simulation(body, *, pins=(), **settings)
 ///
 /// pins: indices of nodes that are held.
-/// settings: `gravity=(0, -9.81, 0)`, m/s²; `integrator="implicit_euler"`, "bdf2", "sdirk2", "newmark", …;
+/// settings: `gravity=(0, -9.81, 0)`, m/s²; `integrator="implicit_euler"`, "sdirk2" or "sdirk3";
 ///     `damping={"mass": {"rate": 1.0}}` or `{"stiffness": {"time": 0.01}}`; `newton={"tolerance": 1e-6, …}`;
 ///     `line_search={…}`: those of `SimulationSettings` in Rust, in its names.
 ///

@@ -80,7 +80,7 @@ def test_meshes_come_from_meshio(tmp_path, rubber, beam):
 def test_steps_move_and_report(rubber, beam):
     points, tets = beam
     left, right = (np.flatnonzero(points[:, 0] == x) for x in (0, points[:, 0].max()))
-    for integrator in ("implicit_euler", "bdf2", "sdirk2", "newmark", {"generalized_alpha": {"spectral_radius": 0.8}}):
+    for integrator in ("implicit_euler", "sdirk2", "sdirk3"):
         body = piola.Body(points, tets, rubber, 1000.0)
         simulation = piola.Simulation(body, pins=np.r_[left, right], integrator=integrator)
         simulation.prescribe(right, points[right] + [0.1, 0, 0])

@@ -81,11 +81,9 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
         }
         let _ = response.difference_noise(&body);
-        let integrator = Integrator::GeneralizedAlpha { spectral_radius: hostile.number() };
-        if let Ok(mut steps) = StagedSteps::new(integrator, body.rest()) {
-            let _ = steps.set_state(&positions, &product);
-            let _ = steps.set_accelerations(&positions);
-        }
+        let mut steps = StagedSteps::new(Integrator::Sdirk2, body.rest());
+        let _ = steps.set_state(&positions, &product);
+        let _ = steps.set_accelerations(&positions);
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });
 }

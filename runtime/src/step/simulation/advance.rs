@@ -2,7 +2,7 @@
 
 use crate::step::integrator::{Integrator, Method};
 use crate::step::line_search::Search;
-use crate::step::newton::{NewtonError, NewtonReport, demand_admissible, inadmissible, minimize};
+use crate::step::newton::{NewtonError, NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
 use crate::system::element::Evaluated;
 
@@ -35,7 +35,7 @@ impl Simulation {
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
-        let [tau, sigma] = self.settings.integrator.method(dt, &self.state).lengths(dt);
+        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
         let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
         if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
@@ -67,15 +67,11 @@ impl Simulation {
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let is_static = dt == f64::INFINITY;
         let integrator = if is_static { Integrator::ImplicitEuler } else { self.settings.integrator };
-        let method = integrator.method(dt, &self.state);
+        let method = integrator.method();
         let mut survey = match self.evaluated.take() {
             Some(survey) => survey,
             None => self.elastic.evaluate(&self.body, &self.state.x),
         };
-        if method.needs_accelerations() && !self.state.has_accelerations {
-            demand_admissible(&survey, &self.body, &self.elastic).map_err(StepError::Newton)?;
-            self.accelerate();
-        }
         self.next.x.copy_from_slice(&self.state.x);
         let [tau, _] = method.lengths(dt);
         if let Some(viscosity) = self.viscosity.as_mut().filter(|_| !is_static) {
@@ -89,19 +85,9 @@ impl Simulation {
             self.stages.end(stage, &self.next.x);
             stages_before = Some(report.after(stages_before));
         }
-        let (report, mut survey) = self.minimize_stage(&method, last, dt, survey)?;
-        self.stages.finish(&method, dt, &self.state, &mut self.next);
-        if !method.ends_with_last_stage() {
-            survey = self.end_beyond_last_stage(dt)?;
-        }
-
+        let (report, survey) = self.minimize_stage(&method, last, dt, survey)?;
+        self.stages.finish(&mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
-        self.state.has_accelerations = true;
-        if integrator.looks_back() {
-            self.state.come_from(&self.next, dt);
-        } else {
-            self.state.earlier = None;
-        }
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
         }
@@ -112,7 +98,7 @@ impl Simulation {
 
     /// Sets how far the pinned nodes move in a stage that takes them to this share of their way; true if any
     /// does.
-    fn drive_pins(&mut self, method: &Method, dt: f64, share: f64) -> bool {
+    fn drive_pins(&mut self, share: f64) -> bool {
         let mut is_moving = false;
         for &node in self.pins.nodes() {
             let (target, before) = (self.targets[node], self.state.x[node]);
@@ -121,25 +107,8 @@ impl Simulation {
                 self.pins_move[node][c] = share * way[c] - (self.next.x[node][c] - before[c]);
                 is_moving |= self.pins_move[node][c] != 0.0;
             }
-            if method.needs_accelerations() {
-                self.stages.drive(node, dt, way, std::array::from_fn(|c| before[c] + share * way[c]));
-            }
         }
         is_moving
-    }
-
-    /// Evaluates the state after a step that lies beyond its last stage.
-    fn end_beyond_last_stage(&mut self, dt: f64) -> Result<Evaluated, StepError> {
-        for &node in self.pins.nodes() {
-            let before = self.state.x[node];
-            self.next.x[node] = self.targets[node];
-            self.next.v[node] = std::array::from_fn(|c| (self.targets[node][c] - before[c]) / dt);
-        }
-        let survey = self.elastic.evaluate(&self.body, &self.next.x);
-        match inadmissible(&survey, &self.body) {
-            Some(element) => Err(StepError::EndsBeyondDomain { element }),
-            None => Ok(survey),
-        }
     }
 
     /// Moves `next` to the end of a stage.
@@ -153,7 +122,7 @@ impl Simulation {
         let share = method.share(stage);
         self.stages.begin(method, stage, dt, &self.state);
         self.stages.pull(&self.springs, &self.targets_before, share);
-        let pins_move = self.drive_pins(method, dt, share);
+        let pins_move = self.drive_pins(share);
         let [tau, sigma] = self.stages.current.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };

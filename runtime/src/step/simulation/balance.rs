@@ -1,4 +1,4 @@
-//! Forces on all nodes, and what follows from their balance: accelerations, and forces of pins.
+//! Forces on all nodes, and the forces of pins that follow from their balance.
 
 use crate::step::integrator::State;
 use crate::step::newton::{NewtonError, demand_admissible};
@@ -6,17 +6,6 @@ use crate::step::newton::{NewtonError, demand_admissible};
 use super::Simulation;
 
 impl Simulation {
-    /// Sets the accelerations that the forces at the current state give, zero at pinned nodes. The energies
-    /// must have been evaluated there last.
-    pub(super) fn accelerate(&mut self) {
-        let forces = self.balance();
-        for (node, (a, force)) in self.state.a.iter_mut().zip(forces).enumerate() {
-            *a = force.map(|force| -force / self.body.masses()[node]);
-        }
-        self.pins.nodes().iter().for_each(|&node| self.state.a[node] = [0.0; 3]);
-        self.state.has_accelerations = true;
-    }
-
     /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
     /// energies must have been evaluated there last.
     fn balance(&mut self) -> Vec<[f64; 3]> {

@@ -25,7 +25,6 @@ impl Simulation {
         self.state.x.copy_from_slice(positions);
         self.targets.copy_from_slice(positions);
         self.evaluated = None;
-        self.state.forget();
         Ok(())
     }
 
@@ -36,15 +35,14 @@ impl Simulation {
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
         self.state.v.copy_from_slice(velocities);
-        self.state.forget();
         Ok(())
     }
 
-    /// Sets the acceleration of each node, m/s², from which Newmark's method and generalised α go on: with
-    /// positions and velocities the whole state of a motion that is resumed.
+    /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
+    /// the whole state of a motion that is resumed.
     ///
-    /// Without it, after positions or velocities have been set, they begin with the accelerations that the
-    /// forces give.
+    /// [`NewtonSettings::error_share`](crate::step::NewtonSettings::error_share) judges the error of a step by
+    /// them, and [`Simulation::reactions`] takes them.
     ///
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
@@ -52,7 +50,6 @@ impl Simulation {
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(accelerations)?;
         self.state.a.copy_from_slice(accelerations);
-        self.state.has_accelerations = true;
         Ok(())
     }
 

@@ -84,12 +84,6 @@ pub enum StepError {
         /// The tolerance, m/s.
         tolerance: f64,
     },
-    /// The integrator goes on beyond its last stage, and there an element is outside the domain of its
-    /// material.
-    EndsBeyondDomain {
-        /// Tag of the element.
-        element: usize,
-    },
     /// The minimisation failed.
     Newton(NewtonError),
 }
@@ -111,11 +105,6 @@ impl fmt::Display for StepError {
                     number(*tolerance)
                 )
             }
-            Self::EndsBeyondDomain { element } => write!(
-                f,
-                "the step ends with element {element} outside the domain of its material; take a shorter one, or an integrator \
-                 that ends with its last stage, such as `Integrator::Sdirk2`"
-            ),
             Self::Newton(error) => error.fmt(f),
         }
     }

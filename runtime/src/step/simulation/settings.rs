@@ -38,7 +38,7 @@ crate::chained::chained!(SimulationSettings {
 
 /// Checks that all settings are in range.
 pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
-    let SimulationSettings { gravity, damping, integrator, newton, line_search } = settings;
+    let SimulationSettings { gravity, damping, newton, line_search, .. } = settings;
     let between = |x: f64, low: f64, high: f64| low < x && x < high;
     let checks = [
         (gravity.iter().all(|g| g.is_finite()), "gravity must be finite"),
@@ -56,7 +56,7 @@ pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupE
         (line_search.max_trials > 0, "the line search needs at least one trial"),
     ];
     let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
-    let broken = broken.or(damping.broken_rule()).or(integrator.broken_rule());
+    let broken = broken.or(damping.broken_rule());
     match broken.or(newton.linear.broken_rule()) {
         Some(rule) => Err(SetupError::Setting { rule }),
         None => Ok(()),
