@@ -7,8 +7,8 @@ use piola::material::Moduli;
 use piola::mesh::tetrahedral_box;
 use piola::point::Filter;
 use piola::step::{
-    Damping, Equilibrium, Filtering, InitialGuess, LineSearchSettings, LinearSolver, NewtonReport,
-    NewtonSettings, Simulation, SimulationSettings, Spring, StepReport,
+    Damping, Equilibrium, Filtering, LineSearchSettings, LinearSolver, NewtonReport, NewtonSettings,
+    Simulation, SimulationSettings, Spring, StepReport,
 };
 use piola::system::{Body, Pins};
 use piola::{Inversion, Spline, material};
@@ -48,7 +48,7 @@ fn settings_come_back() {
     ] {
         let newton = NewtonSettings::default().with_linear(linear).with_tolerance(third);
         for filtering in [Filtering::Always(Filter::Absolute), Filtering::OnDemand] {
-            let newton = newton.with_filtering(filtering).with_start(InitialGuess::Velocity);
+            let newton = newton.with_filtering(filtering);
             for damping in [Damping::None, Damping::Mass { rate: third }, Damping::Stiffness { time: 1e-3 }] {
                 check(&SimulationSettings::default().with_newton(newton).with_damping(damping));
             }

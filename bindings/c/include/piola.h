@@ -751,9 +751,8 @@ void piola_response_free(struct piola_response *response);
 // - `gravity`: `[0, 0, 0]`, m/s²;
 // - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`, `{"stiffness": {"time": s}}`;
 // - `integrator`: `"implicit_euler"`, `"sdirk2"`, `"sdirk3"`;
-// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "start": …, "linear": …}`, with
+// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "linear": …}`, with
 //   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
-//   - `start`: `"position"`, `"velocity"`, `"acceleration"`,
 //   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
 //
 // Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.

@@ -157,14 +157,6 @@ impl Stage {
         [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / sigma)]
     }
 
-    /// Displacement from `x` to where a node would be with `share` of the accelerations before, s + τ (w + σ
-    /// a), without forces for 0.
-    pub(super) fn extrapolation(&self, node: usize, x: [f64; 3], share: f64) -> [f64; 3] {
-        let [tau, sigma] = self.lengths;
-        let velocity = |c: usize| self.velocities[node][c] + share * sigma * self.accelerations[node][c];
-        std::array::from_fn(|c| (self.start[node][c] - x[c]) + tau * velocity(c))
-    }
-
     /// Scale of the error that the step has anyway with its nodes at `x`, m: the largest τ σ |a|, or of
     /// methods of higher order τ σ times the change of a.
     pub(super) fn error_scale(&self, x: &[[f64; 3]]) -> f64 {

@@ -8,7 +8,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 
 use super::filtering::Filtering;
-use super::line_search::{Line, Outcome, Search};
+use super::line_search::{Outcome, Search};
 use super::objective::{Objective, product};
 use super::solver::Definiteness;
 
@@ -19,7 +19,7 @@ mod workspace;
 
 pub use error::NewtonError;
 pub use report::{Convergence, NewtonReport};
-pub use settings::{InitialGuess, NewtonSettings};
+pub use settings::NewtonSettings;
 pub(crate) use workspace::NewtonWorkspace;
 
 /// Moves `x` towards a minimum, the pinned nodes by `pins_move` (zero elsewhere) where it is given.
@@ -73,14 +73,6 @@ impl Iteration<'_, '_> {
         x: &mut [[f64; 3]],
         mut pins_move: Option<&[[f64; 3]]>,
     ) -> Result<(NewtonReport, Evaluated), NewtonError> {
-        let share = match self.settings.start {
-            InitialGuess::Position => None,
-            InitialGuess::Velocity => Some(0.0),
-            InitialGuess::Acceleration => Some(1.0),
-        };
-        if let Some(share) = share.filter(|_| pins_move.is_none()) {
-            self.extrapolate(x, share);
-        }
         // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
         // gradient.
         let mut idle = 0;
@@ -125,25 +117,6 @@ impl Iteration<'_, '_> {
             }
         }
         Ok((self.report, self.survey))
-    }
-
-    /// Moves `x` on by the velocities and a share of the accelerations before, where that is admissible and
-    /// does not increase the objective.
-    fn extrapolate(&mut self, x: &mut [[f64; 3]], share: f64) {
-        let NewtonWorkspace { solver, gradient, direction, trial, .. } = &mut *self.workspace;
-        direction.fill([0.0; 3]);
-        for &node in solver.free_nodes() {
-            direction[node] = self.objective.quadratic.stage.extrapolation(node, x[node], share);
-        }
-        let change = self.objective.along(x, direction, trial, gradient).change(1.0);
-        match change {
-            Some(change) if change.difference <= 0.0 => {
-                self.report.change += change.difference;
-                x.copy_from_slice(trial);
-                self.survey = self.objective.elastic.survey();
-            }
-            _ => self.survey = self.objective.evaluate(x),
-        }
     }
 
     /// Whether what is left to go is small beside the error of the step, after the last displacement.

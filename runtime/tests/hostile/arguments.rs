@@ -7,8 +7,7 @@ use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
 use piola::random::Random;
 use piola::step::{
-    Damping, Filtering, InitialGuess, Integrator, LineSearchSettings, LinearSolver, NewtonSettings,
-    SimulationSettings,
+    Damping, Filtering, Integrator, LineSearchSettings, LinearSolver, NewtonSettings, SimulationSettings,
 };
 use piola::system::Pins;
 
@@ -176,7 +175,6 @@ impl Hostile {
         let newton = NewtonSettings::default()
             .with_linear(linear)
             .with_filtering(filtering)
-            .with_start(self.one_of(&[InitialGuess::Position, InitialGuess::Velocity]))
             .with_tolerance(self.about(1e-6))
             .with_max_iterations(self.one_of(&[1, 5, 50]));
         let line_search = LineSearchSettings::default()

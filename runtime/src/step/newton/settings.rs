@@ -15,8 +15,6 @@ use crate::step::solver::LinearSolver;
 pub struct NewtonSettings {
     /// Treatment of negative eigenvalues of dP/dF.
     pub filtering: Filtering,
-    /// Positions from which the iteration starts.
-    pub start: InitialGuess,
     /// Number of iterations after which to stop; 1 is the mode of the paper.
     pub max_iterations: usize,
     /// Share of the first gradient's norm at which the minimum counts as found.
@@ -40,7 +38,6 @@ impl Default for NewtonSettings {
     fn default() -> Self {
         Self {
             filtering: Filtering::OnDemand,
-            start: InitialGuess::Position,
             max_iterations: 50,
             tolerance: 1e-6,
             error_share: 0.0,
@@ -60,26 +57,8 @@ impl NewtonSettings {
 
 crate::chained::chained!(NewtonSettings {
     with_filtering(filtering: Filtering),
-    with_start(start: InitialGuess),
     with_max_iterations(max_iterations: usize),
     with_tolerance(tolerance: f64),
     with_error_share(error_share: f64),
     with_linear(linear: LinearSolver),
 });
-
-/// Positions from which an iteration starts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum InitialGuess {
-    /// The current positions.
-    #[default]
-    Position,
-    /// The positions to which the velocities would take the body, if they are admissible and no worse. The
-    /// first residual, to which the tolerance is relative, is then taken there. Equal to `Position` in
-    /// statics and where pins move.
-    Velocity,
-    /// The positions to which velocities and the accelerations of the stage or step before would take the
-    /// body, otherwise as `Velocity`: closer to where smooth motions go.
-    Acceleration,
-}

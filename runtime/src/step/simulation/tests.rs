@@ -6,8 +6,8 @@ use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
 use crate::random::Random;
 use crate::step::{
-    Convergence, Damping, Filtering, InitialGuess, Integrator, LineSearchSettings, LinearSolver, NewtonError,
-    NewtonReport, NewtonSettings,
+    Convergence, Damping, Filtering, Integrator, LineSearchSettings, LinearSolver, NewtonError, NewtonReport,
+    NewtonSettings,
 };
 use crate::system::LinearError;
 use crate::system::testing::{KIRCHHOFF, NEO_HOOKEAN, ROTATED, beam, shake};

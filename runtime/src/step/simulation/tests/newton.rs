@@ -118,23 +118,6 @@ fn an_indefinite_matrix_is_shifted_and_reported() {
     assert!(report.newton.shift > 0.0);
 }
 
-#[test]
-fn velocities_are_a_good_guess_in_flight_and_harmless_elsewhere() {
-    let mesh = beam(4);
-    let newton = NewtonSettings { start: InitialGuess::Velocity, ..NewtonSettings::default() };
-    let mut flying = simulation(&mesh, ROTATED, &Pins::none(), settings(newton));
-    flying.set_velocities(&vec![[1.0, 2.0, 0.0]; mesh.positions.len()]).expect("finite");
-    let report = flying.step(0.5).expect("a step").newton;
-    // What is left to do is to undo the rounding of 1 m.
-    assert!(report.first_residual <= 1e-6, "{report:?}");
-
-    let mut turning = simulation(&mesh, NEO_HOOKEAN, &Pins::none(), settings(newton));
-    let spin: Vec<_> = mesh.positions.iter().map(|&[x, y, z]| [z, 1e3 * y, -1e3 * x]).collect();
-    turning.set_velocities(&spin).expect("finite");
-    let report = turning.step(0.5).expect("the guess is refused, the step is made");
-    assert!(report.newton.change <= 0.0 && report.energies.total().is_finite(), "{report:?}");
-}
-
 /// The error that is left is a share of that of the step, and costs fewer iterations than a tolerance would.
 #[test]
 fn a_share_of_the_error_of_a_step_is_enough() {
@@ -163,28 +146,5 @@ fn a_share_of_the_error_of_a_step_is_enough() {
         assert!(4 * fewer < 3 * all, "{integrator:?}: {fewer} iterations, and {all} to the tolerance");
         let left = distance(&solved, &enough);
         assert!(left > 0.0 && left < 0.1 * error, "{integrator:?}: {left:e} beside {error:e}");
-    }
-}
-
-/// Guesses change what a minimum costs, not where it is.
-#[test]
-fn a_guess_by_accelerations_is_closer() {
-    let mesh = beam(4);
-    let end = |start: InitialGuess| {
-        let newton = NewtonSettings::default().with_tolerance(1e-9).with_start(start);
-        let mut body = simulation(&mesh, NEO_HOOKEAN, &left_end(&mesh), settings(newton));
-        let velocities: Vec<[f64; 3]> = mesh.positions.iter().map(|x| [x[0], 2.0 * x[0], 0.0]).collect();
-        body.set_velocities(&velocities).expect("finite");
-        let mut iterations = 0;
-        for _ in 0..20 {
-            iterations += body.step(0.002).expect("a step").newton.iterations;
-        }
-        (body.positions().to_vec(), iterations)
-    };
-    let (here, most) = end(InitialGuess::Position);
-    let (there, fewer) = end(InitialGuess::Acceleration);
-    assert!(fewer <= most, "{fewer} iterations, and {most} from the positions");
-    for (here, there) in here.as_flattened().iter().zip(there.as_flattened()) {
-        assert!((here - there).abs() < 1e-7);
     }
 }
