@@ -16,7 +16,7 @@
 
 use piola::point::Filter;
 use piola::step::{
-    Convergence, EnergyChange, Filtering, Line, LineSearch, LineSearchSettings, Spring, Stage, Term,
+    Convergence, EnergyChange, Filtering, Line, LineSearchSettings, Spring, Stage, Term,
 };
 
 use crate::elastic::Elastic;

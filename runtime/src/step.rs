@@ -35,7 +35,7 @@ pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
 pub use halving::{Pace, Repeatable, advance_within, on_the_way};
 pub use integrator::{Integrator, Stage};
-pub use line_search::{Line, LineSearch, LineSearchSettings};
+pub use line_search::{Line, LineSearchSettings};
 pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
 pub use simulation::{
     AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,

@@ -45,7 +45,7 @@ crate::chained::chained!(LineSearchSettings {
     with_accepts_increase(accepts_increase: bool),
 });
 
-/// Objective along a line, relative to its start: what a [`LineSearch`] may ask.
+/// Objective along a line, relative to its start.
 pub trait Line {
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
     /// the domain.
@@ -55,91 +55,17 @@ pub trait Line {
     fn slope(&mut self) -> f64;
 }
 
-/// Line search that is not piola's own: see
-/// [`Simulation::set_line_search`](super::Simulation::set_line_search).
-///
-/// Any function of the form of [`LineSearch::step`] is one.
-pub trait LineSearch: Send + Sync {
+impl LineSearchSettings {
     /// The step to take along a direction of descent, between 0 and `longest`; `None` if there is no good
-    /// one, where the iteration ends. `slope` < 0 is the derivative at 0.
+    /// one. `slope` < 0 is the derivative at 0.
     ///
-    /// Each question to the line costs an evaluation of the energies, and each slope one of the forces. A
-    /// step outside the domain counts as none.
-    fn step(&self, line: &mut dyn Line, longest: f64, slope: f64) -> Option<f64>;
-}
-
-impl<F> LineSearch for F
-where
-    F: Fn(&mut dyn Line, f64, f64) -> Option<f64> + Send + Sync,
-{
-    fn step(&self, line: &mut dyn Line, longest: f64, slope: f64) -> Option<f64> {
-        self(line, longest, slope)
-    }
-}
-
-/// Piola's own: backtracking, for Newton's methods outside of a [`Simulation`](super::Simulation).
-impl LineSearch for LineSearchSettings {
-    fn step(&self, line: &mut dyn Line, longest: f64, slope: f64) -> Option<f64> {
+    /// For Newton's methods outside of a [`Simulation`](super::Simulation). The step returned is the one tried
+    /// last.
+    pub fn step(&self, line: &mut impl Line, longest: f64, slope: f64) -> Option<f64> {
         match backtrack(line, longest, slope, self) {
             Outcome::Accepted { step, .. } => Some(step),
             Outcome::Failed { .. } => None,
         }
-    }
-}
-
-/// The line search of a simulation: a caller's own, or else that of the settings.
-#[derive(Clone, Copy)]
-pub(super) struct Search<'a> {
-    pub(super) settings: &'a LineSearchSettings,
-    pub(super) own: Option<&'a dyn LineSearch>,
-}
-
-impl Search<'_> {
-    /// Looks for a step from `first` downwards.
-    pub(super) fn run(self, line: &mut impl Line, first: f64, slope: f64) -> Outcome {
-        let Some(own) = self.own else { return backtrack(line, first, slope, self.settings) };
-        let mut noted = Noted { line, last: None, shortest: first, trials: 0, refused: 0 };
-        let step = if first > 0.0 { own.step(&mut noted, first, slope) } else { None };
-        // The step that is taken is the one tried last.
-        if let Some(step) = step
-            && noted.last.is_none_or(|(last, _)| last != step)
-        {
-            noted.change(step);
-        }
-        let Noted { last, shortest, trials, refused, .. } = noted;
-        match step.and(last) {
-            Some((step, Some(EnergyChange { difference, noise })))
-                if step > 0.0 && difference.is_finite() =>
-            {
-                Outcome::Accepted { step, difference, trials, refused, by_slope: difference.abs() <= noise }
-            }
-            _ => Outcome::Failed { step: shortest, refused },
-        }
-    }
-}
-
-/// A line with notes of what was asked.
-struct Noted<'a, L> {
-    line: &'a mut L,
-    /// The step tried last, with the change there.
-    last: Option<(f64, Option<EnergyChange>)>,
-    shortest: f64,
-    trials: usize,
-    refused: usize,
-}
-
-impl<L: Line> Line for Noted<'_, L> {
-    fn change(&mut self, step: f64) -> Option<EnergyChange> {
-        let change = self.line.change(step);
-        self.trials += 1;
-        self.refused += usize::from(change.is_none());
-        self.shortest = self.shortest.min(step);
-        self.last = Some((step, change));
-        change
-    }
-
-    fn slope(&mut self) -> f64 {
-        self.line.slope()
     }
 }
 
@@ -170,8 +96,8 @@ pub(super) enum Outcome {
 
 /// Tries the step `first`, then that times shrink, shrink², … until one is acceptable; `slope` < 0 is the
 /// derivative at the start.
-fn backtrack(
-    line: &mut (impl Line + ?Sized),
+pub(super) fn backtrack(
+    line: &mut impl Line,
     first: f64,
     slope: f64,
     settings: &LineSearchSettings,
@@ -275,36 +201,11 @@ mod tests {
         check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
     }
 
-    /// A search of one's own need not end with the step that it takes, and may fail or leave the domain.
     #[test]
-    fn the_step_of_a_search_of_ones_own_is_tried_last() {
-        let search = |own: &dyn LineSearch| {
-            let value = |s: f64| (s < 0.9).then_some(s * s / 2.0 - s);
-            let mut line = Function { value, derivative: |s| s - 1.0, at: 0.0, noise: 0.0 };
-            let settings = LineSearchSettings::default();
-            let outcome = Search { settings: &settings, own: Some(own) }.run(&mut line, 1.0, -1.0);
-            (outcome, line.at)
-        };
-        let golden = |line: &mut dyn Line, longest: f64, _: f64| {
-            let steps = [longest, 0.25 * longest, 0.5 * longest, 0.1 * longest];
-            let changes = steps.map(|step| (step, line.change(step)));
-            let good = changes.into_iter().filter_map(|(step, change)| Some((step, change?.difference)));
-            good.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(step, _)| step)
-        };
-        let half =
-            Outcome::Accepted { step: 0.5, difference: -0.375, trials: 5, refused: 1, by_slope: false };
-        assert_eq!(search(&golden), (half, 0.5));
-        let none = |line: &mut dyn Line, longest: f64, _: f64| line.change(0.5 * longest).and(None);
-        assert_eq!(search(&none).0, Outcome::Failed { step: 0.5, refused: 0 });
-        let outside = |_: &mut dyn Line, longest: f64, _: f64| Some(longest);
-        assert_eq!(search(&outside).0, Outcome::Failed { step: 1.0, refused: 1 });
-    }
-
-    #[test]
-    fn settings_are_a_line_search() {
+    fn settings_find_a_step() {
         let at_half = |expected: Option<f64>, value: fn(f64) -> Option<f64>| {
             let mut line = Function { value, derivative: |_| -1.0, at: 0.0, noise: 0.0 };
-            assert_eq!(LineSearch::step(&LineSearchSettings::default(), &mut line, 1.0, -1.0), expected);
+            assert_eq!(LineSearchSettings::default().step(&mut line, 1.0, -1.0), expected);
         };
         at_half(Some(0.5), |s| (s < 0.9).then_some(-s));
         at_half(None, |_| None);

@@ -8,7 +8,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 
 use super::filtering::Filtering;
-use super::line_search::{Outcome, Search};
+use super::line_search::{LineSearchSettings, Outcome, backtrack};
 use super::objective::{Objective, product};
 use super::solver::Definiteness;
 
@@ -33,7 +33,7 @@ pub(crate) fn minimize(
     pins_move: Option<&[[f64; 3]]>,
     survey: Evaluated,
     settings: &NewtonSettings,
-    line_search: Search<'_>,
+    line_search: &LineSearchSettings,
 ) -> Result<(NewtonReport, Evaluated), NewtonError> {
     demand_admissible(&survey, objective.body, objective.elastic)?;
     if let Some(term) = objective.terms.refusing(x) {
@@ -49,7 +49,7 @@ struct Iteration<'a, 'b> {
     objective: &'a mut Objective<'b>,
     workspace: &'a mut NewtonWorkspace,
     settings: &'a NewtonSettings,
-    line_search: Search<'a>,
+    line_search: &'a LineSearchSettings,
     /// Survey of the energies evaluated last.
     survey: Evaluated,
     report: NewtonReport,
@@ -245,7 +245,7 @@ impl Iteration<'_, '_> {
         }
         let first = self.objective.terms.longest_step(x, direction);
         let mut line = self.objective.along(x, direction, trial, gradient);
-        let outcome = self.line_search.run(&mut line, first, slope);
+        let outcome = backtrack(&mut line, first, slope, self.line_search);
         drop(line);
         match outcome {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {

@@ -11,7 +11,6 @@ use crate::system::{Body, Pins};
 
 use super::damping::Viscosity;
 use super::integrator::{Stages, State};
-use super::line_search::LineSearch;
 use super::newton::NewtonWorkspace;
 use super::objective::Terms;
 use super::solver::Choice;
@@ -58,8 +57,6 @@ pub struct Simulation {
     terms: Vec<Arc<dyn Term>>,
     /// Second derivatives of springs and terms, where they were linearised last.
     blocks: NodeBlocks,
-    /// A line search of the caller's own.
-    line_search: Option<Arc<dyn LineSearch>>,
     /// Given force on each node, N; empty without any.
     forces: Vec<[f64; 3]>,
     state: State,
@@ -108,7 +105,6 @@ impl Simulation {
             targets_before: Vec::new(),
             terms: Vec::new(),
             blocks: NodeBlocks::default(),
-            line_search: None,
             forces: Vec::new(),
             state: State::at_rest(body.rest()),
             targets: body.rest().to_vec(),

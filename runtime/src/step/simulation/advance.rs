@@ -1,7 +1,6 @@
 //! A step from one state to the next, stage by stage.
 
 use crate::step::integrator::{Integrator, Method};
-use crate::step::line_search::Search;
 use crate::step::newton::{NewtonError, NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
 use crate::system::element::Evaluated;
@@ -150,7 +149,7 @@ impl Simulation {
             pins_move.then_some(&self.pins_move),
             survey,
             &self.settings.newton,
-            Search { settings: &self.settings.line_search, own: self.line_search.as_deref() },
+            &self.settings.line_search,
         )
     }
 }

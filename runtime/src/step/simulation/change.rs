@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::batch::TileMaterial;
 use crate::step::integrator::Stages;
-use crate::step::line_search::LineSearch;
 use crate::step::newton::NewtonWorkspace;
 use crate::step::solver::{Choice, SparseSolver};
 use crate::step::spring::Spring;
@@ -207,36 +206,6 @@ impl Simulation {
         let choice = Choice::Own(Arc::new(solver));
         self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice)?;
         Ok(())
-    }
-
-    /// Shortens the steps of Newton's method by a line search that is not piola's own; `None` for that of the
-    /// settings.
-    ///
-    /// ```
-    /// # use piola::mesh::tetrahedral_box;
-    /// # use piola::step::{Line, Simulation, SimulationSettings};
-    /// # use piola::system::{Body, Pins};
-    /// # use std::sync::Arc;
-    /// # /// Rubber.
-    /// # #[piola::material(domain(J > 0.0))]
-    /// # fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-    /// #     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-    /// # }
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// # let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
-    /// # let mut simulation = Simulation::new(body, &Pins::at([0, 1]), SimulationSettings::default())?;
-    /// // Whole steps, or half ones that go downhill.
-    /// let search = |line: &mut dyn Line, longest: f64, _slope: f64| {
-    ///     let mut steps = [longest, 0.5 * longest].into_iter();
-    ///     steps.find(|&step| line.change(step).is_some_and(|change| change.difference < change.noise))
-    /// };
-    /// simulation.set_line_search(Some(Arc::new(search)));
-    /// # simulation.step(0.01)?;
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn set_line_search(&mut self, search: Option<Arc<dyn LineSearch>>) {
-        self.line_search = search;
     }
 
     fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
