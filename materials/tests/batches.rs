@@ -124,11 +124,10 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
     Ok(())
 }
 
+type EnergyAndProduct = (f64, Vec<[f64; 3]>);
+
 /// The energy at these positions, and the product of the clamped stiffness there with them.
-fn energy_and_product(
-    body: &Body,
-    x: &[[f64; 3]],
-) -> Result<(f64, Vec<[f64; 3]>), Box<dyn std::error::Error>> {
+fn energy_and_product(body: &Body, x: &[[f64; 3]]) -> Result<EnergyAndProduct, Box<dyn std::error::Error>> {
     let mut response = ElasticResponse::new(body);
     let (energy, survey) = response.energy(body, x)?;
     assert!(survey.is_clean());

@@ -59,8 +59,8 @@ impl LineSearchSettings {
     /// The step to take along a direction of descent, between 0 and `longest`; `None` if there is no good
     /// one. `slope` < 0 is the derivative at 0.
     ///
-    /// For Newton's methods outside of a [`Simulation`](super::Simulation). The step returned is the one tried
-    /// last.
+    /// For Newton's methods outside of a [`Simulation`](super::Simulation). The returned step is the last one
+    /// tried.
     pub fn step(&self, line: &mut impl Line, longest: f64, slope: f64) -> Option<f64> {
         match backtrack(line, longest, slope, self) {
             Outcome::Accepted { step, .. } => Some(step),

@@ -3,9 +3,7 @@
 use piola::batch::Layout;
 use piola::point::Filter;
 use piola::step::{Integrator, StagedSteps};
-use piola::system::{
-    BlockMatrix, Body, Cholesky, ElasticResponse, NodalStiffness, Part, Pattern, Pins,
-};
+use piola::system::{BlockMatrix, Body, Cholesky, ElasticResponse, NodalStiffness, Part, Pattern, Pins};
 
 use crate::arguments::{TOO_MANY, check};
 
