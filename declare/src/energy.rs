@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::Inversion;
 use piola::interpreter::{ByInvariants, Calls, Interpreted, Programs, Value, Variant, Volume};
 #[cfg(doc)]
 use piola::material::Fittable;
 use piola::material::{
-    Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
+    Constraint, Curvature, Description, Form, MaterialError, Parameter, Response, Text, Typical, Unit,
 };
+use piola::{DynMaterial, Inversion};
 use piola::{Spline, Univariate};
 use piola_codegen::algebra::calls::calls;
 use piola_codegen::algebra::expr::Id;
@@ -129,6 +129,31 @@ impl Energy {
         let Compiled { description, programs, constructor, .. } = &*self.0;
         let values = constructor.values(description, values)?;
         constructor.build(description, programs, values, inversion)
+    }
+
+    /// The [`material`](Self::material) behind a pointer, for single points, batches and bodies in `f64`. The
+    /// interpreter is compiled for it in this crate; `Box::new` compiles it again in the caller's.
+    ///
+    /// # Errors
+    /// [`MaterialError`], those of [`Energy::material`].
+    pub fn boxed(
+        &self,
+        values: &[&[f64]],
+        inversion: Inversion,
+    ) -> Result<Box<dyn DynMaterial<f64>>, MaterialError> {
+        Ok(Box::new(self.material(values, inversion)?))
+    }
+
+    /// The [`material`](Self::material) behind a pointer, for single points in `f32`.
+    ///
+    /// # Errors
+    /// [`MaterialError`], those of [`Energy::material`].
+    pub fn boxed_f32(
+        &self,
+        values: &[&[f64]],
+        inversion: Inversion,
+    ) -> Result<Box<dyn Response<f32>>, MaterialError> {
+        Ok(Box::new(self.material(values, inversion)?))
     }
 
     /// Whether the derivatives by the parameters are known: formulas have them, and declarations with `fit`.

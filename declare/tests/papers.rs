@@ -39,9 +39,10 @@ fn check<M: Declared + 'static>(source: &str) {
     let extended = M::DESCRIPTION.extends.then_some(Inversion::Extend { epsilon: 0.1 });
     for inversion in [Inversion::Refuse].into_iter().chain(extended) {
         let typed = energy.material(&values, inversion).expect("typical parameters");
+        let tiles = energy.boxed(&values, inversion).expect("typical parameters");
         let compiled = M::from_values(&values, inversion).expect("typical parameters");
         for backend in Backend::available() {
-            assert_eq!(results(&typed, backend), results(&compiled, backend), "{inversion:?} on {backend}");
+            assert_eq!(results(&*tiles, backend), results(&compiled, backend), "{inversion:?} on {backend}");
         }
         for stretches in [[1.0, 1.0, 1.0], [1.3, 1.1, 0.7], [2.5, 2.5, 0.16], [1.2, 0.8, -0.3], [0.0; 3]] {
             let [found, expected] = [

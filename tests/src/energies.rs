@@ -71,12 +71,9 @@ impl Judged {
             None | Some(Err(MaterialError::Shape { .. })) => {
                 let exact = exact?;
                 let moduli = Moduli::of(&exact);
-                Ok(Subject {
-                    double: Box::new(exact.clone()),
-                    single: Box::new(exact.clone()),
-                    exact,
-                    moduli,
-                })
+                let double = self.energy.boxed(values, inversion)?;
+                let single = self.energy.boxed_f32(values, inversion)?;
+                Ok(Subject { double, single, exact, moduli })
             }
             Some(compiled) => {
                 let (double, single, moduli) = compiled?;

@@ -70,7 +70,7 @@ impl<'a> Origin<'a> {
     ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
         match self.compiled() {
             Some(entry) => Ok(entry.material(values, inversion)?),
-            None => Ok(Box::new(self.interpreted(values, inversion)?)),
+            None => Ok(self.energy().boxed(values, inversion)?),
         }
     }
 
