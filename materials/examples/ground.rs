@@ -1,5 +1,5 @@
-//! A rubber cube falls on the ground: contact as a user-defined term, an integrator of second order, and three
-//! solvers of the linear systems, one of which is not piola's.
+//! A rubber cube falls on the ground: contact as a user-defined term, an integrator of second order, and
+//! three solvers of the linear systems, one of which is not piola's.
 
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
