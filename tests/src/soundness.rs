@@ -181,15 +181,16 @@ pub fn check_element(material: &dyn TileMaterial<f64>, F: &Matrix3<f64>) -> Resu
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     const FITS: &str = "the lengths are those of one point";
     let F = F.as_flattened();
+    // No filter acts on these.
+    let (mut energy, mut stress) = ([0.0], [0.0; 9]);
+    if Batch::new(material).energies(F, &mut energy).expect(FITS).is_clean() {
+        finite(Quantity::Energy, &energy)?;
+    }
+    if Batch::new(material).stresses(F, &mut stress).expect(FITS).is_clean() {
+        finite(Quantity::StressAlone, &stress)?;
+    }
     for filter in FILTERS {
         let batch = Batch::new(material).with_filter(filter);
-        let (mut energy, mut stress) = ([0.0], [0.0; 9]);
-        if batch.energies(F, &mut energy).expect(FITS).is_clean() {
-            finite(Quantity::Energy, &energy)?;
-        }
-        if batch.stresses(F, &mut stress).expect(FITS).is_clean() {
-            finite(Quantity::StressAlone, &stress)?;
-        }
         let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 78]);
         let survey = batch.packed_stiffnesses(F, &REST, &mut gradient, &mut stiffness).expect(FITS);
         if survey.is_clean() {
@@ -217,10 +218,15 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
     let (_, stress) = evaluate_stress(&**single, F);
     let tangent = evaluate(&**single, F, Filter::None).status;
     let stretches = decompose(material, &widen(F)).stretches;
+    let is_flagged = energy.nonfinite || stress.nonfinite || tangent.nonfinite || tangent.bounded;
+    if !is_flagged && material.admits(stretches) != energy.refused {
+        // Both formats agree on the domain, and so no neighbour can contradict.
+        return Ok(false);
+    }
     match agreed(material, stretches) {
         Some(true) if energy.refused && !energy.nonfinite => return Err(Fault::RefusedInside),
         Some(false) if !energy.refused && !energy.nonfinite => return Err(Fault::AdmittedOutside),
-        Some(true) if energy.nonfinite || stress.nonfinite || tangent.nonfinite || tangent.bounded => {}
+        Some(true) if is_flagged => {}
         _ => return Ok(false),
     }
     let is_ordinary = stretches.iter().all(|stretch| (1.0 / ORDINARY..ORDINARY).contains(&stretch.abs()));
