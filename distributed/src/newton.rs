@@ -15,9 +15,7 @@
 //! arithmetic, along directions that are sent once in an iteration, while the elements inside are evaluated.
 
 use piola::point::Filter;
-use piola::step::{
-    Convergence, EnergyChange, Filtering, Line, LineSearchSettings, Spring, Stage, Term,
-};
+use piola::step::{Convergence, EnergyChange, Filtering, Line, LineSearchSettings, Spring, Stage, Term};
 
 use crate::elastic::Elastic;
 use crate::error::Error;

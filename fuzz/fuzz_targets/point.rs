@@ -18,7 +18,7 @@ use libfuzzer_sys::fuzz_target;
 use piola::Inversion;
 use piola::point::Matrix3;
 use piola_tests::bits::Precision;
-use piola_tests::energies::{ENERGIES, Subject};
+use piola_tests::energies::{ENERGIES, Format, Subject};
 use piola_tests::soundness::{Fault, check, check_element, check_single, check_single_accuracy};
 
 fuzz_target!(|input: &[u8]| {
@@ -85,14 +85,14 @@ fn judge(
 ) -> Result<(), (Fault, String)> {
     if is_single {
         let F: Matrix3<f32> = input.matrix();
-        let mut verdict = check(&*subject.single, &F).map(drop);
+        let mut verdict = check(f32::of(subject), &F).map(drop);
         if verdict.is_ok() && is_typical && F.iter().flatten().all(|x| x.is_finite()) {
             verdict = check_single(subject, &F).and_then(|_| check_single_accuracy(subject, &F));
         }
         verdict.map_err(|fault| (fault, format!("{F:?}")))
     } else {
         let F: Matrix3<f64> = input.matrix();
-        let verdict = check(&*subject.double, &F).and_then(|_| check_element(&*subject.double, &F));
+        let verdict = check(f64::of(subject), &F).and_then(|_| check_element(&*subject.double, &F));
         verdict.map_err(|fault| (fault, format!("{F:?}")))
     }
 }

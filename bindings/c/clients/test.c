@@ -353,7 +353,7 @@ static void dense(int32_t *starts, int32_t *columns) {
     starts[15] = 15 * 15;
 }
 
-/* Assembled stiffness, gradient and operator of a body are the same thing, and differences of the energy. */
+/* The gradient of a body is the sum of those of its elements, and differences of the energy. */
 static void elements_and_bodies_agree(void) {
     piola_material *material = rubber();
     double rest[20], x[15], gradients[24], stiffnesses[288], F[18], other[24], packed[156];

@@ -416,8 +416,9 @@ void piola_energy_free(struct piola_energy *energy);
 // Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 // some.
 //
-// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
-// bits. What does so is compiled at its first use, within milliseconds to seconds.
+// Energies of the catalogue that the library was not compiled with, values for each point, and single
+// precision are interpreted, with the same bits. An interpreted energy is compiled at its first use, within
+// milliseconds to seconds.
 //
 // Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 // them, and the point.
@@ -474,8 +475,8 @@ enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    size_t P_length,
                                    struct piola_survey *survey);
 
-// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or
-// 30 numbers for each point.
+// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81 or 45
+// numbers for each point.
 enum piola_code piola_tangents(const struct piola_material *material,
                                const struct piola_options *options,
                                int32_t form,

@@ -112,8 +112,8 @@ pub unsafe extern "C" fn piola_stresses_f32(
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
-/// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81, 45 or
-/// 30 numbers for each point.
+/// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81 or 45
+/// numbers for each point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_tangents(
     material: *const Material,

@@ -50,8 +50,9 @@ plain!(Parameter);
 /// Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 /// some.
 ///
-/// Values for each point, and single precision, have energies of the catalogue interpreted, with the same
-/// bits. What does so is compiled at its first use, within milliseconds to seconds.
+/// Energies of the catalogue that the library was not compiled with, values for each point, and single
+/// precision are interpreted, with the same bits. An interpreted energy is compiled at its first use, within
+/// milliseconds to seconds.
 ///
 /// Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 /// them, and the point.
@@ -167,7 +168,7 @@ fn of_point(failure: Failure, point: usize, points: usize) -> Failure {
 
 /// How a material is computed.
 enum Kind {
-    /// The same at all points: in double precision as compiled with the library.
+    /// The same at all points: in double precision as compiled with the library, if it is.
     Uniform {
         spec: MaterialSpec,
         elements: Box<dyn TileMaterial<f64>>,
