@@ -20,7 +20,7 @@
 //! # Energies
 //!
 //! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and says
-//! whether it extends beyond J > 0. Each energy has a cargo feature. Seventeen are on by default, and the
+//! whether it extends beyond J > 0. Each energy has a cargo feature. Eighteen are on by default, and the
 //! feature `all` compiles all 55. A program that needs one compiles one:
 //!
 //! ```toml
