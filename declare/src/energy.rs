@@ -7,7 +7,7 @@ use piola::interpreter::{ByInvariants, Calls, Interpreted, Programs, Value, Vari
 #[cfg(doc)]
 use piola::material::Fittable;
 use piola::material::{
-    Constraint, Curvature, Description, Form, MaterialError, Parameter, Response, Text, Typical, Unit,
+    Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
 };
 use piola::{DynMaterial, Inversion};
 use piola::{Spline, Univariate};
@@ -141,18 +141,6 @@ impl Energy {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn DynMaterial<f64>>, MaterialError> {
-        Ok(Box::new(self.material(values, inversion)?))
-    }
-
-    /// The [`material`](Self::material) behind a pointer, for single points in `f32`.
-    ///
-    /// # Errors
-    /// [`MaterialError`], those of [`Energy::material`].
-    pub fn boxed_f32(
-        &self,
-        values: &[&[f64]],
-        inversion: Inversion,
-    ) -> Result<Box<dyn Response<f32>>, MaterialError> {
         Ok(Box::new(self.material(values, inversion)?))
     }
 

@@ -1,6 +1,8 @@
 //! The energies by name, for programs that choose a material at run time.
 
-use piola::material::{Declared, Description, Fittable, MaterialError, Moduli, Response};
+#[cfg(feature = "f32")]
+use piola::material::Response;
+use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
 use piola::{DynMaterial, Inversion};
 
 #[cfg(doc)]
@@ -216,10 +218,11 @@ impl Entry {
         self.visit(values, inversion, Boxed)
     }
 
-    /// The material behind a pointer, for single points in `f32`.
+    /// The material behind a pointer, for single points in `f32`. With the feature `f32`.
     ///
     /// # Errors
     /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
+    #[cfg(feature = "f32")]
     pub fn material_f32(
         &self,
         values: &[&[f64]],

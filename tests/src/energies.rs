@@ -72,8 +72,7 @@ impl Judged {
                 let exact = exact?;
                 let moduli = Moduli::of(&exact);
                 let double = self.energy.boxed(values, inversion)?;
-                let single = self.energy.boxed_f32(values, inversion)?;
-                Ok(Subject { double, single, exact, moduli })
+                Ok(Subject { double, single: Box::new(exact.clone()), exact, moduli })
             }
             Some(compiled) => {
                 let (double, single, moduli) = compiled?;
