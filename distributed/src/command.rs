@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use piola::point::Filter;
-use piola::step::{Filtering, Integrator, LineSearchSettings};
+use piola::step::{Filtering, Integrator, LinearSolver, NewtonSettings};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::{SceneOptions, in_file, parameter, scenes, with_values};
 use piola_scenes::output::Newton;
@@ -12,7 +12,6 @@ use piola_scenes::settings::Settings;
 
 use crate::elastic::MaterialPart;
 use crate::error::Error;
-use crate::newton::NewtonSettings;
 use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
@@ -248,14 +247,11 @@ impl SolverOptions {
             return Err(Error::Options(reason.to_owned()));
         }
         let usual = if is_single { Filtering::Always(Filter::Clamp) } else { Filtering::OnDemand };
-        Ok(NewtonSettings {
-            filtering: self.filter.unwrap_or(usual),
-            max_iterations: if is_single { 1 } else { self.newton_iterations },
-            tolerance: self.newton_tolerance,
-            linear_tolerance: linear,
-            max_linear_iterations: 20_000,
-            line_search: LineSearchSettings::default(),
-        })
+        Ok(NewtonSettings::default()
+            .with_filtering(self.filter.unwrap_or(usual))
+            .with_max_iterations(if is_single { 1 } else { self.newton_iterations })
+            .with_tolerance(self.newton_tolerance)
+            .with_linear(LinearSolver::ConjugateGradients { tolerance: linear, max_iterations: 20_000 }))
     }
 }
 

@@ -37,6 +37,7 @@ pub struct Elastic {
     /// Sum over the elements of stiffness times length, N/m, as regularisation of statics has it.
     stiffness: f64,
     filtered: usize,
+    bounded: usize,
 }
 
 /// Some elements, as a body of piola.
@@ -68,7 +69,14 @@ impl Elastic {
             Piece::new(share, &elements, parts, &mut stiffness)
         };
         let (border, inner) = (piece(false)?, piece(true)?);
-        Ok(Self { border, inner, outgoing: vec![[0.0; 3]; share.ids.len()], stiffness, filtered: 0 })
+        Ok(Self {
+            border,
+            inner,
+            outgoing: vec![[0.0; 3]; share.ids.len()],
+            stiffness,
+            filtered: 0,
+            bounded: 0,
+        })
     }
 
     fn pieces(&self) -> impl Iterator<Item = &Piece> {
@@ -121,6 +129,12 @@ impl Elastic {
         self.filtered
     }
 
+    /// Number of elements of this rank whose tangent was at a pole last.
+    #[must_use]
+    pub fn bounded(&self) -> usize {
+        self.bounded
+    }
+
     /// Makes the energies evaluated last those that differences are taken from.
     pub fn set_base(&mut self) {
         self.pieces_mut().for_each(|piece| piece.response.set_base());
@@ -164,15 +178,16 @@ impl Elastic {
         exchange: &mut GhostedVector,
         gradient: &mut [[f64; 3]],
     ) -> Result<(), PetscError> {
-        let mut filtered = 0;
+        let (mut filtered, mut bounded) = (0, 0);
         self.sum(exchange, gradient, |piece| {
             let Piece { response, body, gradient, stiffness, refused, .. } = piece;
             if let Ok(survey) = response.stiffness_here(body, filter, gradient, stiffness) {
                 filtered += survey.filtered;
+                bounded += survey.bounded;
                 *refused = survey.first.map(|element| body.elements()[element].tag);
             }
         })?;
-        self.filtered = filtered;
+        (self.filtered, self.bounded) = (filtered, bounded);
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::step::SetupError;
+use piola::step::{NewtonError, SetupError};
 use piola::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
@@ -64,36 +64,17 @@ pub enum Error {
     )]
     Inadmissible {
         /// Tag of the element.
-        element: u64,
+        element: usize,
     },
-    /// The motion of the pins alone takes an element out of the domain of its material.
-    #[error(
-        "the motion of the pins takes element {element} out of the domain of its material; take shorter time steps"
-    )]
-    PinsMoveTooFar {
-        /// Tag of the element.
-        element: u64,
-    },
-    /// A force, a direction or a slope is infinite or NaN.
-    #[error("a force or the Newton direction is not finite; the motion exceeds the range of f64")]
-    NotFinite,
     /// The matrix is not positive definite with any multiple of inertia added.
     #[error("the matrix is not positive definite, even with {shift:e} times the inertia added")]
     NotPositive {
         /// The largest multiple of inertia that was tried.
         shift: f64,
     },
-    /// No step along a direction of descent decreases the objective.
-    #[error(
-        "no step of the Newton direction decreases the energy (residual {residual:e} N, {refused} trials outside the domain of \
-         a material)"
-    )]
-    LineSearch {
-        /// Norm of the gradient, N.
-        residual: f64,
-        /// Number of trials that left the domain of a material.
-        refused: usize,
-    },
+    /// Newton's method fails for another reason, on all ranks.
+    #[error(transparent)]
+    Newton(#[from] NewtonError),
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {

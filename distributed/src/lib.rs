@@ -3,7 +3,8 @@
 //!
 //! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
 //! and steps as [`piola::step`] says. What is here is how a mesh is divided ([`portion`], [`share`]), what
-//! ranks tell each other ([`team`], [`petsc`]), and Newton's method with sums over ranks ([`newton`]).
+//! ranks send each other ([`team`], [`petsc`]), and the objective of a step as sums over ranks
+//! ([`minimisation`]).
 //!
 //! Every rank calls every function, in one order. An error that concerns one rank is told to all, and ends
 //! them together.
@@ -14,7 +15,7 @@ pub mod checkpoint;
 pub mod command;
 pub mod elastic;
 pub mod error;
-pub mod newton;
+pub mod minimisation;
 pub mod output;
 pub mod petsc;
 pub mod portion;

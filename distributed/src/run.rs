@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola::material::Moduli;
-use piola::step::{Convergence, Pace};
+use piola::step::divided::Pace;
+use piola::step::{Convergence, NewtonReport, NewtonSettings, SimulationSettings};
 use piola_scenes::clock::Clock;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
@@ -18,12 +19,11 @@ use crate::checkpoint;
 use crate::command::{BoxOptions, RunOptions, StaticsOptions, Task};
 use crate::elastic::MaterialPart;
 use crate::error::Error;
-use crate::newton::NewtonReport;
 use crate::output::{self, Summary};
 use crate::portion::Portion;
 use crate::setting::Setting;
 use crate::share::Share;
-use crate::simulation::{Simulation, SimulationSettings};
+use crate::simulation::{Simulation, StageReport};
 use crate::team::Team;
 
 /// What a checkpoint of a run is about.
@@ -66,12 +66,12 @@ impl Progress {
         }
     }
 
-    fn note(&mut self, reports: &[NewtonReport]) {
-        for report in reports {
-            self.newton_iterations += report.iterations;
-            self.systems += report.linear_iterations.len();
-            self.linear_iterations += report.linear_iterations.iter().sum::<usize>();
-            self.relative_residual = relative_residual(report);
+    fn note(&mut self, reports: &[StageReport]) {
+        for StageReport { newton, systems } in reports {
+            self.newton_iterations += newton.iterations;
+            self.systems += systems.len();
+            self.linear_iterations += newton.linear_iterations;
+            self.relative_residual = relative_residual(newton);
         }
     }
 
@@ -102,16 +102,11 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let parts = [MaterialPart { material, varied: None, density: 1000.0 }];
     let clock = Instant::now();
     let share = Share::of(team, Portion::of_cube(team, cells, 1.0))?;
-    let settings = SimulationSettings {
-        gravity: [0.0, -9.81, 0.0],
-        damping: 0.0,
-        integrator: Default::default(),
-        newton,
-    };
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
     let mut simulation = Simulation::new(team, share, &parts, settings)?;
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
-    let report = simulation.equilibrate()?;
+    let StageReport { newton: report, systems } = simulation.equilibrate()?;
     team.wait();
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
@@ -135,16 +130,15 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
     let share = simulation.share();
     let copies = team.max((share.ids.len() - share.owned) as f64);
-    let iterations = &report.linear_iterations;
-    let total: usize = iterations.iter().sum();
-    let mean = total as f64 / iterations.len().max(1) as f64;
+    let total = report.linear_iterations;
+    let mean = total as f64 / systems.len().max(1) as f64;
     Ok(format!(
         "| {} | {} | {} | {} | {total} | {mean:.1} | {} | {:.1e} | {:.2} | {:.2} | {memory:.0} | {copies:.0} |",
         share.totals[1],
         share.totals[0],
         team.size(),
         report.iterations,
-        iterations.iter().max().unwrap_or(&0),
+        systems.iter().max().unwrap_or(&0),
         relative_residual(&report),
         set_up.as_secs_f64(),
         solved.as_secs_f64(),
@@ -177,7 +171,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let mut simulation = simulation(team, &task, &mut setting, newton)?;
     // Motions are complete where there is no time.
     let share = setting.share.clone();
-    simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY));
+    simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY))?;
     let clock = Instant::now();
     let report = simulation.equilibrate()?;
     let mut progress = Progress::new();
@@ -189,7 +183,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     checkpoint::write(team, &checkpoint::file_in(&folder), &course.simulation, &about)?;
     let mut summary = course.summary(&[clock.elapsed()]);
     (summary.frames_wanted, summary.dt, summary.integrator) = (1, None, None);
-    if report.convergence == Convergence::Limit {
+    if report.newton.convergence == Convergence::Limit {
         summary.ended = Ended::Failed;
         summary.failures.push("the body is not in equilibrium; take more --newton-iterations".to_owned());
     }
@@ -224,7 +218,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
         }
     }
     let springs = setting.springs(clock.time(), clock.time());
-    course.simulation.set_springs(springs);
+    course.simulation.set_springs(&springs)?;
     let wanted = task.settings.frames;
     let (mut times, mut failures) = (Vec::new(), Vec::new());
     while course.frame < wanted {
@@ -276,20 +270,9 @@ fn simulation(
     team: &Team,
     task: &Task,
     setting: &mut Setting,
-    newton: crate::newton::NewtonSettings,
+    newton: NewtonSettings,
 ) -> Result<Simulation, Error> {
-    let settings = piola_scenes::play::step_settings(&task.settings);
-    let damping = match settings.damping {
-        piola::step::Damping::None => 0.0,
-        piola::step::Damping::Mass { rate } => rate,
-        _ => {
-            return Err(Error::Options(
-                "only damping proportional to mass is divided among ranks".to_owned(),
-            ));
-        }
-    };
-    let (gravity, integrator) = (settings.gravity, settings.integrator);
-    let settings = SimulationSettings { gravity, damping, integrator, newton };
+    let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
     let materials = setting.materials(&task.settings, &task.materials);
     Simulation::new(team, setting.share.clone(), &materials, settings)
 }
@@ -318,15 +301,15 @@ impl Course<'_> {
 
     fn advance(&mut self, stretch: Stretch) -> Result<(), Error> {
         let Self { team: _, task, setting, simulation, progress, .. } = self;
-        simulation.set_springs(setting.springs(stretch.start, stretch.end));
-        simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end));
+        simulation.set_springs(&setting.springs(stretch.start, stretch.end))?;
+        simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end))?;
         let (steps, reports) = match task.settings.tolerance {
             None => (StepCounts { taken: 1, ..StepCounts::default() }, simulation.step(stretch.length)?),
             Some(share) => {
                 let tolerance = share * setting.height();
-                let (pace, reports) = simulation.advance_within(stretch.length, tolerance)?;
-                let Pace { taken, refused, unresolved, .. } = pace;
-                (StepCounts { taken, refused, unresolved }, reports)
+                let pace = simulation.advance_within(stretch.length, tolerance)?;
+                let Pace { reports, taken, refused, unresolved, .. } = pace;
+                (StepCounts { taken, refused, unresolved }, reports.into_iter().flatten().collect())
             }
         };
         progress.steps += steps;

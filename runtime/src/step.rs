@@ -2,9 +2,9 @@
 //!
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
-//! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts beside the
-//! material. `staged` hands the stages of steps to minimisers of a caller's own. `equilibrium` classifies
-//! a body that has come to rest. Reports are values; nothing prints.
+//! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts in addition to
+//! the material; `minimisation` hands it to `newton`. `staged` keeps the state between steps. `equilibrium`
+//! classifies a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!
@@ -22,6 +22,7 @@ mod filtering;
 mod halving;
 mod integrator;
 mod line_search;
+mod minimisation;
 mod newton;
 mod objective;
 mod simulation;
@@ -33,14 +34,26 @@ mod term;
 pub use damping::Damping;
 pub use equilibrium::{Eigenvalue, Equilibrium, Stability};
 pub use filtering::Filtering;
-pub use halving::{Pace, Repeatable, advance_within, on_the_way};
-pub use integrator::{Integrator, Stage};
-pub use line_search::{Line, LineSearchSettings};
+pub use integrator::Integrator;
+pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
 pub use simulation::{
     AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,
 };
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
-pub use staged::StagedSteps;
 pub use term::{EnergyChange, NodeBlocks, Term};
+
+/// Interfaces for codes that divide a body among machines: they minimise, and advance in time, as a
+/// [`Simulation`] does, with their own elements, linear systems and sums.
+///
+/// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine; its stages are moved to
+/// a minimum by [`minimize`](divided::minimize), and lengths of steps are found by
+/// [`advance_within`](divided::advance_within). The crate in `distributed/` is written with them.
+pub mod divided {
+    pub use super::halving::{Pace, Repeatable, advance_within};
+    pub use super::integrator::Stage;
+    pub use super::line_search::Line;
+    pub use super::newton::{Definiteness, Linearised, Minimisation, Solution, minimize};
+    pub use super::staged::{InStage, StagedSteps};
+}

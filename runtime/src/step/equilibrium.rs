@@ -24,7 +24,8 @@ use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Cholesky, LinearError, Pattern, Pins, Tetrahedron};
 
 use super::integrator::Stage;
-use super::newton::{NewtonError, demand_admissible};
+use super::minimisation::demand_admissible;
+use super::newton::NewtonError;
 use super::objective::{Objective, Quadratic};
 use super::simulation::Simulation;
 use super::term::NodeBlocks;

@@ -24,6 +24,7 @@
 //!
 //! \[Alexander77\] Alexander, *Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s*, 1977.
 
+use super::halving::on_the_way;
 use super::spring::Spring;
 
 /// Integrator of a [`Simulation`](super::Simulation).
@@ -159,7 +160,8 @@ impl Stage {
 
     /// Scale of the error that the step has anyway with its nodes at `x`, m: the largest τ σ |a|, or of
     /// methods of higher order τ σ times the change of a.
-    pub(super) fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
+    #[must_use]
+    pub fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
         let [tau, sigma] = self.lengths;
         let before = if self.is_second_order { 1.0 } else { 0.0 };
         let size = |node: usize| {
@@ -206,10 +208,9 @@ impl Stages {
 
     /// Sets the springs for this stage, whose targets have gone this share of their way.
     pub(super) fn pull(&mut self, springs: &[Spring], targets_before: &[[f64; 3]], share: f64) {
-        let at_share = |(&spring, before): (&Spring, &[f64; 3])| {
-            let way = |c: usize| before[c] + share * (spring.target[c] - before[c]);
-            // At the end without rounding.
-            if share == 1.0 { spring } else { Spring { target: std::array::from_fn(way), ..spring } }
+        let at_share = |(&spring, &before): (&Spring, &[f64; 3])| Spring {
+            target: on_the_way(before, spring.target, share),
+            ..spring
         };
         self.springs.clear();
         self.springs.extend(springs.iter().zip(targets_before).map(at_share));

@@ -47,26 +47,15 @@ crate::chained::chained!(LineSearchSettings {
 
 /// Objective along a line, relative to its start.
 pub trait Line {
+    /// Reason why it cannot be evaluated, other than a point outside its domain.
+    type Error;
+
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
     /// the domain.
-    fn change(&mut self, step: f64) -> Option<EnergyChange>;
+    fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Self::Error>;
 
     /// The derivative at the step tried last.
-    fn slope(&mut self) -> f64;
-}
-
-impl LineSearchSettings {
-    /// The step to take along a direction of descent, between 0 and `longest`; `None` if there is no good
-    /// one. `slope` < 0 is the derivative at 0.
-    ///
-    /// For Newton's methods outside of a [`Simulation`](super::Simulation). The returned step is the last one
-    /// tried.
-    pub fn step(&self, line: &mut impl Line, longest: f64, slope: f64) -> Option<f64> {
-        match backtrack(line, longest, slope, self) {
-            Outcome::Accepted { step, .. } => Some(step),
-            Outcome::Failed { .. } => None,
-        }
-    }
+    fn slope(&mut self) -> Result<f64, Self::Error>;
 }
 
 /// Result of a line search.
@@ -96,19 +85,19 @@ pub(super) enum Outcome {
 
 /// Tries the step `first`, then that times shrink, shrink², … until one is acceptable; `slope` < 0 is the
 /// derivative at the start.
-pub(super) fn backtrack(
-    line: &mut impl Line,
+pub(super) fn backtrack<L: Line>(
+    line: &mut L,
     first: f64,
     slope: f64,
     settings: &LineSearchSettings,
-) -> Outcome {
+) -> Result<Outcome, L::Error> {
     let delta = settings.sufficient_decrease;
     let (mut step, mut refused) = (first, 0);
     if first <= 0.0 {
-        return Outcome::Failed { step, refused };
+        return Ok(Outcome::Failed { step, refused });
     }
     for trials in 1..=settings.max_trials {
-        match line.change(step) {
+        match line.change(step)? {
             None => refused += 1,
             Some(EnergyChange { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
@@ -116,8 +105,8 @@ pub(super) fn backtrack(
                 // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without
                 // differences.
                 let is_free = settings.accepts_increase && difference.is_finite();
-                if is_free || (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
-                    return Outcome::Accepted { step, difference, trials, refused, by_slope: noisy };
+                if is_free || (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {
+                    return Ok(Outcome::Accepted { step, difference, trials, refused, by_slope: noisy });
                 }
             }
         }
@@ -125,11 +114,13 @@ pub(super) fn backtrack(
             step *= settings.shrink;
         }
     }
-    Outcome::Failed { step, refused }
+    Ok(Outcome::Failed { step, refused })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::convert::Infallible;
+
     use super::*;
 
     /// A function with its derivative and the step tried last.
@@ -141,13 +132,15 @@ mod tests {
     }
 
     impl<F: Fn(f64) -> Option<f64>, G: Fn(f64) -> f64> Line for Function<F, G> {
-        fn change(&mut self, step: f64) -> Option<EnergyChange> {
+        type Error = Infallible;
+
+        fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Infallible> {
             self.at = step;
-            (self.value)(step).map(|difference| EnergyChange { difference, noise: self.noise })
+            Ok((self.value)(step).map(|difference| EnergyChange { difference, noise: self.noise }))
         }
 
-        fn slope(&mut self) -> f64 {
-            (self.derivative)(self.at)
+        fn slope(&mut self) -> Result<f64, Infallible> {
+            Ok((self.derivative)(self.at))
         }
     }
 
@@ -160,7 +153,7 @@ mod tests {
     ) {
         let slope = derivative(0.0);
         let mut line = Function { value, derivative, at: 0.0, noise };
-        assert_eq!(backtrack(&mut line, 1.0, slope, &LineSearchSettings::default()), expected);
+        assert_eq!(backtrack(&mut line, 1.0, slope, &LineSearchSettings::default()), Ok(expected));
     }
 
     #[test]
@@ -199,16 +192,6 @@ mod tests {
         let halved =
             Outcome::Accepted { step: 0.5, difference: 1e-16, trials: 2, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
-    }
-
-    #[test]
-    fn settings_find_a_step() {
-        let at_half = |expected: Option<f64>, value: fn(f64) -> Option<f64>| {
-            let mut line = Function { value, derivative: |_| -1.0, at: 0.0, noise: 0.0 };
-            assert_eq!(LineSearchSettings::default().step(&mut line, 1.0, -1.0), expected);
-        };
-        at_half(Some(0.5), |s| (s < 0.9).then_some(-s));
-        at_half(None, |_| None);
     }
 
     #[test]

@@ -1,57 +1,119 @@
 //! Newton's method with filtered second derivatives and a line search.
 //!
-//! This module knows neither masses nor terms: it sees an objective of nodal positions.
+//! This module knows neither nodes nor masses nor terms: it sees a [`Minimisation`].
 
 use crate::point::Filter;
-use crate::system::Body;
-use crate::system::assemble::Elastic;
-use crate::system::element::Evaluated;
 
 use super::filtering::Filtering;
-use super::line_search::{LineSearchSettings, Outcome, backtrack};
-use super::objective::{Objective, product};
-use super::solver::Definiteness;
+use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
 
 mod error;
 mod report;
 mod settings;
-mod workspace;
 
 pub use error::NewtonError;
 pub use report::{Convergence, NewtonReport};
 pub use settings::NewtonSettings;
-pub(crate) use workspace::NewtonWorkspace;
 
-/// Moves `x` towards a minimum, the pinned nodes by `pins_move` (zero elsewhere) where it is given.
+/// An objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
+/// trial x + step d of a line search.
 ///
-/// Energies must have been evaluated at `x`, and on success they have been again, with the survey that is
-/// returned.
-pub(crate) fn minimize(
-    objective: &mut Objective<'_>,
-    workspace: &mut NewtonWorkspace,
-    x: &mut [[f64; 3]],
-    pins_move: Option<&[[f64; 3]]>,
-    survey: Evaluated,
+/// Implemented for one body by [`Simulation`](crate::step::Simulation), and by codes whose variables are
+/// divided among machines: each number that a method returns must then be the same on all of them.
+pub trait Minimisation: Line {
+    /// Evaluates g after the energies; returns its norm over the free variables, N.
+    fn gradient(&mut self) -> Result<f64, Self::Error>;
+
+    /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
+    /// the pins to g.
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, Self::Error>;
+
+    /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
+    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Self::Error>;
+
+    /// Moves the pins in x, and evaluates the energies there.
+    fn move_pins(&mut self) -> Result<(), Self::Error>;
+
+    /// g·d over the free variables, J.
+    fn descent(&self) -> f64;
+
+    /// Share of the direction with which a line search begins, at most 1.
+    fn longest_step(&self) -> f64 {
+        1.0
+    }
+
+    /// Prepares [`Line::change`]: differences of energies are relative to x.
+    fn set_base(&mut self);
+
+    /// Replaces x by the trial evaluated last.
+    fn accept(&mut self);
+
+    /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
+    fn reject(&mut self) -> f64;
+
+    /// Largest displacement of a node along d, m.
+    fn displacement(&self) -> f64;
+
+    /// Scale of the error in time that the step has anyway with the nodes at x, m.
+    fn error_scale(&self) -> f64;
+}
+
+/// Outcome of a linearisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    /// Norm of the gradient over the free variables, N.
+    pub residual: f64,
+    /// Number of elements whose tangent the filter changed.
+    pub filtered: usize,
+    /// Number of elements whose tangent is at a pole.
+    pub bounded: usize,
+}
+
+/// Requirement on the matrix of a linear system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Definiteness {
+    /// An indefinite matrix is left unsolved.
+    Required,
+    /// An indefinite matrix is made definite, or used as far as it goes.
+    Optional,
+}
+
+/// Outcome of a linear solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Solution {
+    /// Multiple of inertia that was added.
+    pub shift: f64,
+    /// Number of iterations of the linear solver.
+    pub iterations: usize,
+    /// True if the system was given up before its tolerance.
+    pub truncated: bool,
+}
+
+/// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
+///
+/// The energies must have been evaluated at x, and on success they have been again.
+///
+/// # Errors
+/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the objective.
+pub fn minimize<M: Minimisation>(
+    minimisation: &mut M,
+    pins_move: bool,
     settings: &NewtonSettings,
     line_search: &LineSearchSettings,
-) -> Result<(NewtonReport, Evaluated), NewtonError> {
-    demand_admissible(&survey, objective.body, objective.elastic)?;
-    if let Some(term) = objective.terms.refusing(x) {
-        return Err(NewtonError::TermRefuses { term });
-    }
-    workspace.solver.begin();
+) -> Result<NewtonReport, M::Error>
+where
+    M::Error: From<NewtonError>,
+{
     let report = NewtonReport::before(settings);
-    Iteration { objective, workspace, settings, line_search, survey, report, moved: None }.run(x, pins_move)
+    Newton { minimisation, settings, line_search, report, moved: None }.run(pins_move)
 }
 
 /// A minimisation under way.
-struct Iteration<'a, 'b> {
-    objective: &'a mut Objective<'b>,
-    workspace: &'a mut NewtonWorkspace,
+struct Newton<'a, M> {
+    minimisation: &'a mut M,
     settings: &'a NewtonSettings,
     line_search: &'a LineSearchSettings,
-    /// Survey of the energies evaluated last.
-    survey: Evaluated,
     report: NewtonReport,
     /// The largest displacement of a node in the iteration before, m.
     moved: Option<f64>,
@@ -67,12 +129,11 @@ enum Progress {
     Nothing,
 }
 
-impl Iteration<'_, '_> {
-    fn run(
-        mut self,
-        x: &mut [[f64; 3]],
-        mut pins_move: Option<&[[f64; 3]]>,
-    ) -> Result<(NewtonReport, Evaluated), NewtonError> {
+impl<M: Minimisation> Newton<'_, M>
+where
+    M::Error: From<NewtonError>,
+{
+    fn run(mut self, mut pins_move: bool) -> Result<NewtonReport, M::Error> {
         // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
         // gradient.
         let mut idle = 0;
@@ -83,7 +144,7 @@ impl Iteration<'_, '_> {
             // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
             if self.report.iterations > 0 {
                 let before = self.report.residual;
-                if self.note_gradient(x)? {
+                if self.note_gradient()? {
                     break;
                 }
                 let is_idle = progress == Progress::BelowNoise && self.report.residual > 0.9 * before;
@@ -95,51 +156,46 @@ impl Iteration<'_, '_> {
                 }
                 forcing = self.forcing(before);
             }
-            if !self.find_direction(x, pins_move, forcing)? {
+            if !self.find_direction(pins_move, forcing)? {
                 break;
             }
-            if let Some(d) = pins_move.take()
-                && !self.move_pins(x, d)?
-            {
+            if std::mem::take(&mut pins_move) && !self.move_pins()? {
                 // The tangent before the move says nothing about the state behind it; the next iteration
                 // takes its own.
                 self.report.step_lengths.push(0.0);
                 continue;
             }
-            progress = self.search(x)?;
+            progress = self.search()?;
             if progress == Progress::Nothing {
                 self.report.convergence = Convergence::Rounding;
                 break;
             }
-            if self.is_close(x) {
+            if self.is_close() {
                 self.report.convergence = Convergence::Tolerance;
                 break;
             }
         }
-        Ok((self.report, self.survey))
+        Ok(self.report)
     }
 
     /// Whether what is left to go is small beside the error of the step, after the last displacement.
-    fn is_close(&mut self, x: &[[f64; 3]]) -> bool {
+    fn is_close(&mut self) -> bool {
         if self.settings.error_share == 0.0 {
             return false;
         }
         let step = self.report.step_lengths.last().copied().unwrap_or(0.0);
-        let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        let squares = self.workspace.direction.iter().map(square);
-        let moved = step * squares.fold(0.0, f64::max).sqrt();
+        let moved = step * self.minimisation.displacement();
         let ratio = self.moved.map_or(0.5, |before| moved / before);
         self.moved = Some(moved);
         let left = ratio / (1.0 - ratio) * moved;
-        let enough = self.settings.error_share * self.objective.quadratic.stage.error_scale(x);
+        let enough = self.settings.error_share * self.minimisation.error_scale();
         step == 1.0 && ratio < 1.0 && left <= enough && enough.is_finite()
     }
 
     /// Evaluates the gradient; true where it is small enough.
-    fn note_gradient(&mut self, x: &[[f64; 3]]) -> Result<bool, NewtonError> {
-        self.objective.elastic.evaluate_gradients(self.objective.body);
-        self.objective.gradient(x, &mut self.workspace.gradient);
-        self.report.note_residual(self.workspace.free_norm(), self.settings)
+    fn note_gradient(&mut self) -> Result<bool, M::Error> {
+        let residual = self.minimisation.gradient()?;
+        Ok(self.report.note_residual(residual, self.settings)?)
     }
 
     /// A relative tolerance for the next system [EW96, choice 2], no tighter than the last one of all needs
@@ -155,64 +211,33 @@ impl Iteration<'_, '_> {
     /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
     /// starts behind the move.
-    fn find_direction(
-        &mut self,
-        x: &[[f64; 3]],
-        pins_move: Option<&[[f64; 3]]>,
-        tolerance: f64,
-    ) -> Result<bool, NewtonError> {
+    fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, M::Error> {
         let filtering = self.settings.filtering;
-        self.linearise(filtering.choice(), x, pins_move)?;
-        if pins_move.is_none()
-            && self.report.iterations == 0
-            && self.report.note_residual(self.workspace.free_norm(), self.settings)?
-        {
+        let residual = self.linearise(filtering.choice(), pins_move)?;
+        if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
             return Ok(false);
         }
         let on_demand = filtering == Filtering::OnDemand;
         let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
-        if !self.solve(x, tolerance, definiteness)? {
-            self.linearise(Filter::Clamp, x, pins_move)?;
-            self.solve(x, tolerance, Definiteness::Optional)?;
+        if !self.solve(tolerance, definiteness)? {
+            self.linearise(Filter::Clamp, pins_move)?;
+            self.solve(tolerance, Definiteness::Optional)?;
         }
         self.report.iterations += 1;
         Ok(true)
     }
 
-    /// Evaluates the gradient and the filtered second derivatives.
-    fn linearise(
-        &mut self,
-        filter: Filter,
-        x: &[[f64; 3]],
-        pins_move: Option<&[[f64; 3]]>,
-    ) -> Result<(), NewtonError> {
-        self.objective.terms.linearise(x, self.objective.blocks);
-        if let Some(node) = self.objective.blocks.missing() {
-            return Err(NewtonError::NoSuchNode { node, nodes: x.len() });
-        }
-        self.workspace.join(self.objective.body, self.objective.blocks)?;
-        let tangents = self.workspace.solver.linearise(self.objective, filter);
-        demand_admissible(&tangents, self.objective.body, self.objective.elastic)?;
-        self.report.filtered = self.report.filtered.max(tangents.survey.filtered);
-        self.report.bounded = self.report.bounded.max(tangents.survey.bounded);
-        let NewtonWorkspace { solver, gradient, .. } = &mut *self.workspace;
-        self.objective.gradient(x, gradient);
-        if let Some(d) = pins_move {
-            solver.add_product(self.objective, d, gradient);
-        }
-        Ok(())
+    /// Evaluates the gradient and the filtered second derivatives; returns the norm of the gradient.
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<f64, M::Error> {
+        let Linearised { residual, filtered, bounded } = self.minimisation.linearise(filter, pins_move)?;
+        self.report.filtered = self.report.filtered.max(filtered);
+        self.report.bounded = self.report.bounded.max(bounded);
+        Ok(residual)
     }
 
     /// Solves for the direction; false if the matrix is indefinite and definiteness is required.
-    fn solve(
-        &mut self,
-        x: &[[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
-    ) -> Result<bool, NewtonError> {
-        let NewtonWorkspace { solver, gradient, direction, .. } = &mut *self.workspace;
-        let solution = solver.solve(self.objective, x, gradient, direction, tolerance, definiteness)?;
-        let Some(solution) = solution else { return Ok(false) };
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, M::Error> {
+        let Some(solution) = self.minimisation.solve(tolerance, definiteness)? else { return Ok(false) };
         self.report.shift = self.report.shift.max(solution.shift);
         self.report.linear_iterations += solution.iterations;
         self.report.truncated += usize::from(solution.truncated);
@@ -220,72 +245,36 @@ impl Iteration<'_, '_> {
     }
 
     /// Moves the pins; false where the direction, found before they moved, does not descend behind the move.
-    fn move_pins(&mut self, x: &mut [[f64; 3]], d: &[[f64; 3]]) -> Result<bool, NewtonError> {
-        for (x, d) in x.iter_mut().zip(d) {
-            for c in 0..3 {
-                x[c] += d[c];
-            }
-        }
-        self.survey = self.objective.evaluate(x);
-        inadmissible(&self.survey, self.objective.body)
-            .map_or(Ok(()), |element| Err(NewtonError::PinsMoveTooFar { element }))?;
-        if let Some(term) = self.objective.terms.refusing(x) {
-            return Err(NewtonError::TermRefuses { term });
-        }
-        self.note_gradient(x)?;
-        Ok(product(&self.workspace.gradient, &self.workspace.direction) < 0.0)
+    fn move_pins(&mut self) -> Result<bool, M::Error> {
+        self.minimisation.move_pins()?;
+        self.note_gradient()?;
+        Ok(self.minimisation.descent() < 0.0)
     }
 
-    /// Moves `x` along the direction as far as it is good.
-    fn search(&mut self, x: &mut [[f64; 3]]) -> Result<Progress, NewtonError> {
-        let NewtonWorkspace { direction, trial, gradient, .. } = &mut *self.workspace;
-        let slope = product(gradient, direction);
+    /// Moves x along the direction as far as it is good.
+    fn search(&mut self) -> Result<Progress, M::Error> {
+        let slope = self.minimisation.descent();
         if !slope.is_finite() {
-            return Err(NewtonError::NotFinite);
+            return Err(NewtonError::NotFinite.into());
         }
-        let first = self.objective.terms.longest_step(x, direction);
-        let mut line = self.objective.along(x, direction, trial, gradient);
-        let outcome = backtrack(&mut line, first, slope, self.line_search);
-        drop(line);
-        match outcome {
+        let first = self.minimisation.longest_step();
+        self.minimisation.set_base();
+        match backtrack(self.minimisation, first, slope, self.line_search)? {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {
-                x.copy_from_slice(trial);
+                self.minimisation.accept();
                 self.report.step_lengths.push(step);
                 self.report.refused_trials += refused;
                 self.report.change += difference;
-                self.survey = self.objective.elastic.survey();
                 Ok(if by_slope { Progress::BelowNoise } else { Progress::Decrease })
             }
             Outcome::Failed { step, refused } => {
                 self.report.refused_trials += refused;
-                self.survey = self.objective.evaluate(x);
-                if -slope > self.objective.noise(x) {
+                if -slope > self.minimisation.reject() {
                     let residual = self.report.residual;
-                    return Err(NewtonError::LineSearch { step, refused, residual });
+                    return Err(NewtonError::LineSearch { step, refused, residual }.into());
                 }
                 Ok(Progress::Nothing)
             }
         }
     }
-}
-
-/// Checks that all elements are admissible where the energies were evaluated last.
-pub(super) fn demand_admissible(
-    survey: &Evaluated,
-    body: &Body,
-    elastic: &Elastic,
-) -> Result<(), NewtonError> {
-    let Some(element) = inadmissible(survey, body) else { return Ok(()) };
-    if survey.survey.refused == 0 {
-        return Err(NewtonError::ElementNotFinite { element });
-    }
-    let mut all = body.elements().iter().zip(elastic.stretches());
-    let stretches =
-        all.find(|(other, _)| other.tag == element).map_or([f64::NAN; 3], |(_, stretches)| stretches);
-    Err(NewtonError::Inadmissible { element, stretches })
-}
-
-/// Tag of the first element without a meaningful energy, if any.
-pub(super) fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
-    evaluated.survey.first.map(|element| body.elements()[element].tag)
 }

@@ -17,7 +17,6 @@
 use std::iter;
 use std::sync::Arc;
 
-use crate::lanes::Real;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
@@ -25,7 +24,6 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 
 use super::damping::Viscosity;
 use super::integrator::Stage;
-use super::line_search::Line;
 use super::spring::Spring;
 use super::term::{EnergyChange, NodeBlocks, Term};
 
@@ -143,7 +141,7 @@ impl<'a> Terms<'a> {
         self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d)))
     }
 
-    fn change(self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
+    pub(super) fn change(self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
         self.each().try_fold(EnergyChange::default(), |sum, term| {
             let EnergyChange { difference, noise } = term.change(from, to)?;
             Some(EnergyChange { difference: sum.difference + difference, noise: sum.noise + noise })
@@ -197,64 +195,6 @@ impl Objective<'_> {
     pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
         let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
         self.quadratic.curvature(d) + viscosity
-    }
-
-    /// The objective along `x + step d`, which leaves the point tried last in `trial`. The base of its
-    /// differences is `x`, where the energies must have been evaluated last.
-    pub(crate) fn along<'b>(
-        &'b mut self,
-        x: &'b [[f64; 3]],
-        direction: &'b [[f64; 3]],
-        trial: &'b mut [[f64; 3]],
-        gradient: &'b mut [[f64; 3]],
-    ) -> impl Line + 'b
-    where
-        Self: 'b,
-    {
-        self.elastic.set_base();
-        self.quadratic_gradient(x, gradient);
-        let slope = product(gradient, direction);
-        let curvature = self.quadratic_curvature(direction);
-        Along { objective: self, x, direction, trial, gradient, slope, curvature }
-    }
-}
-
-/// The objective along a line.
-struct Along<'a, 'b> {
-    objective: &'a mut Objective<'b>,
-    x: &'a [[f64; 3]],
-    direction: &'a [[f64; 3]],
-    trial: &'a mut [[f64; 3]],
-    gradient: &'a mut [[f64; 3]],
-    /// First and second derivative of the quadratic part.
-    slope: f64,
-    curvature: f64,
-}
-
-impl Line for Along<'_, '_> {
-    fn change(&mut self, step: f64) -> Option<EnergyChange> {
-        for node in 0..self.x.len() {
-            for c in 0..3 {
-                self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
-            }
-        }
-        let terms = self.objective.terms.change(self.x, self.trial)?;
-        if !self.objective.evaluate(self.trial).survey.is_clean() {
-            return None;
-        }
-        let (linear, quadratic) = (step * self.slope, 0.5 * step * step * self.curvature);
-        let elastic = &self.objective.elastic;
-        // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
-        let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic)
-            + elastic.difference_noise(self.objective.body)
-            + terms.noise;
-        Some(EnergyChange { difference: linear + quadratic + terms.difference + elastic.difference(), noise })
-    }
-
-    fn slope(&mut self) -> f64 {
-        self.objective.elastic.evaluate_gradients(self.objective.body);
-        self.objective.gradient(self.trial, self.gradient);
-        product(self.gradient, self.direction)
     }
 }
 

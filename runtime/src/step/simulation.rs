@@ -10,11 +10,11 @@ use crate::system::element::Evaluated;
 use crate::system::{Body, Pins};
 
 use super::damping::Viscosity;
-use super::integrator::{Stages, State};
-use super::newton::NewtonWorkspace;
+use super::minimisation::NewtonWorkspace;
 use super::objective::Terms;
 use super::solver::Choice;
 use super::spring::Spring;
+use super::staged::StagedSteps;
 use super::term::{NodeBlocks, Term};
 
 mod adaptive;
@@ -51,26 +51,18 @@ use settings::check_settings;
 pub struct Simulation {
     body: Body,
     settings: SimulationSettings,
-    springs: Vec<Spring>,
-    /// Targets of the springs where the next step starts.
-    targets_before: Vec<[f64; 3]>,
+    /// State of the nodes, pins and springs.
+    steps: StagedSteps,
     terms: Vec<Arc<dyn Term>>,
     /// Second derivatives of springs and terms, where they were linearised last.
     blocks: NodeBlocks,
     /// Given force on each node, N; empty without any.
     forces: Vec<[f64; 3]>,
-    state: State,
-    /// Positions of the pinned nodes, and only of them, after the next step.
-    targets: Vec<[f64; 3]>,
-    pins: Pins,
     elastic: Elastic,
     workspace: NewtonWorkspace,
     viscosity: Option<Viscosity>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
-    next: State,
-    stages: Stages,
-    pins_move: Vec<[f64; 3]>,
     /// Survey of the elastic energies at `positions`, if these were evaluated last.
     evaluated: Option<Evaluated>,
 }
@@ -80,7 +72,7 @@ impl fmt::Debug for Simulation {
         f.debug_struct("Simulation")
             .field("body", &self.body)
             .field("settings", &self.settings)
-            .field("pinned", &self.pins.nodes().len())
+            .field("pinned", &self.pinned().len())
             .finish_non_exhaustive()
     }
 }
@@ -101,21 +93,14 @@ impl Simulation {
         let workspace = NewtonWorkspace::new(&body, pins, choice)?;
         Ok(Self {
             settings,
-            springs: Vec::new(),
-            targets_before: Vec::new(),
+            steps: StagedSteps::new(settings.integrator, body.rest(), pins.nodes()),
             terms: Vec::new(),
             blocks: NodeBlocks::default(),
             forces: Vec::new(),
-            state: State::at_rest(body.rest()),
-            targets: body.rest().to_vec(),
-            pins: pins.clone(),
             elastic: Elastic::new(&body),
             workspace,
             viscosity: settings.damping.viscosity(&body),
             static_regularisation: static_regularisation(&body),
-            next: State::at_rest(body.rest()),
-            stages: Stages::new(settings.integrator, nodes),
-            pins_move: vec![[0.0; 3]; nodes],
             evaluated: None,
             body,
         })
@@ -130,13 +115,13 @@ impl Simulation {
     /// Current position of each node, m.
     #[must_use]
     pub fn positions(&self) -> &[[f64; 3]] {
-        &self.state.x
+        self.steps.positions()
     }
 
     /// Current velocity of each node, m/s.
     #[must_use]
     pub fn velocities(&self) -> &[[f64; 3]] {
-        &self.state.v
+        self.steps.velocities()
     }
 
     /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: of
@@ -144,13 +129,13 @@ impl Simulation {
     /// [`Simulation::equilibrate`].
     #[must_use]
     pub fn accelerations(&self) -> &[[f64; 3]] {
-        &self.state.a
+        self.steps.accelerations()
     }
 
     /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        self.pins.nodes()
+        self.steps.pinned()
     }
 
     /// The given force on each node, N; empty without any.
@@ -159,9 +144,15 @@ impl Simulation {
         &self.forces
     }
 
+    /// Survey of the elastic energies at the current positions, where they are evaluated unless they were.
+    fn survey(&mut self) -> Evaluated {
+        let x = self.steps.positions();
+        *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
+    }
+
     /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
-        Terms { springs: &self.springs, others: &self.terms }
+        Terms { springs: self.steps.springs(), others: &self.terms }
     }
 
     /// The terms of the energy but deformation, gravity and springs.
@@ -173,7 +164,7 @@ impl Simulation {
     /// Springs that pull at the body.
     #[must_use]
     pub fn springs(&self) -> &[Spring] {
-        &self.springs
+        self.steps.springs()
     }
 
     /// Current settings.

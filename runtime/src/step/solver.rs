@@ -21,7 +21,7 @@ use direct::Direct;
 
 pub use own::SparseSolver;
 
-pub(super) use interface::{Definiteness, SolveError, Solver};
+pub(super) use interface::{SolveError, Solver};
 
 /// Solver of the linear systems A p = b of Newton's method, b being minus the gradient.
 ///

@@ -1,12 +1,14 @@
-//! Stages of steps for a minimiser that is not piola's own, such as that of a body divided among machines.
+//! The state of nodes between steps, what drives them, and the stages by which a step advances them.
 //!
 //! This module knows no forces: stages couple no two nodes, so that each part of a body may have its own.
 
+use super::halving::on_the_way;
 use super::integrator::{Integrator, Method, Stage, Stages, State};
 use super::simulation::SetupError;
 use super::spring::Spring;
 
-/// State of nodes, and the stages by which an [`Integrator`] advances it, for a minimiser of one's own.
+/// State of nodes, and the stages by which an [`Integrator`] advances it, for any minimiser: the one of
+/// [`Simulation`](super::Simulation), or of a body divided among machines.
 ///
 /// A step is [begun](StagedSteps::begin), its stages are minimised one by one, and it is
 /// [finished](StagedSteps::finish); a step that is begun anew instead leaves the state as it was. The minimum
@@ -19,16 +21,18 @@ use super::spring::Spring;
 /// for the s, w, τ and σ of its [`Stage`].
 ///
 /// ```
-/// use piola::step::{Integrator, StagedSteps};
+/// use piola::step::Integrator;
+/// use piola::step::divided::StagedSteps;
 ///
 /// // Free fall: M a = M g, whatever the mass.
 /// let (g, dt) = (-9.81, 0.1);
-/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]]);
+/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[]);
 /// for stage in 0..steps.begin(dt) {
-///     steps.begin_stage(stage, &[], &[[0.0; 3]]);
+///     steps.begin_stage(stage);
 ///     let [tau, sigma] = steps.stage().lengths();
 ///     let (start, velocity) = (steps.stage().start()[0][1], steps.stage().velocities()[0][1]);
-///     steps.end_stage(stage, &[[0.0, start + tau * (velocity + sigma * g), 0.0]]);
+///     steps.in_stage().end[0][1] = start + tau * (velocity + sigma * g);
+///     steps.end_stage(stage);
 /// }
 /// steps.finish();
 /// assert!((steps.positions()[0][1] - 0.5 * g * dt * dt).abs() < 1e-15);
@@ -39,16 +43,23 @@ pub struct StagedSteps {
     integrator: Integrator,
     method: Method,
     dt: f64,
-    state: State,
+    pub(super) state: State,
     next: State,
     stages: Stages,
+    /// Ascending.
+    pinned: Vec<usize>,
+    /// Position of each pinned node, and only of those, after the next step, m.
+    targets: Vec<[f64; 3]>,
     pins_move: Vec<[f64; 3]>,
+    springs: Vec<Spring>,
+    /// Targets of the springs where the next step starts, m.
+    targets_before: Vec<[f64; 3]>,
 }
 
 impl StagedSteps {
-    /// Nodes at rest at these positions, m.
+    /// Nodes at rest at these positions, m; `pinned` are ascending indices of nodes.
     #[must_use]
-    pub fn new(integrator: Integrator, positions: &[[f64; 3]]) -> Self {
+    pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Self {
         let state = State::at_rest(positions);
         Self {
             integrator,
@@ -56,8 +67,24 @@ impl StagedSteps {
             dt: 0.0,
             next: state.clone(),
             stages: Stages::new(integrator, positions.len()),
+            pinned: pinned.to_vec(),
+            targets: positions.to_vec(),
             pins_move: vec![[0.0; 3]; positions.len()],
+            springs: Vec::new(),
+            targets_before: Vec::new(),
             state,
+        }
+    }
+
+    pub(super) fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
+    /// Replaces the integrator from the next step on.
+    pub(super) fn set_integrator(&mut self, integrator: Integrator) {
+        if integrator != self.integrator {
+            self.integrator = integrator;
+            self.stages = Stages::new(integrator, self.state.x.len());
         }
     }
 
@@ -80,25 +107,91 @@ impl StagedSteps {
         &self.state.a
     }
 
-    /// Replaces the state: positions, m, and velocities, m/s.
+    /// Replaces positions, m. Pins hold their nodes there.
     ///
     /// # Errors
-    /// [`SetupError::Length`] unless there is one of each for each node.
-    pub fn set_state(&mut self, positions: &[[f64; 3]], velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check(positions.len())?;
-        self.check(velocities.len())?;
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(positions)?;
         self.state.x.copy_from_slice(positions);
+        self.targets.copy_from_slice(positions);
+        Ok(())
+    }
+
+    /// Replaces velocities, m/s.
+    ///
+    /// # Errors
+    /// As of [`StagedSteps::set_positions`].
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(velocities)?;
         self.state.v.copy_from_slice(velocities);
         Ok(())
     }
 
-    /// Sets the accelerations at the end of the step before, m/s².
+    /// Replaces the accelerations at the end of the step before, m/s².
     ///
     /// # Errors
-    /// [`SetupError::Length`] unless there is one for each node.
+    /// As of [`StagedSteps::set_positions`].
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check(accelerations.len())?;
+        self.check_nodal(accelerations)?;
         self.state.a.copy_from_slice(accelerations);
+        Ok(())
+    }
+
+    /// Indices of the pinned nodes, ascending.
+    #[must_use]
+    pub fn pinned(&self) -> &[usize] {
+        &self.pinned
+    }
+
+    /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
+    pub(super) fn set_pinned(&mut self, pinned: &[usize]) {
+        for node in 0..self.state.x.len() {
+            let was_pinned = self.pinned.binary_search(&node).is_ok();
+            if !(was_pinned && pinned.binary_search(&node).is_ok()) {
+                self.targets[node] = self.state.x[node];
+                self.pins_move[node] = [0.0; 3];
+            }
+        }
+        self.pinned = pinned.to_vec();
+    }
+
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        if self.pinned.binary_search(&node).is_err() {
+            return Err(SetupError::NotPinned { node });
+        }
+        if position.iter().any(|x| !x.is_finite()) {
+            return Err(SetupError::NotFinite { node });
+        }
+        self.targets[node] = position;
+        Ok(())
+    }
+
+    /// The springs.
+    #[must_use]
+    pub fn springs(&self) -> &Vec<Spring> {
+        &self.springs
+    }
+
+    /// Replaces the springs. A spring at the same index and anchor as one before has its target moved: evenly
+    /// in the course of the next step.
+    ///
+    /// # Errors
+    /// [`SetupError::Spring`] if its stiffness is negative or a component is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
+        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
+            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
+            _ => spring.target,
+        };
+        self.targets_before = springs.iter().enumerate().map(before).collect();
+        self.springs.clear();
+        self.springs.extend_from_slice(springs);
         Ok(())
     }
 
@@ -112,24 +205,19 @@ impl StagedSteps {
         self.method.stages()
     }
 
-    /// The share of their way through the step that pinned nodes and targets of springs have gone in a stage.
-    #[must_use]
-    pub fn share(&self, stage: usize) -> f64 {
-        self.method.share(stage)
-    }
-
-    /// Begins a stage of the step, counted from 0; pinned nodes are on their way to their entries of
-    /// `targets`, m, which has one for each node. Returns whether one of them moves.
+    /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
+    /// their way through the step. Returns true if a pinned node moves.
     ///
     /// # Panics
-    /// If there is no target of a pinned node, or no such stage.
-    pub fn begin_stage(&mut self, stage: usize, pinned: &[usize], targets: &[[f64; 3]]) -> bool {
+    /// If there is no such stage.
+    pub fn begin_stage(&mut self, stage: usize) -> bool {
         self.stages.begin(&self.method, stage, self.dt, &self.state);
         let share = self.method.share(stage);
+        self.stages.pull(&self.springs, &self.targets_before, share);
         let mut is_moving = false;
-        for &node in pinned {
-            let before = self.state.x[node];
-            let way: [f64; 3] = std::array::from_fn(|c| targets[node][c] - before[c]);
+        for &node in &self.pinned {
+            let (target, before) = (self.targets[node], self.state.x[node]);
+            let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
             for c in 0..3 {
                 self.pins_move[node][c] = share * way[c] - (self.next.x[node][c] - before[c]);
                 is_moving |= self.pins_move[node][c] != 0.0;
@@ -144,26 +232,19 @@ impl StagedSteps {
         &self.stages.current
     }
 
-    /// Positions from which the minimisation of the stage starts, m.
-    #[must_use]
-    pub fn start(&self) -> &[[f64; 3]] {
-        &self.next.x
+    /// What the minimisation of the stage begun last takes, and the positions that it moves.
+    pub fn in_stage(&mut self) -> InStage<'_> {
+        let Stages { current: stage, springs, .. } = &self.stages;
+        InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
     }
 
-    /// Displacement of each pinned node in the stage, m; zero for others.
-    #[must_use]
-    pub fn pins_move(&self) -> &[[f64; 3]] {
-        &self.pins_move
-    }
-
-    /// Ends a stage at its minimum, m.
+    /// Ends a stage, with [its positions](InStage::end) at the minimum.
     ///
     /// # Panics
-    /// If there is not one position for each node, or no such stage.
-    pub fn end_stage(&mut self, stage: usize, positions: &[[f64; 3]]) {
-        self.next.x.copy_from_slice(positions);
+    /// If there is no such stage.
+    pub fn end_stage(&mut self, stage: usize) {
         if stage + 1 < self.method.stages() {
-            self.stages.end(stage, positions);
+            self.stages.end(stage, &self.next.x);
         }
     }
 
@@ -171,12 +252,56 @@ impl StagedSteps {
     pub fn finish(&mut self) {
         self.stages.finish(&mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
+        for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
+            *before = spring.target;
+        }
     }
 
-    fn check(&self, found: usize) -> Result<(), SetupError> {
-        let expected = self.state.x.len();
-        if found == expected { Ok(()) } else { Err(SetupError::Length { expected, found }) }
+    /// Drives pinned nodes and springs from one share of the way that `whole` prescribes to another.
+    pub(super) fn drive(&mut self, whole: &Self, start: f64, end: f64) {
+        for &node in &whole.pinned {
+            self.targets[node] = on_the_way(whole.state.x[node], whole.targets[node], end);
+        }
+        for (index, (before, spring)) in whole.targets_before.iter().zip(&whole.springs).enumerate() {
+            self.targets_before[index] = on_the_way(*before, spring.target, start);
+            self.springs[index].target = on_the_way(*before, spring.target, end);
+        }
     }
+
+    pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
+        if vectors.len() != self.state.x.len() {
+            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
+        }
+        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            Some(node) => Err(SetupError::NotFinite { node }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
+        let nodes = self.state.x.len();
+        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
+        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+            return Err(SetupError::Spring { index });
+        }
+        Ok(())
+    }
+}
+
+/// A stage of a step, as its minimisation takes it.
+#[derive(Debug)]
+pub struct InStage<'a> {
+    /// The stage.
+    pub stage: &'a Stage,
+    /// The springs, with their targets in the stage.
+    pub springs: &'a Vec<Spring>,
+    /// Displacement of each pinned node, m; zero for others.
+    pub pins_move: &'a [[f64; 3]],
+    /// Positions of the nodes, m: where the minimisation starts, and to be moved to the minimum.
+    pub end: &'a mut [[f64; 3]],
 }
 
 impl Stage {
@@ -197,109 +322,19 @@ impl Stage {
     pub fn lengths(&self) -> [f64; 2] {
         self.lengths
     }
-
-    /// The spring in this stage, when its target has gone a share of its way from `before`, m.
-    #[must_use]
-    pub fn pulled(spring: Spring, before: [f64; 3], share: f64) -> Spring {
-        let way = |c: usize| before[c] + share * (spring.target[c] - before[c]);
-        // At the end without rounding.
-        if share == 1.0 { spring } else { Spring { target: std::array::from_fn(way), ..spring } }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::tetrahedral_box;
-    use crate::step::{NewtonSettings, Simulation, SimulationSettings};
-    use crate::system::testing::NEO_HOOKEAN;
-    use crate::system::{Body, Pins};
-
-    const GRAVITY: [f64; 3] = [0.3, -9.81, 0.0];
-    const DT: f64 = 0.02;
-
-    fn simulation(integrator: Integrator, pins: &Pins) -> Simulation {
-        let mesh = tetrahedral_box([1; 3], [0.1; 3]).expect("a box");
-        let body = Body::new(&mesh, NEO_HOOKEAN, 1000.0).expect("a body");
-        let newton = NewtonSettings::default().with_tolerance(1e-13);
-        let settings = SimulationSettings::default()
-            .with_gravity(GRAVITY)
-            .with_integrator(integrator)
-            .with_newton(newton);
-        Simulation::new(body, pins, settings).expect("a simulation")
-    }
-
-    const INTEGRATORS: [Integrator; 3] = [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3];
-
-    /// A step in which all free nodes fall: the minimum of a stage is known.
-    fn fall(steps: &mut StagedSteps, pinned: &[usize], targets: &[[f64; 3]]) {
-        for stage in 0..steps.begin(DT) {
-            steps.begin_stage(stage, pinned, targets);
-            let mut x = steps.start().to_vec();
-            let [tau, sigma] = steps.stage().lengths();
-            for node in 0..x.len() {
-                for c in 0..3 {
-                    let velocity = steps.stage().velocities()[node][c] + sigma * GRAVITY[c];
-                    x[node][c] = steps.stage().start()[node][c] + tau * velocity;
-                }
-            }
-            for &node in pinned {
-                x[node] = std::array::from_fn(|c| steps.start()[node][c] + steps.pins_move()[node][c]);
-            }
-            steps.end_stage(stage, &x);
-        }
-        steps.finish();
-    }
-
-    #[track_caller]
-    fn close(found: &[[f64; 3]], expected: &[[f64; 3]], bound: f64) {
-        for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
-            assert!((found - expected).abs() <= bound, "{found} for {expected}");
-        }
-    }
-
-    /// Velocities are differences of positions of 0.1 m over some milliseconds.
-    #[test]
-    fn a_falling_body_moves_as_in_a_simulation() {
-        for integrator in INTEGRATORS {
-            let mut simulation = simulation(integrator, &Pins::none());
-            let rest = simulation.positions().to_vec();
-            let mut steps = StagedSteps::new(integrator, &rest);
-            for _ in 0..3 {
-                simulation.step(DT).expect("a step");
-                fall(&mut steps, &[], &rest);
-            }
-            close(steps.positions(), simulation.positions(), 1e-13);
-            close(steps.velocities(), simulation.velocities(), 1e-11);
-        }
-    }
 
     #[test]
-    fn pinned_nodes_move_as_in_a_simulation() {
-        for integrator in INTEGRATORS {
-            let pins = Pins::at(0..8);
-            let mut simulation = simulation(integrator, &pins);
-            let mut targets = simulation.positions().to_vec();
-            let mut steps = StagedSteps::new(integrator, &targets);
-            for _ in 0..3 {
-                for node in 0..8 {
-                    targets[node][0] += 0.01;
-                    simulation.prescribe(node, targets[node]).expect("a pinned node");
-                }
-                simulation.step(DT).expect("a step");
-                fall(&mut steps, pins.nodes(), &targets);
-            }
-            close(steps.positions(), simulation.positions(), 1e-15);
-            close(steps.velocities(), simulation.velocities(), 1e-11);
-            close(steps.accelerations(), simulation.accelerations(), 1e-8);
-        }
-    }
-
-    #[test]
-    fn wrong_lengths_are_refused() {
-        let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]]);
+    fn wrong_input_is_refused() {
+        let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[]);
         let expected = Err(SetupError::Length { expected: 1, found: 2 });
-        assert_eq!(steps.set_state(&[[0.0; 3]; 2], &[[0.0; 3]]), expected);
+        assert_eq!(steps.set_positions(&[[0.0; 3]; 2]), expected);
         assert_eq!(steps.set_accelerations(&[[0.0; 3]; 2]), expected);
+        assert_eq!(steps.set_velocities(&[[f64::NAN; 3]]), Err(SetupError::NotFinite { node: 0 }));
+        assert_eq!(steps.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));
     }
 }

@@ -2,7 +2,8 @@
 
 use piola::batch::Layout;
 use piola::point::Filter;
-use piola::step::{Integrator, StagedSteps};
+use piola::step::Integrator;
+use piola::step::divided::StagedSteps;
 use piola::system::{BlockMatrix, Body, Cholesky, ElasticResponse, NodalStiffness, Part, Pattern, Pins};
 
 use crate::arguments::{TOO_MANY, check};
@@ -79,8 +80,9 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
         }
         let _ = response.difference_noise(&body);
-        let mut steps = StagedSteps::new(Integrator::Sdirk2, body.rest());
-        let _ = steps.set_state(&positions, &product);
+        let mut steps = StagedSteps::new(Integrator::Sdirk2, body.rest(), &[]);
+        let _ = steps.set_positions(&positions);
+        let _ = steps.set_velocities(&product);
         let _ = steps.set_accelerations(&positions);
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });

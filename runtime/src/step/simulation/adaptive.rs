@@ -1,9 +1,7 @@
 //! Steps of a simulation whose length follows from their error.
 
-use crate::step::halving::{self, Pace, Repeatable, on_the_way};
-use crate::step::integrator::State;
-use crate::step::newton::NewtonReport;
-use crate::step::spring::Spring;
+use crate::step::halving::{self, Pace, Repeatable};
+use crate::step::staged::StagedSteps;
 
 use super::{Simulation, StepError, StepReport};
 
@@ -71,82 +69,37 @@ impl Simulation {
         }
         let newton = self.settings.newton;
         self.settings.newton.error_share = newton.error_share.max(ENOUGH);
-        let integrator = self.settings.integrator;
-        let mut course = Course {
-            duration,
-            before: self.state.clone(),
-            targets: self.targets.clone(),
-            targets_before: self.targets_before.clone(),
-            springs: self.springs.clone(),
-            sum: None,
-            simulation: self,
-        };
-        let result = halving::advance_within(&mut course, integrator, tolerance * duration);
-        let Course { before, targets, targets_before, springs, sum, .. } = course;
+        let pace = halving::advance_within(self, duration, tolerance * duration);
         self.settings.newton = newton;
-        self.targets.copy_from_slice(&targets);
-        self.springs.copy_from_slice(&springs);
-        if result.is_err() {
-            self.restore(&before);
-            self.targets_before.copy_from_slice(&targets_before);
+        let Pace { reports, taken, refused, unresolved, shortest, error } = pace?;
+        let mut sum: Option<StepReport> = None;
+        for report in reports {
+            let newton = report.newton.after(sum.map(|sum| sum.newton));
+            sum = Some(StepReport { newton, ..report });
         }
-        let Pace { report, taken, refused, unresolved, shortest, error } = result?;
-        let step = StepReport { newton: sum.unwrap_or_else(|| report.newton.clone()), ..report };
-        Ok(AdaptiveReport { step, taken, refused, unresolved, shortest: duration * shortest, error })
-    }
-
-    fn restore(&mut self, state: &State) {
-        self.state.clone_from(state);
-        self.evaluated = None;
+        let Some(step) = sum else { return Err(StepError::TimeStep { dt: duration }) };
+        Ok(AdaptiveReport { step, taken, refused, unresolved, shortest, error })
     }
 }
 
-/// The time that a simulation is advanced over, and what moves evenly meanwhile.
-struct Course<'a> {
-    simulation: &'a mut Simulation,
-    duration: f64,
-    /// Positions before.
-    before: State,
-    /// Positions of pinned nodes at the end.
-    targets: Vec<[f64; 3]>,
-    /// Targets of springs before.
-    targets_before: Vec<[f64; 3]>,
-    /// Springs at the end.
-    springs: Vec<Spring>,
-    /// The minimisations of all steps together.
-    sum: Option<NewtonReport>,
-}
-
-impl Repeatable for Course<'_> {
-    type State = State;
+impl Repeatable for Simulation {
     type Report = StepReport;
     type Error = StepError;
 
-    fn state(&self) -> State {
-        self.simulation.state.clone()
+    fn steps(&self) -> &StagedSteps {
+        &self.steps
     }
 
-    fn restore(&mut self, state: &State) {
-        self.simulation.restore(state);
+    fn steps_mut(&mut self) -> &mut StagedSteps {
+        &mut self.steps
     }
 
-    fn distance(&self, from: &State) -> f64 {
-        let pairs = self.simulation.state.x.as_flattened().iter().zip(from.x.as_flattened());
-        pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
+        Simulation::step(self, dt)
     }
 
-    fn step_between(&mut self, start: f64, end: f64) -> Result<StepReport, StepError> {
-        let Self { simulation, .. } = self;
-        for &node in simulation.pins.nodes() {
-            simulation.targets[node] = on_the_way(self.before.x[node], self.targets[node], end);
-        }
-        for (index, (before, spring)) in self.targets_before.iter().zip(&self.springs).enumerate() {
-            simulation.targets_before[index] = on_the_way(*before, spring.target, start);
-            simulation.springs[index].target = on_the_way(*before, spring.target, end);
-        }
-        let report = simulation.step((end - start) * self.duration)?;
-        self.sum = Some(report.newton.clone().after(self.sum.take()));
-        Ok(report)
+    fn forget(&mut self) {
+        self.evaluated = None;
     }
 }
 

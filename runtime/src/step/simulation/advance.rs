@@ -1,8 +1,9 @@
 //! A step from one state to the next, stage by stage.
 
-use crate::step::integrator::{Integrator, Method};
+use crate::step::minimisation::StageMinimisation;
 use crate::step::newton::{NewtonError, NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
+use crate::step::staged::InStage;
 use crate::system::element::Evaluated;
 
 use super::{Energies, Simulation, StepError};
@@ -64,92 +65,60 @@ impl Simulation {
     }
 
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        let is_static = dt == f64::INFINITY;
-        let integrator = if is_static { Integrator::ImplicitEuler } else { self.settings.integrator };
-        let method = integrator.method();
-        let mut survey = match self.evaluated.take() {
-            Some(survey) => survey,
-            None => self.elastic.evaluate(&self.body, &self.state.x),
-        };
-        self.next.x.copy_from_slice(&self.state.x);
-        let [tau, _] = method.lengths(dt);
-        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| !is_static) {
+        let mut survey = self.survey();
+        self.evaluated = None;
+        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| dt != f64::INFINITY) {
+            let [tau, _] = self.settings.integrator.method().lengths(dt);
             viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / tau);
         }
-        let last = method.stages() - 1;
-        let mut stages_before: Option<NewtonReport> = None;
-        for stage in 0..last {
+        let mut newton: Option<NewtonReport> = None;
+        for stage in 0..self.steps.begin(dt) {
             let report;
-            (report, survey) = self.minimize_stage(&method, stage, dt, survey)?;
-            self.stages.end(stage, &self.next.x);
-            stages_before = Some(report.after(stages_before));
+            (report, survey) = self.minimize_stage(stage, survey)?;
+            self.steps.end_stage(stage);
+            newton = Some(report.after(newton));
         }
-        let (report, survey) = self.minimize_stage(&method, last, dt, survey)?;
-        self.stages.finish(&mut self.next);
-        std::mem::swap(&mut self.state, &mut self.next);
-        for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
-            *before = spring.target;
-        }
+        self.steps.finish();
         self.evaluated = Some(survey);
-        let newton = report.after(stages_before);
-        Ok(StepReport { newton, min_det: survey.min_det, energies: self.energies_of(self.elastic.energy()) })
+        Ok(StepReport {
+            newton: newton.unwrap_or_else(|| NewtonReport::before(&self.settings.newton)),
+            min_det: survey.min_det,
+            energies: self.energies_of(self.elastic.energy()),
+        })
     }
 
-    /// Sets how far the pinned nodes move in a stage that takes them to this share of their way; true if any
-    /// does.
-    fn drive_pins(&mut self, share: f64) -> bool {
-        let mut is_moving = false;
-        for &node in self.pins.nodes() {
-            let (target, before) = (self.targets[node], self.state.x[node]);
-            let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
-            for c in 0..3 {
-                self.pins_move[node][c] = share * way[c] - (self.next.x[node][c] - before[c]);
-                is_moving |= self.pins_move[node][c] != 0.0;
-            }
-        }
-        is_moving
-    }
-
-    /// Moves `next` to the end of a stage.
+    /// Moves the nodes to the end of a stage.
     fn minimize_stage(
         &mut self,
-        method: &Method,
         stage: usize,
-        dt: f64,
         survey: Evaluated,
     ) -> Result<(NewtonReport, Evaluated), NewtonError> {
-        let share = method.share(stage);
-        self.stages.begin(method, stage, dt, &self.state);
-        self.stages.pull(&self.springs, &self.targets_before, share);
-        let pins_move = self.drive_pins(share);
-        let [tau, sigma] = self.stages.current.lengths;
+        let pins_move = self.steps.begin_stage(stage);
+        let may_drift = self.pinned().len() < 3;
+        let InStage { stage, springs, pins_move: displacements, end } = self.steps.in_stage();
+        let [tau, sigma] = stage.lengths();
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
-        let may_drift = is_static && self.pins.nodes().len() < 3;
-        let mut objective = Objective {
+        let objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
             quadratic: Quadratic {
                 masses: self.body.masses(),
-                stage: &self.stages.current,
+                stage,
                 damping: self.settings.damping.rate(),
                 regularisation,
-                guard: if may_drift { DRIFT * regularisation } else { 0.0 },
+                guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
                 forces: &self.forces,
             },
-            terms: Terms { springs: &self.stages.springs, others: &self.terms },
+            terms: Terms { springs, others: &self.terms },
             blocks: &mut self.blocks,
             viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
-        minimize(
-            &mut objective,
-            &mut self.workspace,
-            &mut self.next.x,
-            pins_move.then_some(&self.pins_move),
-            survey,
-            &self.settings.newton,
-            &self.settings.line_search,
-        )
+        let mut minimisation =
+            StageMinimisation::new(objective, &mut self.workspace, end, displacements, survey)?;
+        let report =
+            minimize(&mut minimisation, pins_move, &self.settings.newton, &self.settings.line_search)?;
+        Ok((report, minimisation.survey()))
     }
 }

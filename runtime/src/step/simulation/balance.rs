@@ -1,7 +1,7 @@
 //! Forces on all nodes, and the forces of pins that follow from their balance.
 
-use crate::step::integrator::State;
-use crate::step::newton::{NewtonError, demand_admissible};
+use crate::step::minimisation::demand_admissible;
+use crate::step::newton::NewtonError;
 
 use super::Simulation;
 
@@ -9,7 +9,7 @@ impl Simulation {
     /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
     /// energies must have been evaluated there last.
     fn balance(&mut self) -> Vec<[f64; 3]> {
-        let State { x, v, .. } = &self.state;
+        let (x, v) = (self.steps.positions(), self.steps.velocities());
         let mut total = vec![[0.0; 3]; x.len()];
         self.elastic.evaluate_gradients(&self.body);
         self.elastic.add_gradient(&self.body, &mut total);
@@ -37,12 +37,14 @@ impl Simulation {
     /// [`NewtonError::Inadmissible`] or [`NewtonError::ElementNotFinite`] for an element that has no forces at
     /// the current positions.
     pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
-        let survey = *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.state.x));
+        let survey = self.survey();
         demand_admissible(&survey, &self.body, &self.elastic)?;
         let forces = self.balance();
         let reaction = |&node: &usize| {
-            std::array::from_fn(|c| forces[node][c] + self.body.masses()[node] * self.state.a[node][c])
+            std::array::from_fn(|c| {
+                forces[node][c] + self.body.masses()[node] * self.accelerations()[node][c]
+            })
         };
-        Ok(self.pins.nodes().iter().map(reaction).collect())
+        Ok(self.pinned().iter().map(reaction).collect())
     }
 }

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use crate::batch::TileMaterial;
-use crate::step::integrator::Stages;
-use crate::step::newton::NewtonWorkspace;
+use crate::step::minimisation::NewtonWorkspace;
 use crate::step::solver::{Choice, SparseSolver};
 use crate::step::spring::Spring;
 use crate::step::term::Term;
@@ -20,9 +19,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(positions)?;
-        self.state.x.copy_from_slice(positions);
-        self.targets.copy_from_slice(positions);
+        self.steps.set_positions(positions)?;
         self.evaluated = None;
         Ok(())
     }
@@ -32,9 +29,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(velocities)?;
-        self.state.v.copy_from_slice(velocities);
-        Ok(())
+        self.steps.set_velocities(velocities)
     }
 
     /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
@@ -47,9 +42,7 @@ impl Simulation {
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
     /// node.
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(accelerations)?;
-        self.state.a.copy_from_slice(accelerations);
-        Ok(())
+        self.steps.set_accelerations(accelerations)
     }
 
     /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
@@ -60,19 +53,12 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
     pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
-        let nodes = self.state.x.len();
+        let nodes = self.body.rest().len();
         if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
             return Err(SetupError::NoSuchNode { node, nodes });
         }
         self.workspace.set_pins(&self.body, pins)?;
-        for node in 0..nodes {
-            let was_pinned = self.pins.nodes().binary_search(&node).is_ok();
-            if !(was_pinned && pins.nodes().binary_search(&node).is_ok()) {
-                self.targets[node] = self.state.x[node];
-                self.pins_move[node] = [0.0; 3];
-            }
-        }
-        self.pins = pins.clone();
+        self.steps.set_pinned(pins.nodes());
         Ok(())
     }
 
@@ -99,7 +85,7 @@ impl Simulation {
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
     pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
         if !forces.is_empty() {
-            self.check_nodal(forces)?;
+            self.steps.check_nodal(forces)?;
         }
         self.forces.clear();
         self.forces.extend_from_slice(forces);
@@ -145,14 +131,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
     pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pinned().binary_search(&node).is_err() {
-            return Err(SetupError::NotPinned { node });
-        }
-        if position.iter().any(|x| !x.is_finite()) {
-            return Err(SetupError::NotFinite { node });
-        }
-        self.targets[node] = position;
-        Ok(())
+        self.steps.prescribe(node, position)
     }
 
     /// Replaces all springs.
@@ -164,15 +143,7 @@ impl Simulation {
     /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
     /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
-        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
-            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
-            _ => spring.target,
-        };
-        self.targets_before = springs.iter().enumerate().map(before).collect();
-        self.springs.clear();
-        self.springs.extend_from_slice(springs);
-        Ok(())
+        self.steps.set_springs(springs)
     }
 
     /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set
@@ -185,11 +156,10 @@ impl Simulation {
         let (new, old) = (&settings.newton, &self.settings.newton);
         if new.linear != old.linear || self.workspace.has_own_solver() {
             let choice = Choice::Setting(new.linear);
-            self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice)?;
+            self.workspace =
+                NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
         }
-        if settings.integrator != self.settings.integrator {
-            self.stages = Stages::new(settings.integrator, self.state.x.len());
-        }
+        self.steps.set_integrator(settings.integrator);
         if settings.damping != self.settings.damping {
             self.viscosity = settings.damping.viscosity(&self.body);
         }
@@ -204,29 +174,7 @@ impl Simulation {
     /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
         let choice = Choice::Own(Arc::new(solver));
-        self.workspace = NewtonWorkspace::new(&self.body, &self.pins, choice)?;
-        Ok(())
-    }
-
-    fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        if vectors.len() != self.state.x.len() {
-            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
-        }
-        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            Some(node) => Err(SetupError::NotFinite { node }),
-            None => Ok(()),
-        }
-    }
-
-    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
-        let nodes = self.state.x.len();
-        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
-            return Err(SetupError::NoSuchNode { node, nodes });
-        }
-        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
-        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError::Spring { index });
-        }
+        self.workspace = NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
         Ok(())
     }
 }

@@ -1,7 +1,5 @@
 //! Energies of a body in motion.
 
-use crate::step::integrator::State;
-
 use super::Simulation;
 
 /// Energies of a body, J.
@@ -35,12 +33,12 @@ impl Simulation {
     /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
     #[must_use]
     pub fn energies(&mut self) -> Energies {
-        let survey = *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, &self.state.x));
+        let survey = self.survey();
         self.energies_of(if survey.survey.is_clean() { self.elastic.energy() } else { f64::NAN })
     }
 
     pub(super) fn energies_of(&self, elastic: f64) -> Energies {
-        let State { x, v, .. } = &self.state;
+        let (x, v) = (self.positions(), self.velocities());
         let mut energies = Energies { elastic, ..Energies::default() };
         for (node, mass) in self.body.masses().iter().enumerate() {
             for c in 0..3 {
@@ -50,7 +48,7 @@ impl Simulation {
                 energies.forces -= self.forces.get(node).map_or(0.0, |force| force[c] * displacement);
             }
         }
-        energies.springs += self.springs.iter().map(|spring| spring.energy(x)).sum::<f64>();
+        energies.springs += self.springs().iter().map(|spring| spring.energy(x)).sum::<f64>();
         energies.terms += self.all_terms().energy_of_others(x);
         energies
     }

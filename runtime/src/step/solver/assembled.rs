@@ -3,6 +3,7 @@
 use faer::sparse::SparseColMatRef;
 
 use crate::point::Filter;
+use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
@@ -10,7 +11,7 @@ use crate::system::pattern::Pattern;
 use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::{Body, Pins};
 
-use super::interface::{Definiteness, Solution, SolveError, Solver};
+use super::interface::{SolveError, Solver};
 
 /// A solver that fills a matrix and hands it to a factorisation.
 #[derive(Clone)]

@@ -1,6 +1,7 @@
 //! Conjugate gradients on the assembled matrix.
 
 use crate::point::Filter;
+use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
@@ -9,7 +10,7 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
-use super::interface::{Definiteness, Solution, SolveError, Solver};
+use super::interface::{SolveError, Solver};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).

@@ -1,10 +1,11 @@
 //! Systems solved with the matrix as it is, by a factorisation or by a solver of a caller's own.
 
+use crate::step::newton::{Definiteness, Solution};
 use crate::system::LowerTriangle;
 use crate::system::linear::LinearError;
 
 use super::assembled::{Factorisation, Matrix};
-use super::interface::{Definiteness, Solution, SolveError};
+use super::interface::SolveError;
 use super::own::SparseSolver;
 
 /// The largest tolerance that a solver is asked for.

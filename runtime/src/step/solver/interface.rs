@@ -1,6 +1,7 @@
 //! The interface of the linear solvers: what Newton's method asks of each, and how each may answer.
 
 use crate::point::Filter;
+use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::Pins;
 use crate::system::element::Evaluated;
@@ -50,25 +51,6 @@ impl Clone for Box<dyn Solver> {
     fn clone(&self) -> Self {
         self.as_ref().boxed_clone()
     }
-}
-
-/// Whether a matrix has to be positive definite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Definiteness {
-    /// An indefinite matrix is left unsolved.
-    Required,
-    /// An indefinite matrix is made definite, or used as far as it goes.
-    Optional,
-}
-
-/// Outcome of a linear solve.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Solution {
-    /// The multiple of inertia that was added.
-    pub(crate) shift: f64,
-    pub(crate) iterations: usize,
-    /// Whether it was given up before its tolerance.
-    pub(crate) truncated: bool,
 }
 
 impl Solution {

@@ -1,0 +1,360 @@
+//! Newton's method on a body that is divided among ranks.
+//!
+//! The method is piola's ([`piola::step::divided::minimize`]): it sees this body as a [`Minimisation`] whose
+//! results are sums and extrema over the ranks, so that all ranks make the same decisions. A point that an
+//! element of any rank refuses is a step too long on every rank. PETSc's SNES is not used: it supports neither
+//! pins that move into the first system, nor a filter on demand, nor an end below the rounding error of the
+//! energy.
+//!
+//! The objective is that of a stage (see [`piola::step::divided::StagedSteps`]),
+//!
+//! ```text
+//! E(x) = ½‖x − s − τ w‖²_M / (τσ) + α/(2τ) ‖x − s‖²_M + Ψ(x) − Σ m g·x + Σ springs
+//! ```
+//!
+//! Positions of copies follow those of their owners without being sent: every rank moves them by the same
+//! arithmetic, along directions that are sent once in an iteration, while the elements inside are evaluated.
+
+use piola::point::Filter;
+use piola::step::divided::{Definiteness, Line, Linearised, Minimisation, Solution, Stage};
+use piola::step::{EnergyChange, NewtonError, Spring, Term};
+
+use crate::elastic::Elastic;
+use crate::error::Error;
+use crate::petsc::{Ending, GhostedVector, PetscError};
+use crate::share::Share;
+use crate::system::LinearSystem;
+use crate::team::Team;
+
+/// What does not change in a minimisation, on one rank.
+pub struct Objective<'a> {
+    /// All ranks.
+    pub team: &'a Team,
+    /// The nodes of this rank.
+    pub share: &'a Share,
+    /// The elements of this rank.
+    pub elastic: &'a mut Elastic,
+    /// Sends copies and sums.
+    pub exchange: &'a mut GhostedVector,
+    /// Mass of each owned node, kg.
+    pub masses: &'a [f64],
+    /// The stage of the step.
+    pub stage: &'a Stage,
+    /// α of damping proportional to mass, 1/s.
+    pub damping: f64,
+    /// Gravity, m/s².
+    pub gravity: [f64; 3],
+    /// Springs at owned nodes.
+    pub springs: &'a Vec<Spring>,
+    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
+    pub regularisation: f64,
+    /// Diagonal that is always added for each mass to the second derivatives, 1/s².
+    pub guard: f64,
+}
+
+impl Objective<'_> {
+    /// Second derivative of inertia and damping in each coordinate of a node.
+    fn diagonal(&self, node: usize) -> f64 {
+        let [tau, sigma] = self.stage.lengths();
+        self.masses[node] * (1.0 / sigma + self.damping) / tau
+    }
+
+    /// Stiffness of the springs at each owned node, N/m.
+    fn spring_stiffness(&self) -> Vec<f64> {
+        let mut stiffness = vec![0.0; self.share.owned];
+        for spring in self.springs {
+            for (node, weight) in spring.anchor.nodes.iter().zip(spring.anchor.weights) {
+                if weight != 0.0 {
+                    stiffness[*node] += spring.stiffness * weight * weight;
+                }
+            }
+        }
+        stiffness
+    }
+
+    /// Evaluates the energies of all elements; the tag of an element of any rank without one.
+    fn evaluate(&mut self, x: &[[f64; 3]]) -> Option<usize> {
+        self.elastic.evaluate_inner(x);
+        self.elastic.evaluate_border(x);
+        self.refused()
+    }
+
+    /// The smallest tag of an element of any rank that lacks what was evaluated last.
+    fn refused(&self) -> Option<usize> {
+        let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
+        tag.is_finite().then_some(tag as usize)
+    }
+
+    /// Adds the gradient of all but deformation at the owned nodes, N.
+    fn add_quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        for (node, total) in gradient.iter_mut().enumerate() {
+            let [v, a] = self.stage.motion(node, x[node]);
+            for c in 0..3 {
+                total[c] += self.masses[node] * (a[c] + self.damping * v[c] - self.gravity[c]);
+            }
+        }
+    }
+
+    /// Replaces `gradient`, N, of the owned nodes, where the energies were evaluated last.
+    fn gradient(&mut self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) -> Result<(), PetscError> {
+        self.elastic.gradient(self.exchange, gradient)?;
+        self.springs.add_gradient(x, gradient);
+        self.add_quadratic_gradient(x, gradient);
+        Ok(())
+    }
+
+    /// Sum over all ranks of products of the free nodes.
+    fn product(&self, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+        let pairs = a[..self.share.free].iter().zip(b);
+        let own: f64 = pairs.map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum();
+        self.team.sum([own])[0]
+    }
+}
+
+/// Limits of the linear solver.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Share of the right side to which the first system is solved, and later ones at most.
+    pub tolerance: f64,
+    /// Number of iterations after which to give up.
+    pub max_iterations: usize,
+}
+
+/// The minimisation of a stage of a step, on one rank.
+pub struct StageMinimisation<'a> {
+    objective: Objective<'a>,
+    system: &'a mut LinearSystem,
+    limits: Limits,
+    /// Positions of all nodes of the rank, m.
+    x: &'a mut [[f64; 3]],
+    /// Displacement of each pinned node, m; zero for others.
+    pins_move: &'a [[f64; 3]],
+    /// Gradient at the owned nodes, N.
+    gradient: Vec<[f64; 3]>,
+    /// Direction of all nodes of the rank, m.
+    direction: Vec<[f64; 3]>,
+    trial: Vec<[f64; 3]>,
+    /// True while copies of the direction are under way.
+    is_sending: bool,
+    spring_stiffness: Vec<f64>,
+    /// Slope and curvature along the direction of all but deformation and springs.
+    quadratic: [f64; 2],
+    /// Number of iterations of the linear solver in each system.
+    systems: Vec<usize>,
+}
+
+impl<'a> StageMinimisation<'a> {
+    /// Begins at `x`, m, the positions of the nodes of the rank.
+    ///
+    /// # Errors
+    /// [`Error::Inadmissible`], which all ranks have.
+    pub fn new(
+        mut objective: Objective<'a>,
+        system: &'a mut LinearSystem,
+        limits: Limits,
+        x: &'a mut [[f64; 3]],
+        pins_move: &'a [[f64; 3]],
+    ) -> Result<Self, Error> {
+        system.begin();
+        if let Some(element) = objective.evaluate(x) {
+            return Err(Error::Inadmissible { element });
+        }
+        Ok(Self {
+            system,
+            limits,
+            gradient: vec![[0.0; 3]; objective.share.owned],
+            direction: vec![[0.0; 3]; x.len()],
+            trial: vec![[0.0; 3]; x.len()],
+            is_sending: false,
+            spring_stiffness: objective.spring_stiffness(),
+            quadratic: [0.0; 2],
+            systems: Vec::new(),
+            objective,
+            x,
+            pins_move,
+        })
+    }
+
+    /// Number of iterations of the linear solver in each system, including failed attempts.
+    #[must_use]
+    pub fn systems(self) -> Vec<usize> {
+        self.systems
+    }
+
+    fn end_copies(&mut self) -> Result<(), PetscError> {
+        if std::mem::take(&mut self.is_sending) {
+            self.objective.exchange.end_copies(&mut self.direction[self.objective.share.owned..])?;
+        }
+        Ok(())
+    }
+
+    fn move_trial(&mut self, step: f64, nodes: std::ops::Range<usize>) {
+        for node in nodes {
+            for c in 0..3 {
+                self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
+            }
+        }
+    }
+}
+
+impl Line for StageMinimisation<'_> {
+    type Error = Error;
+
+    /// Elements inside are evaluated while copies of the direction arrive.
+    fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Error> {
+        let (owned, nodes) = (self.objective.share.owned, self.x.len());
+        self.move_trial(step, 0..owned);
+        self.objective.elastic.evaluate_inner(&self.trial);
+        self.end_copies()?;
+        self.move_trial(step, owned..nodes);
+        self.objective.elastic.evaluate_border(&self.trial);
+
+        let Objective { team, elastic, springs, .. } = &self.objective;
+        let is_refused = elastic.refused().is_some();
+        let of_elements = elastic.change();
+        let of_springs = springs.change(self.x, &self.trial).unwrap_or_default();
+        let [difference, noise, refused] = team.sum([
+            if is_refused { 0.0 } else { of_elements.difference + of_springs.difference },
+            if is_refused { 0.0 } else { of_elements.noise + of_springs.noise },
+            f64::from(u8::from(is_refused)),
+        ]);
+        if refused > 0.0 {
+            return Ok(None);
+        }
+        let [slope, curvature] = self.quadratic;
+        let (linear, quadratic) = (step * slope, 0.5 * step * step * curvature);
+        Ok(Some(EnergyChange {
+            difference: linear + quadratic + difference,
+            // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
+            noise: 2.0 * f64::EPSILON * (linear.abs() + quadratic) + noise,
+        }))
+    }
+
+    fn slope(&mut self) -> Result<f64, Error> {
+        self.objective.gradient(&self.trial, &mut self.gradient)?;
+        Ok(self.descent())
+    }
+}
+
+impl Minimisation for StageMinimisation<'_> {
+    fn gradient(&mut self) -> Result<f64, Error> {
+        self.objective.gradient(self.x, &mut self.gradient)?;
+        Ok(self.objective.product(&self.gradient, &self.gradient).sqrt())
+    }
+
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, Error> {
+        let Self { objective, gradient, x, .. } = self;
+        objective.elastic.linearise(filter, objective.exchange, gradient)?;
+        if let Some(element) = objective.refused() {
+            return Err(Error::Inadmissible { element });
+        }
+        objective.springs.add_gradient(x, gradient);
+        objective.add_quadratic_gradient(x, gradient);
+        if pins_move {
+            objective.elastic.add_product(objective.exchange, self.pins_move, gradient)?;
+        }
+        Ok(Linearised {
+            residual: objective.product(gradient, gradient).sqrt(),
+            filtered: objective.team.count(objective.elastic.filtered()),
+            bounded: objective.team.count(objective.elastic.bounded()),
+        })
+    }
+
+    /// Begins to send the direction.
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Error> {
+        let Self { objective, system, direction, gradient, spring_stiffness, systems, .. } = self;
+        let must_be_definite = definiteness == Definiteness::Required;
+        let tolerance = tolerance.min(self.limits.tolerance);
+        let mut solution = Solution::default();
+        loop {
+            let diagonal = |node: usize| {
+                let added = objective.guard + solution.shift * objective.regularisation;
+                objective.diagonal(node) + objective.masses[node] * added + spring_stiffness[node]
+            };
+            system.assemble(objective.share, objective.elastic, diagonal, self.x)?;
+            let owned = &mut direction[..objective.share.owned];
+            let (ending, iterations) = system.solve(
+                objective.team,
+                gradient,
+                owned,
+                tolerance,
+                self.limits.max_iterations,
+                !must_be_definite,
+            )?;
+            systems.push(iterations);
+            solution.iterations += iterations;
+            let slope = if ending == Ending::Failed { f64::NAN } else { objective.product(gradient, owned) };
+            let descends = slope < 0.0;
+            if matches!(ending, Ending::Converged | Ending::GivenUp) && descends {
+                solution.truncated = ending == Ending::GivenUp;
+                break;
+            }
+            if must_be_definite {
+                return Ok(None);
+            }
+            // What conjugate gradients have found before they met a direction of negative curvature descends.
+            if ending == Ending::Indefinite && descends {
+                solution.truncated = true;
+                break;
+            }
+            solution.shift = if solution.shift == 0.0 { 1.0 } else { 10.0 * solution.shift };
+            if solution.shift > 1e12 {
+                return Err(Error::NotPositive { shift: 1e12 });
+            }
+        }
+        objective.exchange.begin_copies(&direction[..objective.share.owned])?;
+        self.is_sending = true;
+        Ok(Some(solution))
+    }
+
+    fn move_pins(&mut self) -> Result<(), Error> {
+        self.end_copies()?;
+        for (x, d) in self.x.as_flattened_mut().iter_mut().zip(self.pins_move.as_flattened()) {
+            *x += d;
+        }
+        match self.objective.evaluate(self.x) {
+            Some(element) => Err(NewtonError::PinsMoveTooFar { element }.into()),
+            None => Ok(()),
+        }
+    }
+
+    fn descent(&self) -> f64 {
+        self.objective.product(&self.gradient, &self.direction)
+    }
+
+    fn set_base(&mut self) {
+        self.objective.elastic.set_base();
+        let Objective { share, team, .. } = self.objective;
+        let mut gradient = vec![[0.0; 3]; share.owned];
+        self.objective.add_quadratic_gradient(self.x, &mut gradient);
+        let mut own = [0.0; 2];
+        for node in 0..share.free {
+            let d = self.direction[node];
+            for c in 0..3 {
+                own[0] += gradient[node][c] * d[c];
+                own[1] += self.objective.diagonal(node) * d[c] * d[c];
+            }
+        }
+        self.quadratic = team.sum(own);
+    }
+
+    fn accept(&mut self) {
+        self.x.copy_from_slice(&self.trial);
+    }
+
+    fn reject(&mut self) -> f64 {
+        self.objective.evaluate(self.x);
+        let of_springs = self.objective.springs.change(self.x, self.x).unwrap_or_default();
+        self.objective.team.sum([self.objective.elastic.change().noise + of_springs.noise])[0]
+    }
+
+    fn displacement(&self) -> f64 {
+        let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let owned = &self.direction[..self.objective.share.owned];
+        self.objective.team.max(owned.iter().map(square).fold(0.0, f64::max).sqrt())
+    }
+
+    fn error_scale(&self) -> f64 {
+        self.objective.team.max(self.objective.stage.error_scale(self.x))
+    }
+}
