@@ -30,4 +30,6 @@ pub(crate) use complement::scaled_complement;
 pub use lanes2::Lanes2;
 pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};
+#[doc(hidden)] // how the interpreter is compiled once for each format
+pub use vector::ByFormat;
 pub use vector::{Lanes, Scalar};

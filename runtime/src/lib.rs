@@ -48,7 +48,7 @@
 //! * [`step`]: steps of time by Newton's method, implicit Euler and integrators of higher order (feature
 //!   `bodies`);
 //! * `interpreter`: materials whose energy is known at run time only, as `piola-declare` makes them (feature
-//!   `batch`).
+//!   `interpreter`).
 //!
 //! Without features, which is the default, piola depends on no crate but its macro's, and builds in seconds:
 //! enough to declare materials, test them and evaluate them at points. `batch` adds rayon; `f32` adds batches
@@ -85,6 +85,8 @@ pub mod convert;
 mod dynamic;
 #[cfg(test)]
 mod hand_written;
+// Its kernels are not compiled a second time for the unit tests, none of which needs them.
+#[cfg(all(feature = "interpreter", not(test)))]
 pub mod interpreter;
 pub mod lanes;
 pub mod material;

@@ -84,8 +84,19 @@ pub(super) fn compute<R: Real, const G: usize>(
         };
     }
     /// An operation of arithmetic: an operand that is constant is read once, and a result that is constant
-    /// computed once.
+    /// computed once. With four operands, constants are read for each group: sixteen loops would take long to
+    /// compile.
     macro_rules! arithmetic {
+        ($to:expr, [$x:ident: $a:expr, $y:ident: $b:expr, $z:ident: $c:expr, $w:ident: $d:expr] $value:expr) => {{
+            let (to, $x, $y, $z, $w) =
+                (file.number($to), file.number($a), file.number($b), file.number($c), file.number($d));
+            for group in 0..if to.is_constant() { 1 } else { G } {
+                to.set(group, {
+                    let ($x, $y, $z, $w) = ($x.get(group), $y.get(group), $z.get(group), $w.get(group));
+                    $value
+                });
+            }
+        }};
         ($to:expr, [$($x:ident: $register:expr),+] $value:expr) => {{
             let to = file.number($to);
             $(let $x = file.number($register);)+

@@ -9,7 +9,7 @@ use super::domain::VolumeBound;
 use super::parameters::Context;
 use super::program::{Loop, Operation, Program};
 use super::registers::{Files, Registers};
-use crate::lanes::{Backend, Kernel, Lanes, Real, Scalar};
+use crate::lanes::{Backend, ByFormat, Kernel, Lanes, Real, Scalar};
 
 /// Executes a program for one point, or one register of points.
 ///
@@ -45,14 +45,39 @@ pub(super) struct Request<'a, E> {
 /// Executes a program for a tile of points. Gives the points at which its bounds are positive and whose
 /// volume is inside the domain, as bits.
 ///
-/// One kernel for all programs: what differs between them is data.
+/// One kernel for all programs, in each format: what differs between them is data.
 pub(super) fn execute_tile<E: Scalar>(
     backend: Backend,
     program: &Program,
     context: Context<'_>,
-    request: Request<'_, E>,
+    Request { count, stride, arguments, results, unread, volume }: Request<'_, E>,
 ) -> u64 {
-    backend.run(Tile { program, context, request })
+    match E::by_format(arguments, results) {
+        ByFormat::F64(arguments, results) => {
+            let request = Request { count, stride, arguments, results, unread, volume };
+            execute_in_f64(backend, Tile { program, context, request })
+        }
+        #[cfg(feature = "f32")]
+        ByFormat::F32(arguments, results) => {
+            let request = Request { count, stride, arguments, results, unread, volume };
+            execute_in_f32(backend, Tile { program, context, request })
+        }
+        // There are no batches in `f32`.
+        #[cfg(not(feature = "f32"))]
+        ByFormat::F32(..) => 0,
+    }
+}
+
+// Not generic: compiled in this crate and not in each that has a material of this kind.
+#[inline(never)]
+fn execute_in_f64(backend: Backend, tile: Tile<'_, '_, f64>) -> u64 {
+    backend.run(tile)
+}
+
+#[cfg(feature = "f32")]
+#[inline(never)]
+fn execute_in_f32(backend: Backend, tile: Tile<'_, '_, f32>) -> u64 {
+    backend.run(tile)
 }
 
 /// [`execute_tile`] on the lanes of a back end.

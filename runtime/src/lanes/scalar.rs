@@ -3,7 +3,7 @@
 use super::elementary::elementary_functions;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
-use super::vector::{InstructionSet, Lanes, Scalar};
+use super::vector::{ByFormat, InstructionSet, Lanes, Scalar};
 
 impl Mask for bool {
     #[inline(always)]
@@ -24,6 +24,10 @@ macro_rules! scalar {
         impl Scalar for $Number {
             const LINE: usize = 64 / size_of::<$Number>();
             type In<I: InstructionSet> = I::$Lanes;
+
+            fn by_format<'a>(from: &'a [Self], to: &'a mut [Self]) -> ByFormat<'a> {
+                ByFormat::$Lanes(from, to)
+            }
         }
 
         impl Real for $Number {

@@ -107,6 +107,19 @@ pub trait Scalar:
     /// since it has no name for any `I`.
     #[doc(hidden)]
     type In<I: InstructionSet>: Lanes<Scalar = Self>;
+
+    /// Slices by their format, so that a kernel for each is compiled once, in this crate.
+    #[doc(hidden)]
+    fn by_format<'a>(from: &'a [Self], to: &'a mut [Self]) -> ByFormat<'a>;
+}
+
+/// Slices of one format.
+#[derive(Debug)]
+pub enum ByFormat<'a> {
+    /// In `f64`.
+    F64(&'a [f64], &'a mut [f64]),
+    /// In `f32`.
+    F32(&'a [f32], &'a mut [f32]),
 }
 
 /// A set of instructions, by its lanes for each number format.
