@@ -120,7 +120,7 @@ impl<E: Scalar> Tile<'_, '_, E> {
         let Self { program, mut context, request } = self;
         let Request { count, stride, arguments, results, unread, volume } = request;
         context.parameters.lanes = R::LANES;
-        let mut registers = Registers::<R>::take(program.sizes, G);
+        let mut registers = Registers::<R>::take_for(program, &context, G);
         let mut admitted = if volume.is_any() && program.bounds.is_empty() { u64::MAX } else { 0 };
         let mut start = 0;
         while start < count {

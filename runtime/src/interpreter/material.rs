@@ -128,13 +128,9 @@ impl Interpreted {
     #[doc(hidden)]
     #[must_use]
     pub fn compute(&self, program: &Program, arguments: &[f64], entry: usize) -> Vec<f64> {
+        let context = Context { material: None, entry, ..self.context() };
         let mut registers = Registers::take(program.sizes, 1);
-        execute_alone(
-            program,
-            Context { material: None, entry, ..self.context() },
-            arguments,
-            &mut registers,
-        );
+        execute_alone(program, context, arguments, &mut registers);
         let results = program.results.iter().map(|&register| registers.number(register)).collect();
         registers.give_back();
         results
@@ -182,8 +178,9 @@ impl Interpreted {
     }
 
     fn results<R: Real, const N: usize>(&self, program: &Program, arguments: &[R]) -> [R; N] {
-        let mut registers = Registers::take(program.sizes, 1);
-        execute_alone(program, self.context(), arguments, &mut registers);
+        let context = self.context();
+        let mut registers = Registers::take_for(program, &context, 1);
+        execute_alone(program, context, arguments, &mut registers);
         let results = std::array::from_fn(|k| registers.number(program.results[k]));
         registers.give_back();
         results
@@ -209,8 +206,9 @@ impl Interpreted {
         let mut mask = self.volume(is_by_invariants).holds(at);
         let context = self.context();
         let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
-            let mut registers = Registers::take(program.sizes, 1);
-            execute_alone(program, Context { entry, ..context }, &at, &mut registers);
+            let context = Context { entry, ..context };
+            let mut registers = Registers::take_for(program, &context, 1);
+            execute_alone(program, context, &at, &mut registers);
             for (k, &register) in program.results.iter().enumerate() {
                 mask = mask & holds(k, registers.number(register));
             }

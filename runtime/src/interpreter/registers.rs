@@ -20,8 +20,14 @@ pub(super) struct Registers<R: Real> {
     pairs: Vec<Pair<R>>,
 }
 
+impl<R: Real> Default for Registers<R> {
+    fn default() -> Self {
+        Self { numbers: Vec::new(), constants: 0, prepared: None, logarithms: Vec::new(), pairs: Vec::new() }
+    }
+}
+
 /// A material and a program of it, with all that decides on its constants and their places.
-#[derive(PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 struct Prepared {
     /// The number of the material, which holds the program.
     material: u64,
@@ -30,36 +36,78 @@ struct Prepared {
     groups: usize,
 }
 
+impl Prepared {
+    /// `None` if the constants differ between points, or belong to no material.
+    fn new(program: &Program, context: &Context<'_>, groups: usize) -> Option<Self> {
+        let &Context { parameters, entry, material, .. } = context;
+        let material = material.filter(|_| parameters.each.is_none())?;
+        Some(Self { material, program, entry, groups })
+    }
+}
+
+/// Number of sets of registers that a thread keeps for single points: for the programs of a few materials,
+/// so that their constants are computed once. Tiles share one, which stays in the innermost cache.
+const SETS: usize = 16;
+
+/// The sets of registers that a thread does not use at the moment, those used last at the end.
+struct Spare<R: Real>(Vec<Registers<R>>);
+
 thread_local! {
-    /// Registers that the thread has used, one set for each type of real number.
-    static USED: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+    /// [`Spare`] registers for each type of real number.
+    static SPARE: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+}
+
+impl<R: Real> Spare<R> {
+    fn with<T>(body: impl FnOnce(&mut Vec<Registers<R>>) -> T) -> T {
+        SPARE.with_borrow_mut(|all| {
+            let place = all.iter().position(|one| one.is::<Self>()).unwrap_or_else(|| {
+                all.push(Box::new(Self(Vec::new())));
+                all.len() - 1
+            });
+            match all[place].downcast_mut::<Self>() {
+                Some(spare) => body(&mut spare.0),
+                None => body(&mut Vec::new()),
+            }
+        })
+    }
 }
 
 impl<R: Real> Registers<R> {
     /// Registers of at least these sizes; nothing is allocated once a thread has had them.
     #[inline(never)]
-    pub(super) fn take(sizes: Sizes, groups: usize) -> Box<Self> {
-        let used = USED.with_borrow_mut(|all| {
-            let place = all.iter().position(|one| one.is::<Self>())?;
-            all.swap_remove(place).downcast::<Self>().ok()
+    pub(super) fn take(sizes: Sizes, groups: usize) -> Self {
+        Spare::with(Vec::pop).unwrap_or_default().with_room(sizes, groups)
+    }
+
+    /// Registers for a program, with its constants in them where a set of the thread has these.
+    #[inline(never)]
+    pub(super) fn take_for(program: &Program, context: &Context<'_>, groups: usize) -> Self {
+        let these = Prepared::new(program, context, groups);
+        let spare = Spare::with(|sets: &mut Vec<Self>| {
+            let is_ready = |one: &Self| these.is_some() && one.prepared == these;
+            match sets.iter().rposition(is_ready) {
+                Some(place) => Some(sets.remove(place)),
+                None if groups > 1 => sets.pop(),
+                None if sets.len() < SETS => None,
+                None => Some(sets.remove(0)),
+            }
         });
-        let mut registers = used.unwrap_or_else(|| {
-            let (numbers, logarithms, pairs) = (Vec::new(), Vec::new(), Vec::new());
-            Box::new(Self { numbers, constants: 0, prepared: None, logarithms, pairs })
-        });
-        registers.constants = sizes.constants;
+        spare.unwrap_or_default().with_room(program.sizes, groups)
+    }
+
+    fn with_room(mut self, sizes: Sizes, groups: usize) -> Self {
+        self.constants = sizes.constants;
         let one = R::splat(1.0);
-        let Self { numbers, logarithms, pairs, .. } = &mut *registers;
-        grow(numbers, sizes.numbers * groups, || one);
-        grow(logarithms, sizes.logarithms * groups, || one.logarithm());
-        grow(pairs, sizes.pairs * groups, || Pair::of(one, one));
-        registers
+        grow(&mut self.numbers, sizes.numbers * groups, || one);
+        grow(&mut self.logarithms, sizes.logarithms * groups, || one.logarithm());
+        grow(&mut self.pairs, sizes.pairs * groups, || Pair::of(one, one));
+        self
     }
 
     /// Keeps the registers for the next program of the thread.
     #[inline(never)]
-    pub(super) fn give_back(self: Box<Self>) {
-        USED.with_borrow_mut(|all| all.push(self));
+    pub(super) fn give_back(self) {
+        Spare::with(|sets| sets.push(self));
     }
 
     /// All registers for numbers, one after the other.
@@ -68,12 +116,10 @@ impl<R: Real> Registers<R> {
         &mut self.numbers
     }
 
-    /// Whether the constants of a program for so many groups are in their registers, which they are after it
-    /// has been executed.
+    /// Returns true if the constants of a program for this number of groups are in their registers, which
+    /// they are after it has been executed.
     pub(super) fn prepare(&mut self, program: &Program, context: &Context<'_>, groups: usize) -> bool {
-        let &Context { parameters, entry, material, .. } = context;
-        let material = material.filter(|_| parameters.each.is_none());
-        let these = material.map(|material| Prepared { material, program, entry, groups });
+        let these = Prepared::new(program, context, groups);
         let are_there = these.is_some() && self.prepared == these;
         self.prepared = these;
         are_there
