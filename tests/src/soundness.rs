@@ -1,7 +1,7 @@
 //! Checks of the status at any finite deformation gradient: results that mean nothing are flagged, and those
 //! that mean something are not.
 //!
-//! One half needs no oracle ([`check`], [`check_element`]): where a status is clean, ψ, P, dP/dF, forces and
+//! One half needs no oracle ([`check`], [`check_elements`]): where a status is clean, ψ, P, dP/dF, forces and
 //! stiffness are finite, and all evaluations of one deformation agree on whether it is refused. The other
 //! half compares `f32` with `f64` ([`check_single`]): what every deformation within rounding of F has
 //! comfortably inside the range of `f32` may not be flagged there, and must be right there.
@@ -10,8 +10,10 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
+use std::collections::BTreeMap;
 use std::fmt;
 
+use piola::StatusCell;
 use piola::batch::{Batch, TileMaterial};
 use piola::material::{Blocks, Response};
 use piola::point::{Filter, Matrix3, decompose};
@@ -172,33 +174,43 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
     H.symmetric_eigenvalues().min() >= -64.0 * R::UNIT_ROUNDOFF - 64.0 * underflow
 }
 
-/// Checks a batch of one tetrahedron with the corner shape at rest: where all counts of its surveys are zero,
-/// energy, stress, forces and stiffness are finite.
+/// Checks a batch of tetrahedra with the corner shape at rest: where the status of one is clean, its energy,
+/// stress, forces and stiffness are finite. Returns the first fault of each that has one, by its index.
 ///
-/// # Errors
-/// The first fault found.
-pub fn check_element(material: &dyn TileMaterial<f64>, F: &Matrix3<f64>) -> Result<(), Fault> {
+/// # Panics
+/// If the lengths are not those of the batch.
+#[must_use]
+pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> Vec<(usize, Fault)> {
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
-    const FITS: &str = "the lengths are those of one point";
-    let F = F.as_flattened();
-    // No filter acts on these.
-    let (mut energy, mut stress) = ([0.0], [0.0; 9]);
-    if Batch::new(material).energies(F, &mut energy).expect(FITS).is_clean() {
-        finite(Quantity::Energy, &energy)?;
-    }
-    if Batch::new(material).stresses(F, &mut stress).expect(FITS).is_clean() {
-        finite(Quantity::StressAlone, &stress)?;
-    }
-    for filter in FILTERS {
-        let batch = Batch::new(material).with_filter(filter);
-        let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 78]);
-        let survey = batch.packed_stiffnesses(F, &REST, &mut gradient, &mut stiffness).expect(FITS);
-        if survey.is_clean() {
-            finite(Quantity::Forces, &gradient)?;
-            finite(Quantity::Stiffness, &stiffness)?;
+    const FITS: &str = "the lengths are those of the points";
+    let points = F.len();
+    let (F, rest) = (F.as_flattened().as_flattened(), REST.repeat(points));
+    let statuses: Vec<StatusCell> = F.chunks(9).map(|_| StatusCell::default()).collect();
+    let mut faults = BTreeMap::new();
+    let mut check = |quantity: Quantity, results: &[f64]| {
+        for (point, entries) in results.chunks(results.len() / points).enumerate() {
+            if statuses[point].get().is_clean()
+                && let Err(fault) = finite(quantity, entries)
+            {
+                faults.entry(point).or_insert(fault);
+            }
         }
+    };
+    // No filter acts on these.
+    let batch = Batch::new(material).with_statuses(&statuses);
+    let (mut energies, mut stresses) = (vec![0.0; points], vec![0.0; 9 * points]);
+    batch.energies(F, &mut energies).expect(FITS);
+    check(Quantity::Energy, &energies);
+    batch.stresses(F, &mut stresses).expect(FITS);
+    check(Quantity::StressAlone, &stresses);
+    let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * points], vec![0.0; 78 * points]);
+    for filter in FILTERS {
+        let batch = Batch::new(material).with_statuses(&statuses).with_filter(filter);
+        batch.packed_stiffnesses(F, &rest, &mut gradients, &mut stiffnesses).expect(FITS);
+        check(Quantity::Forces, &gradients);
+        check(Quantity::Stiffness, &stiffnesses);
     }
-    Ok(())
+    faults.into_iter().collect()
 }
 
 /// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a

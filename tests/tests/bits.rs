@@ -20,11 +20,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use piola::Inversion;
 use piola::point::Matrix3;
 use piola::random::Random;
 use piola_tests::bits::Family;
-use piola_tests::energies::{ENERGIES, Format, Subject};
-use piola_tests::soundness::{Answer, Fault, check, check_element, check_single, check_single_accuracy};
+use piola_tests::energies::{self, ENERGIES, Format, Subject};
+use piola_tests::soundness::{Answer, Fault, check, check_elements, check_single, check_single_accuracy};
+use rayon::prelude::*;
 
 const PATTERNS: usize = 100_000;
 
@@ -58,14 +60,19 @@ fn every_entry<R: Judged>() {
     let start = Instant::now();
     let mut total = Tally::default();
     let mut report = String::new();
-    for (index, energy) in ENERGIES.iter().enumerate() {
+    let of_energy = |(index, energy): (usize, &energies::Judged)| {
         let inversions: Vec<_> = energy.inversions(0.1).collect();
-        for &inversion in &inversions {
+        let of_inversion = |&inversion: &Inversion| {
             let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
-            let tally = trial::<R>(&subject, seed(index, energy.name), patterns() / inversions.len());
+            (inversion, trial::<R>(&subject, seed(index, energy.name), patterns() / inversions.len()))
+        };
+        (energy.name, inversions.iter().map(of_inversion).collect::<Vec<_>>())
+    };
+    let tallies: Vec<_> = ENERGIES.par_iter().enumerate().map(of_energy).collect();
+    for (name, tallies) in tallies {
+        for (inversion, tally) in tallies {
             for (fault, (count, F)) in &tally.faults {
-                let _ =
-                    writeln!(report, "{count:7} × {} {} {inversion:?}: {fault}: {F}", energy.name, R::NAME);
+                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault}: {F}", R::NAME);
             }
             total.add(tally);
         }
@@ -91,15 +98,18 @@ fn every_entry<R: Judged>() {
 trait Judged: Format {
     /// `closely` asks for the judge that takes the longest, too.
     fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
+
+    /// Judges elements: the faults, each with its index.
+    fn judge_elements(subject: &Subject, F: &[Matrix3<Self>]) -> Vec<(usize, Fault)>;
 }
 
 impl Judged for f64 {
     fn judge(subject: &Subject, F: &Matrix3<Self>, _closely: bool) -> Result<Answer, Fault> {
-        let answer = check(Self::of(subject), F)?;
-        if !alone() {
-            check_element(&*subject.double, F)?;
-        }
-        Ok(answer)
+        check(Self::of(subject), F)
+    }
+
+    fn judge_elements(subject: &Subject, F: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
+        if alone() { Vec::new() } else { check_elements(&*subject.double, F) }
     }
 }
 
@@ -114,6 +124,10 @@ impl Judged for f32 {
             check_single_accuracy(subject, F)?;
         }
         Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
+    }
+
+    fn judge_elements(_: &Subject, _: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
+        Vec::new()
     }
 }
 
@@ -152,20 +166,31 @@ impl Tally {
     }
 }
 
+/// Patterns that are judged as elements together.
+const TOGETHER: usize = 64;
+
 /// One material at random patterns of bits.
 fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
     let mut random = Random::new(seed);
     let mut tally = Tally::default();
-    for pattern in 0..patterns {
-        let round = pattern / Family::ALL.len();
-        let F = Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
-        match judge(subject, &F, round.is_multiple_of(8)) {
-            Ok(answer) => tally.count(answer),
-            Err(fault) => {
-                tally.patterns += 1;
-                let first = || (0, format!("{:?}", simplest(subject, F, fault)));
-                tally.faults.entry(fault).or_insert_with(first).0 += 1;
+    let all: Vec<usize> = (0..patterns).collect();
+    for patterns in all.chunks(TOGETHER) {
+        let draw = |&pattern: &usize| Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
+        let together: Vec<Matrix3<R>> = patterns.iter().map(draw).collect();
+        let mut faults = judge_elements(subject, &together);
+        for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
+            let round = pattern / Family::ALL.len();
+            match judge(subject, F, round.is_multiple_of(8)) {
+                Ok(answer) => tally.count(answer),
+                Err(fault) => {
+                    tally.patterns += 1;
+                    faults.push((at, fault));
+                }
             }
+        }
+        for (at, fault) in faults {
+            let first = || (0, format!("{:?}", simplest(subject, together[at], fault)));
+            tally.faults.entry(fault).or_insert_with(first).0 += 1;
         }
     }
     tally
@@ -173,6 +198,20 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
 
 fn judge<R: Judged>(subject: &Subject, F: &Matrix3<R>, closely: bool) -> Result<Answer, Fault> {
     catch_unwind(AssertUnwindSafe(|| R::judge(subject, F, closely))).unwrap_or(Err(Fault::Panic))
+}
+
+/// The faults of elements, each with its index; those of a batch that panics are found one by one.
+fn judge_elements<R: Judged>(subject: &Subject, F: &[Matrix3<R>]) -> Vec<(usize, Fault)> {
+    match catch_unwind(AssertUnwindSafe(|| R::judge_elements(subject, F))) {
+        Ok(faults) => faults,
+        Err(_) if F.len() == 1 => vec![(0, Fault::Panic)],
+        Err(_) => {
+            let one = |at: usize| {
+                judge_elements(subject, &F[at..=at]).into_iter().map(move |(_, fault)| (at, fault))
+            };
+            (0..F.len()).flat_map(one).collect()
+        }
+    }
 }
 
 /// A deformation with the same fault and simpler entries, for whoever has to find out why.
@@ -186,7 +225,7 @@ fn simplest<R: Judged>(subject: &Subject, mut F: Matrix3<R>, fault: Fault) -> Ma
                 let mut trial = F;
                 trial[i][j] = R::splat(simpler);
                 let is_simpler = value != simpler && (simpler == 0.0 || value != 0.0 && value.abs() != 1.0);
-                if is_simpler && trial[i][j].is_finite() && judge(subject, &trial, true) == Err(fault) {
+                if is_simpler && trial[i][j].is_finite() && has_fault(subject, &trial, fault) {
                     F = trial;
                     break;
                 }
@@ -196,4 +235,8 @@ fn simplest<R: Judged>(subject: &Subject, mut F: Matrix3<R>, fault: Fault) -> Ma
             return F;
         }
     }
+}
+
+fn has_fault<R: Judged>(subject: &Subject, F: &Matrix3<R>, fault: Fault) -> bool {
+    judge(subject, F, true) == Err(fault) || judge_elements(subject, &[*F]).contains(&(0, fault))
 }
