@@ -2,9 +2,9 @@
 //!
 //! The method is piola's ([`piola::step::divided::minimize`]): it sees this body as a [`Minimisation`] whose
 //! results are sums and extrema over the ranks, so that all ranks make the same decisions. A point that an
-//! element of any rank refuses is a step too long on every rank. PETSc's SNES is not used: it supports neither
-//! pins that move into the first system, nor a filter on demand, nor an end below the rounding error of the
-//! energy.
+//! element of any rank refuses is a step too long on every rank. PETSc's SNES is not used: it supports
+//! neither pins that move into the first system, nor a filter on demand, nor an end below the rounding error
+//! of the energy.
 //!
 //! The objective is that of a stage (see [`piola::step::divided::StagedSteps`]),
 //!

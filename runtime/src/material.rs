@@ -256,6 +256,7 @@ impl Curvature {
 
     /// Whether nothing reads derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, since it is zero
     /// everywhere.
+    #[cfg(feature = "batch")]
     #[inline(always)]
     pub(crate) fn leaves_out(self, k: usize, has_second: bool) -> bool {
         let has_all = self.has_all(has_second);

@@ -31,7 +31,7 @@ pub trait Repeatable {
     /// State of the nodes, and what drives them.
     fn steps(&self) -> &StagedSteps;
 
-    /// The same, to be changed.
+    /// [`Repeatable::steps`], to be changed.
     fn steps_mut(&mut self) -> &mut StagedSteps;
 
     /// Makes a step of `dt`, s.
@@ -207,13 +207,4 @@ struct Attempt {
     /// Largest distance along an axis of a node from where the whole step takes it, m.
     distance: f64,
     first_half: State,
-}
-
-/// The point at a share of the way between two, and these themselves without rounding.
-pub(super) fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
-    match share {
-        0.0 => from,
-        1.0 => to,
-        _ => std::array::from_fn(|c| from[c] + share * (to[c] - from[c])),
-    }
 }

@@ -24,7 +24,6 @@
 //!
 //! \[Alexander77\] Alexander, *Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s*, 1977.
 
-use super::halving::on_the_way;
 use super::spring::Spring;
 
 /// Integrator of a [`Simulation`](super::Simulation).
@@ -230,6 +229,15 @@ impl Stages {
         for node in 0..next.x.len() {
             [next.v[node], next.a[node]] = self.current.motion(node, next.x[node]);
         }
+    }
+}
+
+/// The point at a share of the way between two, and these themselves without rounding.
+pub(super) fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    match share {
+        0.0 => from,
+        1.0 => to,
+        _ => std::array::from_fn(|c| from[c] + share * (to[c] - from[c])),
     }
 }
 

@@ -2,8 +2,7 @@
 //!
 //! This module knows no forces: stages couple no two nodes, so that each part of a body may have its own.
 
-use super::halving::on_the_way;
-use super::integrator::{Integrator, Method, Stage, Stages, State};
+use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
 use super::simulation::SetupError;
 use super::spring::Spring;
 
@@ -232,7 +231,7 @@ impl StagedSteps {
         &self.stages.current
     }
 
-    /// What the minimisation of the stage begun last takes, and the positions that it moves.
+    /// The stage begun last, as its minimisation takes it.
     pub fn in_stage(&mut self) -> InStage<'_> {
         let Stages { current: stage, springs, .. } = &self.stages;
         InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
