@@ -131,8 +131,8 @@ impl Energy {
         constructor.build(description, programs, values, inversion)
     }
 
-    /// The [`material`](Self::material) behind a pointer, for single points, batches and bodies in `f64`. The
-    /// interpreter is compiled for it in this crate; `Box::new` compiles it again in the caller's.
+    /// The [`material`](Self::material) behind a pointer, for single points, batches and bodies in `f64`. Its
+    /// generic code is compiled in this crate; `Box::new` compiles it again in the caller's.
     ///
     /// # Errors
     /// [`MaterialError`], those of [`Energy::material`].

@@ -310,7 +310,7 @@ fn motion(text: &str) -> Result<Move, String> {
     let (displacement, reached) = rest.split_once('@').ok_or(how)?;
     let displacement: [f64; 3] = numbers(displacement)?.try_into().map_err(|_| how)?;
     let reached: f64 = reached.parse().map_err(|_| how)?;
-    if reached > 0.0 && displacement.iter().all(|x| x.is_finite()) {
+    if reached > 0.0 && reached.is_finite() && displacement.iter().all(|x| x.is_finite()) {
         Ok(Move { nodes: nodes.to_owned(), displacement, reached })
     } else {
         Err(how.to_owned())

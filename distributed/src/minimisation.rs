@@ -284,7 +284,7 @@ impl Minimisation for StageMinimisation<'_> {
             systems.push(iterations);
             solution.iterations += iterations;
             let slope = if ending == Ending::Failed { f64::NAN } else { objective.product(gradient, owned) };
-            let descends = slope < 0.0;
+            let descends = slope < 0.0 && slope.is_finite();
             if matches!(ending, Ending::Converged | Ending::GivenUp) && descends {
                 solution.truncated = ending == Ending::GivenUp;
                 break;

@@ -70,7 +70,7 @@ impl Progress {
         for StageReport { newton, systems } in reports {
             self.newton_iterations += newton.iterations;
             self.systems += systems.len();
-            self.linear_iterations += newton.linear_iterations;
+            self.linear_iterations += systems.iter().sum::<usize>();
             self.relative_residual = relative_residual(newton);
         }
     }
@@ -130,7 +130,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
     let share = simulation.share();
     let copies = team.max((share.ids.len() - share.owned) as f64);
-    let total = report.linear_iterations;
+    let total: usize = systems.iter().sum();
     let mean = total as f64 / systems.len().max(1) as f64;
     Ok(format!(
         "| {} | {} | {} | {} | {total} | {mean:.1} | {} | {:.1e} | {:.2} | {:.2} | {memory:.0} | {copies:.0} |",

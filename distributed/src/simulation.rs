@@ -1,7 +1,7 @@
 //! A body that is divided among ranks, stepped in time.
 
 use piola::step::divided::{InStage, Pace, Repeatable, StagedSteps, advance_within, minimize};
-use piola::step::{Damping, LinearSolver, NewtonReport, SetupError, SimulationSettings, Spring};
+use piola::step::{Damping, LinearSolver, NewtonReport, SimulationSettings, Spring};
 
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
@@ -84,7 +84,8 @@ impl Simulation {
         let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
 
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
-        let steps = StagedSteps::new(settings.integrator, &start, &share.pinned());
+        let steps =
+            team.agree(StagedSteps::new(settings.integrator, &start, &share.pinned()).map_err(Error::from))?;
         Ok(Self {
             pins: team.count(share.owned - share.free),
             system: LinearSystem::new(team, &share, &elastic)?,
@@ -117,37 +118,42 @@ impl Simulation {
     /// end of the step before.
     ///
     /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`].
+    /// [`Error::OnRank`] unless there is one finite vector of each for each node.
     pub fn set_state(
         &mut self,
         positions: &[[f64; 3]],
         velocities: &[[f64; 3]],
         accelerations: Option<&[[f64; 3]]>,
-    ) -> Result<(), SetupError> {
-        self.steps.set_positions(positions)?;
-        self.steps.set_velocities(velocities)?;
-        accelerations.map_or(Ok(()), |accelerations| self.steps.set_accelerations(accelerations))
+    ) -> Result<(), Error> {
+        let steps = &mut self.steps;
+        let set =
+            steps.set_positions(positions).and_then(|()| steps.set_velocities(velocities)).and_then(|()| {
+                accelerations.map_or(Ok(()), |accelerations| steps.set_accelerations(accelerations))
+            });
+        self.team.agree(set.map_err(Error::from))
     }
 
     /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`
     /// leaves a node as it is.
     ///
     /// # Errors
-    /// [`SetupError::NotFinite`].
-    pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), SetupError> {
-        for node in self.steps.pinned().to_vec() {
-            place(node).map_or(Ok(()), |place| self.steps.prescribe(node, place))?;
-        }
-        Ok(())
+    /// [`Error::OnRank`] for a position that is not finite.
+    pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
+        let pinned = self.steps.pinned().to_vec();
+        let set = pinned
+            .into_iter()
+            .try_for_each(|node| place(node).map_or(Ok(()), |place| self.steps.prescribe(node, place)));
+        self.team.agree(set.map_err(Error::from))
     }
 
     /// Replaces the springs at owned nodes. A spring at the same index and anchor as one before moves evenly
     /// to its new target.
     ///
     /// # Errors
-    /// [`SetupError::Spring`], [`SetupError::NoSuchNode`].
-    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        self.steps.set_springs(springs)
+    /// [`Error::OnRank`] for a spring that is not finite, or names a node that does not exist.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), Error> {
+        let set = self.steps.set_springs(springs);
+        self.team.agree(set.map_err(Error::from))
     }
 
     /// Advances the state by `dt`, s; returns the reports of the stages.

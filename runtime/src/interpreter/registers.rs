@@ -87,7 +87,7 @@ impl<R: Real> Registers<R> {
             let is_ready = |one: &Self| these.is_some() && one.prepared == these;
             match sets.iter().rposition(is_ready) {
                 Some(place) => Some(sets.remove(place)),
-                None if groups > 1 => sets.pop(),
+                None if groups > 1 || these.is_none() => sets.pop(),
                 None if sets.len() < SETS => None,
                 None => Some(sets.remove(0)),
             }

@@ -84,16 +84,13 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
     pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
-        let nodes = body.rest().len();
-        if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
-            return Err(SetupError::NoSuchNode { node, nodes });
-        }
+        let steps = StagedSteps::new(settings.integrator, body.rest(), pins.nodes())?;
         check_settings(&settings)?;
         let choice = Choice::Setting(settings.newton.linear);
         let workspace = NewtonWorkspace::new(&body, pins, choice)?;
         Ok(Self {
             settings,
-            steps: StagedSteps::new(settings.integrator, body.rest(), pins.nodes()),
+            steps,
             terms: Vec::new(),
             blocks: NodeBlocks::default(),
             forces: Vec::new(),

@@ -25,7 +25,7 @@ use super::spring::Spring;
 ///
 /// // Free fall: M a = M g, whatever the mass.
 /// let (g, dt) = (-9.81, 0.1);
-/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[]);
+/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[])?;
 /// for stage in 0..steps.begin(dt) {
 ///     steps.begin_stage(stage);
 ///     let [tau, sigma] = steps.stage().lengths();
@@ -36,6 +36,7 @@ use super::spring::Spring;
 /// steps.finish();
 /// assert!((steps.positions()[0][1] - 0.5 * g * dt * dt).abs() < 1e-15);
 /// assert!((steps.velocities()[0][1] - g * dt).abs() < 1e-15);
+/// # Ok::<(), piola::step::SetupError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct StagedSteps {
@@ -56,23 +57,32 @@ pub struct StagedSteps {
 }
 
 impl StagedSteps {
-    /// Nodes at rest at these positions, m; `pinned` are ascending indices of nodes.
-    #[must_use]
-    pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Self {
+    /// Nodes at rest at these positions, m, some of them pinned.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`].
+    pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Result<Self, SetupError> {
+        let nodes = positions.len();
+        if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
+            return Err(SetupError::NoSuchNode { node, nodes });
+        }
+        let mut pinned = pinned.to_vec();
+        pinned.sort_unstable();
+        pinned.dedup();
         let state = State::at_rest(positions);
-        Self {
+        Ok(Self {
             integrator,
             method: integrator.method(),
             dt: 0.0,
             next: state.clone(),
-            stages: Stages::new(integrator, positions.len()),
-            pinned: pinned.to_vec(),
+            stages: Stages::new(integrator, nodes),
+            pinned,
             targets: positions.to_vec(),
-            pins_move: vec![[0.0; 3]; positions.len()],
+            pins_move: vec![[0.0; 3]; nodes],
             springs: Vec::new(),
             targets_before: Vec::new(),
             state,
-        }
+        })
     }
 
     pub(super) fn integrator(&self) -> Integrator {
@@ -329,7 +339,9 @@ mod tests {
 
     #[test]
     fn wrong_input_is_refused() {
-        let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[]);
+        let build = |pinned: &[usize]| StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], pinned);
+        assert_eq!(build(&[1]).unwrap_err(), SetupError::NoSuchNode { node: 1, nodes: 1 });
+        let mut steps = build(&[]).expect("no pins");
         let expected = Err(SetupError::Length { expected: 1, found: 2 });
         assert_eq!(steps.set_positions(&[[0.0; 3]; 2]), expected);
         assert_eq!(steps.set_accelerations(&[[0.0; 3]; 2]), expected);

@@ -80,10 +80,15 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut matrix);
         }
         let _ = response.difference_noise(&body);
-        let mut steps = StagedSteps::new(Integrator::Sdirk2, body.rest(), &[]);
-        let _ = steps.set_positions(&positions);
-        let _ = steps.set_velocities(&product);
-        let _ = steps.set_accelerations(&positions);
+        let pinned = [hostile.node(body.rest().len()), 1];
+        if let Ok(mut steps) = StagedSteps::new(Integrator::Sdirk2, body.rest(), &pinned) {
+            let _ = steps.set_positions(&positions);
+            let _ = steps.set_velocities(&product);
+            let _ = steps.set_accelerations(&positions);
+            let _ = steps.prescribe(1, positions[0]);
+            let _ = steps.begin(hostile.number());
+            let _ = steps.begin_stage(0);
+        }
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });
 }

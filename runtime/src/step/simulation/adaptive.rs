@@ -69,7 +69,7 @@ impl Simulation {
         }
         let newton = self.settings.newton;
         self.settings.newton.error_share = newton.error_share.max(ENOUGH);
-        let pace = halving::advance_within(self, duration, tolerance * duration);
+        let pace = halving::advance_within(&mut Course(self), duration, tolerance * duration);
         self.settings.newton = newton;
         let Pace { reports, taken, refused, unresolved, shortest, error } = pace?;
         let mut sum: Option<StepReport> = None;
@@ -82,24 +82,27 @@ impl Simulation {
     }
 }
 
-impl Repeatable for Simulation {
+/// A simulation whose steps are tried.
+struct Course<'a>(&'a mut Simulation);
+
+impl Repeatable for Course<'_> {
     type Report = StepReport;
     type Error = StepError;
 
     fn steps(&self) -> &StagedSteps {
-        &self.steps
+        &self.0.steps
     }
 
     fn steps_mut(&mut self) -> &mut StagedSteps {
-        &mut self.steps
+        &mut self.0.steps
     }
 
     fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        Simulation::step(self, dt)
+        self.0.step(dt)
     }
 
     fn forget(&mut self) {
-        self.evaluated = None;
+        self.0.evaluated = None;
     }
 }
 
