@@ -85,7 +85,7 @@ fn bodies() {
             let _ = steps.set_positions(&positions);
             let _ = steps.set_velocities(&product);
             let _ = steps.set_accelerations(&positions);
-            let _ = steps.prescribe(1, positions[0]);
+            let _ = steps.prescribe(1, hostile.point());
             let _ = steps.begin(hostile.number());
             let _ = steps.begin_stage(0);
         }
