@@ -178,8 +178,10 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
         let draw = |&pattern: &usize| Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
         let together: Vec<Matrix3<R>> = patterns.iter().map(draw).collect();
         let mut faults = judge_elements(subject, &together);
-        // A batch of few points has kernels of its own.
-        faults.extend(judge_elements(subject, &together[..1]));
+        // A batch of few points has kernels of its own; another place in turn, so that it meets all families.
+        let place = patterns[0] / TOGETHER % together.len();
+        let alone = judge_elements(subject, &together[place..=place]);
+        faults.extend(alone.into_iter().map(|(_, fault)| (place, fault)));
         for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
             let round = pattern / Family::ALL.len();
             match judge(subject, F, round.is_multiple_of(8)) {

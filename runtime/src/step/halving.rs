@@ -40,7 +40,7 @@ pub trait Repeatable {
     /// Of a step that fails, which is then tried again in halves.
     fn step(&mut self, dt: f64) -> Result<Self::Report, Self::Error>;
 
-    /// Discards what has been computed at the positions, which are others now.
+    /// Discards results computed at earlier positions.
     fn forget(&mut self) {}
 
     /// The largest of the distances, m, that machines have found, each for its nodes.

@@ -18,8 +18,8 @@ pub use settings::NewtonSettings;
 /// An objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
 /// trial x + step d of a line search.
 ///
-/// A [`Simulation`](crate::step::Simulation) implements it inside for one body; codes whose variables are
-/// divided among machines implement it themselves. Each number that a method returns must then be the same on
+/// [`Simulation`](crate::step::Simulation) has an implementation for one body. Codes whose variables are
+/// divided among machines implement it themselves: each number that a method returns must then be the same on
 /// all machines.
 pub trait Minimisation: Line {
     /// Evaluates g after the energies; returns its norm over the free variables, N.

@@ -130,7 +130,7 @@ impl StagedSteps {
     /// Replaces velocities, m/s.
     ///
     /// # Errors
-    /// As of [`StagedSteps::set_positions`].
+    /// The errors of [`StagedSteps::set_positions`].
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
         self.state.v.copy_from_slice(velocities);
@@ -140,7 +140,7 @@ impl StagedSteps {
     /// Replaces the accelerations at the end of the step before, m/s².
     ///
     /// # Errors
-    /// As of [`StagedSteps::set_positions`].
+    /// The errors of [`StagedSteps::set_positions`].
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(accelerations)?;
         self.state.a.copy_from_slice(accelerations);
