@@ -1,19 +1,19 @@
 //! The constructor of an energy: checks of the values of parameters, with the errors of a compiled one.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::{defined_at_rest, extends, stable_at_rest, stress_free_at_rest};
+use piola::__private::{
+    Values, check_parameters, defined_at_rest, extends, same_length, stable_at_rest, stress_free_at_rest,
+};
 use piola::interpreter::{Interpreted, ParameterValues, Program, Programs, Value};
-use piola::material::{Argument, Description, Form, MaterialError, Text};
+use piola::material::{Description, Form, MaterialError, Text};
 use piola::{Inversion, Spline, Univariate};
 use piola_codegen::model::Model;
 use piola_codegen::read::parse::{Declaration, Entries};
 
 use crate::condition::Condition;
 use crate::lower::lower;
-
-/// The largest exponent that is a parameter.
-const LARGEST_WHOLE: f64 = 64.0;
 
 /// Checks of the values of an energy's parameters.
 #[derive(Debug)]
@@ -91,38 +91,24 @@ impl Constructor {
         given: &[&[f64]],
         function: impl Fn(usize, &[f64]) -> Result<Spline, MaterialError>,
     ) -> Result<ParameterValues, MaterialError> {
-        let parameters = &description.parameters;
-        if given.len() != parameters.len() {
-            let names: Vec<_> = parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();
-            let expected = format!("{} parameters are expected: {}", names.len(), names.join(", "));
-            return Err(MaterialError::Shape { expected });
-        }
-        let mut lengths: Vec<Option<(usize, &Text)>> = vec![None; self.stated.len()];
+        let mut read = Values::new(given, Cow::Borrowed(&description.parameters))?;
+        let mut firsts: Vec<Option<(&Text, usize)>> = vec![None; self.stated.len()];
         let mut values = Vec::new();
-        for (k, (parameter, list)) in parameters.iter().zip(given).enumerate() {
-            let name = &parameter.name;
-            if matches!(parameter.form, Form::Points | Form::Function) {
-                values.push(Value::Function(function(k, list)?));
-                continue;
-            }
-            if !parameter.is_list() && list.len() != 1 {
-                return Err(MaterialError::Shape { expected: format!("`{name}` must be one number") });
-            }
-            if let Some(length) = self.lengths[k] {
-                let (first, first_name) = *lengths[length].get_or_insert((list.len(), name));
-                let wanted = self.stated[length].unwrap_or(first);
-                if wanted != list.len() {
-                    let expected = match self.are_arrays[length] {
-                        true => format!("`{name}` must have {wanted} entries"),
-                        false => format!(
-                            "`{name}` must have as many entries as `{first_name}`, {first}, not {}",
-                            list.len()
-                        ),
-                    };
-                    return Err(MaterialError::Shape { expected });
+        for (k, (parameter, list)) in description.parameters.iter().zip(given).enumerate() {
+            let value = match (parameter.form, self.lengths[k]) {
+                (Form::Points | Form::Function, _) => Value::Function(function(k, read.slice())?),
+                (_, None) => Value::Numbers(vec![read.number()?]),
+                (_, Some(length)) => {
+                    let (name, first) = *firsts[length].get_or_insert((&parameter.name, list.len()));
+                    if self.are_arrays[length] {
+                        read.entries(self.stated[length].unwrap_or(first))?;
+                    } else {
+                        same_length((&parameter.name, read.slice().len()), (name, first))?;
+                    }
+                    Value::Numbers(list.to_vec())
                 }
-            }
-            values.push(Value::Numbers(list.to_vec()));
+            };
+            values.push(value);
         }
         Ok(ParameterValues::new(values))
     }
@@ -135,22 +121,11 @@ impl Constructor {
         values: ParameterValues,
         inversion: Inversion,
     ) -> Result<Interpreted, MaterialError> {
-        for (parameter, value) in description.parameters.iter().zip(values.all()) {
-            let Value::Numbers(numbers) = value else { continue };
-            let argument = |index: usize, value: f64| match parameter.is_list() {
-                true => Argument::entry(parameter.name.clone(), index, value),
-                false => Argument::scalar(parameter.name.clone(), value),
-            };
-            for (index, &value) in numbers.iter().enumerate() {
-                let is_exponent = value.fract() == 0.0 && (0.0..=LARGEST_WHOLE).contains(&value);
-                if parameter.is_whole() && !is_exponent {
-                    return Err(MaterialError::NotWhole { given: argument(index, value) });
-                }
-                if !value.is_finite() {
-                    return Err(MaterialError::NotFinite { given: argument(index, value) });
-                }
-            }
-        }
+        let numbers = values.all().iter().map(|value| match value {
+            Value::Numbers(numbers) => &numbers[..],
+            Value::Function(_) => &[],
+        });
+        check_parameters(&description.parameters, numbers)?;
         for condition in &self.admissible {
             if let Some(given) = condition.violation(&values) {
                 return Err(MaterialError::Violated { condition: condition.text.clone(), given });

@@ -1,51 +1,40 @@
 //! Common parts of the constructors of declared materials: checks of parameters, and how they are read.
 
-use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli};
+use std::borrow::Cow;
 
-/// Checks that a parameter is a finite number.
-///
-/// # Errors
-/// [`MaterialError::NotFinite`].
-pub fn finite(parameter: &'static str, value: f64) -> Result<(), MaterialError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    Err(MaterialError::NotFinite { given: Argument::scalar(parameter, value) })
-}
-
-/// Checks that all entries of a list are finite numbers.
-///
-/// # Errors
-/// [`MaterialError::NotFinite`] with the first that is not.
-pub fn all_finite(parameter: &'static str, values: &[f64]) -> Result<(), MaterialError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(index) => {
-            Err(MaterialError::NotFinite { given: Argument::entry(parameter, index, values[index]) })
-        }
-    }
-}
+use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli, Parameter};
 
 /// The largest exponent that is a parameter: that of `.powi(…)` in a declaration.
 const LARGEST_WHOLE: u32 = 64;
 
-/// Checks that an exponent is not too large.
+/// Checks the numbers of a material's parameters, one slice for each, which is empty for a function.
 ///
 /// # Errors
-/// [`MaterialError::NotWhole`].
-pub fn whole(parameter: &'static str, value: u32) -> Result<(), MaterialError> {
-    whole_number(Argument::scalar(parameter, f64::from(value))).map(|_| ())
+/// As [`check_parameters`].
+pub fn check_numbers<M: Declared>(values: &[&[f64]]) -> Result<(), MaterialError> {
+    check_parameters(&M::DESCRIPTION.parameters, values.iter().copied())
 }
 
-/// Checks that no exponent of a list is too large.
+/// Checks that numbers are finite and, where they are exponents, whole and not too large.
 ///
 /// # Errors
-/// [`MaterialError::NotWhole`] with the first that is.
-pub fn all_whole(parameter: &'static str, values: &[u32]) -> Result<(), MaterialError> {
-    let mut values = values.iter().enumerate();
-    values.try_for_each(|(index, &value)| {
-        whole_number(Argument::entry(parameter, index, f64::from(value))).map(|_| ())
+/// [`MaterialError::NotFinite`], [`MaterialError::NotWhole`] with the first that is not.
+pub fn check_parameters<'a>(
+    parameters: &[Parameter],
+    values: impl Iterator<Item = &'a [f64]>,
+) -> Result<(), MaterialError> {
+    let numbers = parameters.iter().zip(values);
+    let mut numbers =
+        numbers.flat_map(|(parameter, list)| list.iter().enumerate().map(move |one| (parameter, one)));
+    numbers.try_for_each(|(parameter, (index, &value))| match parameter.is_whole() {
+        true => whole_number(parameter, index, value).map(|_| ()),
+        false if value.is_finite() => Ok(()),
+        false => Err(MaterialError::NotFinite { given: argument(parameter, index, value) }),
     })
+}
+
+fn argument(parameter: &Parameter, index: usize, value: f64) -> Argument {
+    Argument { parameter: parameter.name.clone(), index: parameter.is_list().then_some(index), value }
 }
 
 /// Checks that a list has as many entries as the first of those that are read with it, each given by its name
@@ -53,7 +42,7 @@ pub fn all_whole(parameter: &'static str, values: &[u32]) -> Result<(), Material
 ///
 /// # Errors
 /// [`MaterialError::Shape`].
-pub fn same_length(list: (&'static str, usize), first: (&'static str, usize)) -> Result<(), MaterialError> {
+pub fn same_length(list: (&str, usize), first: (&str, usize)) -> Result<(), MaterialError> {
     if list.1 == first.1 {
         return Ok(());
     }
@@ -179,24 +168,40 @@ pub fn stress_free_at_rest<M: Material>(material: M) -> Result<M, MaterialError>
 }
 
 /// Values of parameters, read one after the other in the order of the declaration.
-pub struct Values<'a>(std::iter::Zip<std::slice::Iter<'a, &'static str>, std::slice::Iter<'a, &'a [f64]>>);
+pub struct Values<'a> {
+    parameters: Cow<'a, [Parameter]>,
+    values: &'a [&'a [f64]],
+    /// How many have been read.
+    read: usize,
+}
 
 impl<'a> Values<'a> {
+    /// One slice for each parameter of a declared material.
+    ///
+    /// # Errors
+    /// As [`Values::new`].
+    pub fn of<M: Declared>(values: &'a [&'a [f64]]) -> Result<Self, MaterialError> {
+        Self::new(values, M::DESCRIPTION.parameters)
+    }
+
     /// One slice for each parameter.
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if there are more or fewer.
-    pub fn new(values: &'a [&'a [f64]], names: &'a [&'static str]) -> Result<Self, MaterialError> {
-        if values.len() == names.len() {
-            return Ok(Self(names.iter().zip(values)));
+    pub fn new(values: &'a [&'a [f64]], parameters: Cow<'a, [Parameter]>) -> Result<Self, MaterialError> {
+        if values.len() == parameters.len() {
+            return Ok(Self { parameters, values, read: 0 });
         }
-        let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        Err(MaterialError::Shape { expected: format!("{} parameters are expected: {listed}", names.len()) })
+        let listed = parameters.iter().map(|parameter| format!("`{}`", parameter.name));
+        let listed = listed.collect::<Vec<_>>().join(", ");
+        let expected = format!("{} parameters are expected: {listed}", parameters.len());
+        Err(MaterialError::Shape { expected })
     }
 
     /// The next parameter, however many numbers describe it.
     pub fn slice(&mut self) -> &'a [f64] {
-        self.0.next().map_or(&[], |(_, values)| values)
+        self.read += 1;
+        self.values.get(self.read - 1).copied().unwrap_or_default()
     }
 
     /// The next parameter, one number.
@@ -204,8 +209,28 @@ impl<'a> Values<'a> {
     /// # Errors
     /// [`MaterialError::Shape`].
     pub fn number(&mut self) -> Result<f64, MaterialError> {
-        let [number] = self.array(|name, _| format!("`{name}` must be one number"))?;
-        Ok(number)
+        match *self.slice() {
+            [number] => Ok(number),
+            _ => Err(self.shape("be one number")),
+        }
+    }
+
+    /// The next parameter, a list of so many numbers.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`].
+    pub fn entries(&mut self, length: usize) -> Result<&'a [f64], MaterialError> {
+        let entries = self.slice();
+        if entries.len() == length { Ok(entries) } else { Err(self.shape(&format!("have {length} entries"))) }
+    }
+
+    /// The next parameter, a list of N numbers.
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`].
+    pub fn list<const N: usize>(&mut self) -> Result<[f64; N], MaterialError> {
+        let entries = self.entries(N)?;
+        Ok(std::array::from_fn(|k| entries[k]))
     }
 
     /// The next parameter, one whole exponent.
@@ -213,9 +238,8 @@ impl<'a> Values<'a> {
     /// # Errors
     /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
     pub fn whole_number(&mut self) -> Result<u32, MaterialError> {
-        let name = self.name();
         let value = self.number()?;
-        whole_number(Argument::scalar(name, value))
+        whole_number(self.latest(), 0, value)
     }
 
     /// The next parameter, a list of N whole exponents.
@@ -223,11 +247,10 @@ impl<'a> Values<'a> {
     /// # Errors
     /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
     pub fn whole_list<const N: usize>(&mut self) -> Result<[u32; N], MaterialError> {
-        let name = self.name();
         let values = self.list::<N>()?;
         let mut list = [0; N];
         for (index, (entry, value)) in list.iter_mut().zip(values).enumerate() {
-            *entry = whole_number(Argument::entry(name, index, value))?;
+            *entry = whole_number(self.latest(), index, value)?;
         }
         Ok(list)
     }
@@ -237,38 +260,25 @@ impl<'a> Values<'a> {
     /// # Errors
     /// [`MaterialError::NotWhole`].
     pub fn whole_numbers(&mut self) -> Result<Vec<u32>, MaterialError> {
-        let name = self.name();
         let values = self.slice().iter().enumerate();
-        values.map(|(index, &value)| whole_number(Argument::entry(name, index, value))).collect()
+        values.map(|(index, &value)| whole_number(self.latest(), index, value)).collect()
     }
 
-    /// The name of the next parameter.
-    fn name(&self) -> &'static str {
-        self.0.clone().next().map_or("", |(name, _)| *name)
+    /// The parameter that has been read last.
+    fn latest(&self) -> &Parameter {
+        &self.parameters[self.read - 1]
     }
 
-    /// The next parameter, a list of N numbers.
-    ///
-    /// # Errors
-    /// [`MaterialError::Shape`].
-    pub fn list<const N: usize>(&mut self) -> Result<[f64; N], MaterialError> {
-        self.array(|name, length| format!("`{name}` must have {length} entries"))
-    }
-
-    fn array<const N: usize>(
-        &mut self,
-        expected: impl Fn(&str, usize) -> String,
-    ) -> Result<[f64; N], MaterialError> {
-        let (name, values) = self.0.next().map_or(("", &[][..]), |(name, values)| (*name, *values));
-        <[f64; N]>::try_from(values).map_err(|_| MaterialError::Shape { expected: expected(name, N) })
+    /// The error of a parameter that has been read.
+    fn shape(&self, expected: &str) -> MaterialError {
+        MaterialError::Shape { expected: format!("`{}` must {expected}", self.latest().name) }
     }
 }
 
 /// A value as an exponent.
-fn whole_number(given: Argument) -> Result<u32, MaterialError> {
-    let value = given.value;
+fn whole_number(parameter: &Parameter, index: usize, value: f64) -> Result<u32, MaterialError> {
     if value.fract() == 0.0 && (0.0..=f64::from(LARGEST_WHOLE)).contains(&value) {
         return Ok(value as u32);
     }
-    Err(MaterialError::NotWhole { given })
+    Err(MaterialError::NotWhole { given: argument(parameter, index, value) })
 }

@@ -56,16 +56,20 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
         if lengths.is_empty() { "" } else { ", or the lists of one sum are not equally long" },
     );
     let new_doc = doc(&new_doc);
-    let numbers = declaration.parameters.iter().filter(|parameter| !parameter.is_function());
-    let finite = numbers.map(|parameter| {
-        let (name, text) = (&parameter.name, parameter.name.to_string());
-        match parameter.length() {
-            None if parameter.is_whole => quote!(__p::whole(#text, #name)?;),
-            Some(_) if parameter.is_whole => quote!(__p::all_whole(#text, &#name)?;),
-            None => quote!(__p::finite(#text, #name)?;),
-            Some(_) => quote!(__p::all_finite(#text, &#name)?;),
+    let numbers = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Kind::Number if parameter.is_whole => quote!(&[f64::from(#name)]),
+            Kind::Number => quote!(&[#name]),
+            Kind::List(_) if parameter.is_whole => {
+                quote!(&#name.iter().copied().map(f64::from).collect::<__p::Vec<_>>())
+            }
+            Kind::List(_) => quote!(&#name),
+            Kind::Function(_) => quote!(&[]),
         }
     });
+    let has_numbers = declaration.parameters.iter().any(|parameter| !parameter.is_function());
+    let finite = has_numbers.then(|| quote!(__p::check_numbers::<Self>(&[#(#numbers),*])?;));
     let admissible =
         options.admissible.iter().map(|condition| check(declaration, condition, &quote!(admissible)));
     let inversion = options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
@@ -89,7 +93,7 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
         #new_doc
         #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::MaterialError> {
             #(#lengths)*
-            #(#finite)*
+            #finite
             #(#admissible)*
             #inside
             #checked

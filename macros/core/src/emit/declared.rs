@@ -2,7 +2,7 @@
 //! its moduli.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
@@ -23,11 +23,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
         // An exponent has no unit, whatever its documentation leaves out.
         let unit = if parameter.is_whole { Some(Unit::Dimensionless) } else { parameter.unit() };
-        let unit = option(unit.map(|unit| match unit {
-            Unit::Pascal => quote!(__p::Unit::Pascal),
-            Unit::PerPascal => quote!(__p::Unit::PerPascal),
-            Unit::Dimensionless => quote!(__p::Unit::Dimensionless),
-        }));
+        let unit = option(unit.map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
         let form = match &parameter.kind {
             Kind::Number if parameter.is_whole => quote!(__p::Form::Exponent),
             Kind::List(_) if parameter.is_whole => quote!(__p::Form::Exponents),
@@ -49,7 +45,6 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     });
     let admissible = declaration.options.admissible.iter().map(|condition| text(condition_text(condition)));
 
-    let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
     let values =
         read(declaration, &|_, ty| quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?));
     let binding = (!declaration.parameters.is_empty()).then(|| quote!(let mut values =));
@@ -80,7 +75,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
                 values: &[&[f64]],
                 inversion: __p::Inversion,
             ) -> __p::Result<Self, __p::MaterialError> {
-                #binding __p::Values::new(values, &[#(#names),*])?;
+                #binding __p::Values::of::<Self>(values)?;
                 #material
             }
         }

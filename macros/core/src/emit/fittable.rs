@@ -84,12 +84,11 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
 
 /// The method that makes the material anew around functions with other values.
 fn with_values(declaration: &Declaration) -> TokenStream {
-    let names = declaration.parameters.iter().map(|parameter| parameter.name.to_string());
     let values =
         read(declaration, &|name, _| quote!(::piola::Univariate::with_values(&self.#name, values.slice())?));
     quote! {
         fn with_values(&self, values: &[&[f64]]) -> __p::Result<Self, __p::MaterialError> {
-            let mut values = __p::Values::new(values, &[#(#names),*])?;
+            let mut values = __p::Values::of::<Self>(values)?;
             Self::new(#(#values),*)
         }
     }
