@@ -1,5 +1,8 @@
 //! Conditions on parameters, evaluated as the Rust that they are.
 
+use std::fmt;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use piola::interpreter::{ParameterValues, Value};
 use piola::material::{Argument, Text};
 use piola_codegen::emit::condition_text;
@@ -8,43 +11,25 @@ use quote::ToTokens;
 use syn::{BinOp, Expr, Lit, UnOp};
 
 /// A comparison in parameters, such as `mu[p] * alpha[p] > 0.0`, which holds for every entry of its lists.
-#[derive(Debug)]
 pub(crate) struct Condition {
     /// The comparison as people write it.
     pub(crate) text: Text,
-    comparison: Comparison,
     sides: [Term; 2],
+    holds: fn(&f64, &f64) -> bool,
     /// A list by whose entries it is written, by its place in the declaration.
     list: Option<usize>,
     /// The parameters that it names: their names, places in the declaration, and whether they are lists.
     names: Vec<(Text, usize, bool)>,
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Comparison {
-    Greater,
-    Less,
-    AtLeast,
-    AtMost,
-    Different,
+impl fmt::Debug for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
 }
 
-/// A number that depends on parameters.
-#[derive(Debug)]
-enum Term {
-    Literal(f64),
-    /// A parameter, or the current entry of a list.
-    Parameter(usize),
-    Negative(Box<Term>),
-    Sum(Box<[Term; 2]>),
-    Difference(Box<[Term; 2]>),
-    Product(Box<[Term; 2]>),
-    Quotient(Box<[Term; 2]>),
-    Function(fn(f64) -> f64, Box<Term>),
-    Power(Box<[Term; 2]>),
-    Logarithm(Box<[Term; 2]>),
-    WholePower(Box<Term>, i32),
-}
+/// A number that depends on parameters, and on the current entry of those that are lists.
+type Term = Box<dyn Fn(&ParameterValues, usize) -> f64 + Send + Sync>;
 
 impl Condition {
     pub(crate) fn new(declaration: &Declaration, condition: &Expr) -> Self {
@@ -52,27 +37,27 @@ impl Condition {
             let name = name.to_string();
             declaration.parameters.iter().position(|parameter| parameter.name == name)
         };
-        let (comparison, sides) = match condition {
+        // The parser lets nothing but comparisons through; NaN holds in none.
+        let (holds, sides): (fn(&f64, &f64) -> bool, _) = match condition {
             Expr::Binary(binary) => {
-                let comparison = match binary.op {
-                    BinOp::Gt(_) => Comparison::Greater,
-                    BinOp::Lt(_) => Comparison::Less,
-                    BinOp::Ge(_) => Comparison::AtLeast,
-                    BinOp::Le(_) => Comparison::AtMost,
-                    _ => Comparison::Different,
+                let holds = match binary.op {
+                    BinOp::Gt(_) => f64::gt,
+                    BinOp::Lt(_) => f64::lt,
+                    BinOp::Ge(_) => f64::ge,
+                    BinOp::Le(_) => f64::le,
+                    _ => f64::ne,
                 };
-                (comparison, [&*binary.left, &*binary.right].map(|side| Term::of(side, &place)))
+                (holds, [&*binary.left, &*binary.right].map(|side| term(side, &place)))
             }
-            // The parser lets nothing but comparisons through; NaN holds in none.
-            _ => (Comparison::Greater, [f64::NAN; 2].map(Term::Literal)),
+            _ => (f64::gt, [literal(f64::NAN), literal(f64::NAN)]),
         };
         let named = identifiers(condition.to_token_stream());
         let parameters = declaration.parameters.iter().enumerate();
         let names = parameters.filter(|(_, parameter)| named.contains(&parameter.name));
         Self {
             text: condition_text(condition).into(),
-            comparison,
             sides,
+            holds,
             list: indexed_list(condition).and_then(|(list, _)| place(&list)),
             names: names
                 .map(|(k, parameter)| (parameter.name.to_string().into(), k, parameter.length().is_some()))
@@ -98,14 +83,8 @@ impl Condition {
     }
 
     fn holds(&self, values: &ParameterValues, entry: usize) -> bool {
-        let [left, right] = self.sides.each_ref().map(|side| side.value(values, entry));
-        match self.comparison {
-            Comparison::Greater => left > right,
-            Comparison::Less => left < right,
-            Comparison::AtLeast => left >= right,
-            Comparison::AtMost => left <= right,
-            Comparison::Different => left != right,
-        }
+        let [left, right] = self.sides.each_ref().map(|side| side(values, entry));
+        (self.holds)(&left, &right)
     }
 }
 
@@ -122,81 +101,56 @@ fn number(values: &ParameterValues, parameter: usize, entry: usize) -> f64 {
     entries.get(entry).or(entries.first()).copied().unwrap_or(f64::NAN)
 }
 
-impl Term {
-    fn of(expression: &Expr, place: &impl Fn(&dyn ToString) -> Option<usize>) -> Self {
-        let one = |expression: &Expr| Box::new(Self::of(expression, place));
-        let two = |a: &Expr, b: &Expr| Box::new([a, b].map(|side| Self::of(side, place)));
-        match expression {
-            Expr::Lit(literal) => Self::Literal(match &literal.lit {
-                Lit::Float(number) => number.base10_parse().unwrap_or(f64::NAN),
-                Lit::Int(number) => number.base10_parse().unwrap_or(f64::NAN),
-                _ => f64::NAN,
-            }),
-            Expr::Paren(inner) => Self::of(&inner.expr, place),
-            Expr::Group(inner) => Self::of(&inner.expr, place),
-            Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => Self::Negative(one(&unary.expr)),
-            Expr::Binary(binary) => {
-                let sides = two(&binary.left, &binary.right);
-                match binary.op {
-                    BinOp::Add(_) => Self::Sum(sides),
-                    BinOp::Sub(_) => Self::Difference(sides),
-                    BinOp::Mul(_) => Self::Product(sides),
-                    BinOp::Div(_) => Self::Quotient(sides),
-                    _ => Self::Literal(f64::NAN),
-                }
-            }
-            Expr::Index(index) => Self::of(&index.expr, place),
-            Expr::Path(path) => match path.path.get_ident().and_then(|name| place(name)) {
-                Some(k) => Self::Parameter(k),
-                None => Self::Literal(constant(&path.path)),
-            },
-            Expr::MethodCall(call) => {
-                let argument = call.args.first();
-                match (call.method.to_string().as_str(), argument) {
-                    ("powi", Some(exponent)) => {
-                        let exponent = Self::of(exponent, place).value(&ParameterValues::new(Vec::new()), 0);
-                        Self::WholePower(one(&call.receiver), exponent as i32)
-                    }
-                    ("powf", Some(exponent)) => Self::Power(two(&call.receiver, exponent)),
-                    ("log", Some(base)) => Self::Logarithm(two(&call.receiver, base)),
-                    (name, None) => match function(name) {
-                        Some(function) => Self::Function(function, one(&call.receiver)),
-                        None => Self::Literal(f64::NAN),
-                    },
-                    _ => Self::Literal(f64::NAN),
-                }
-            }
-            _ => Self::Literal(f64::NAN),
-        }
-    }
+fn literal(value: f64) -> Term {
+    Box::new(move |_, _| value)
+}
 
-    fn value(&self, values: &ParameterValues, entry: usize) -> f64 {
-        let both = |sides: &[Self; 2]| sides.each_ref().map(|side| side.value(values, entry));
-        match self {
-            Self::Literal(value) => *value,
-            Self::Parameter(k) => number(values, *k, entry),
-            Self::Negative(term) => -term.value(values, entry),
-            Self::Sum(sides) => both(sides).into_iter().sum(),
-            Self::Product(sides) => both(sides).into_iter().product(),
-            Self::Difference(sides) => {
-                let [a, b] = both(sides);
-                a - b
-            }
-            Self::Quotient(sides) => {
-                let [a, b] = both(sides);
-                a / b
-            }
-            Self::Power(sides) => {
-                let [a, b] = both(sides);
-                a.powf(b)
-            }
-            Self::Logarithm(sides) => {
-                let [a, base] = both(sides);
-                a.log(base)
-            }
-            Self::Function(function, term) => function(term.value(values, entry)),
-            Self::WholePower(term, exponent) => term.value(values, entry).powi(*exponent),
+/// An expression as Rust evaluates it, with parameters by their places; NaN where the parser lets none through.
+fn term(expression: &Expr, place: &impl Fn(&dyn ToString) -> Option<usize>) -> Term {
+    let one = |expression: &Expr, function: fn(f64) -> f64| -> Term {
+        let term = term(expression, place);
+        Box::new(move |values, entry| function(term(values, entry)))
+    };
+    let two = |a: &Expr, b: &Expr, function: fn(f64, f64) -> f64| -> Term {
+        let [a, b] = [a, b].map(|side| term(side, place));
+        Box::new(move |values, entry| function(a(values, entry), b(values, entry)))
+    };
+    match expression {
+        Expr::Lit(number) => literal(match &number.lit {
+            Lit::Float(number) => number.base10_parse().unwrap_or(f64::NAN),
+            Lit::Int(number) => number.base10_parse().unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        }),
+        Expr::Paren(inner) => term(&inner.expr, place),
+        Expr::Group(inner) => term(&inner.expr, place),
+        Expr::Index(index) => term(&index.expr, place),
+        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => one(&unary.expr, f64::neg),
+        Expr::Binary(binary) => {
+            let function = match binary.op {
+                BinOp::Add(_) => f64::add,
+                BinOp::Sub(_) => f64::sub,
+                BinOp::Mul(_) => f64::mul,
+                BinOp::Div(_) => f64::div,
+                _ => |_, _| f64::NAN,
+            };
+            two(&binary.left, &binary.right, function)
         }
+        Expr::Path(path) => match path.path.get_ident().and_then(|name| place(name)) {
+            Some(k) => Box::new(move |values, entry| number(values, k, entry)),
+            None => literal(constant(&path.path)),
+        },
+        Expr::MethodCall(call) => match (call.method.to_string().as_str(), call.args.first()) {
+            ("powi", Some(exponent)) => {
+                let base = term(&call.receiver, place);
+                let exponent = term(exponent, place)(&ParameterValues::new(Vec::new()), 0) as i32;
+                Box::new(move |values, entry| base(values, entry).powi(exponent))
+            }
+            ("powf", Some(exponent)) => two(&call.receiver, exponent, f64::powf),
+            ("log", Some(base)) => two(&call.receiver, base, f64::log),
+            (name, None) => one(&call.receiver, function(name).unwrap_or(|_| f64::NAN)),
+            _ => literal(f64::NAN),
+        },
+        _ => literal(f64::NAN),
     }
 }
 
