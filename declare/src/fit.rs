@@ -4,7 +4,7 @@ use piola::__private::by_values;
 use piola::Univariate;
 use piola::interpreter::{Interpreted, ParameterValues, Program, Value};
 use piola::material::{Constraint, Limit, Material};
-use piola_codegen::algebra::expr::{Graph, Id, Node};
+use piola_codegen::algebra::expr::Id;
 use piola_codegen::emit::condition_text;
 use piola_codegen::model::{self, Model};
 use piola_codegen::read::parse::Declaration;
@@ -25,13 +25,12 @@ impl Fit {
         let by_parameters = model.by_parameters.clone().unwrap_or_default();
         let by_parameters = by_parameters.iter().map(|triple| triple.to_vec()).collect::<Vec<_>>();
         let gradient = Slopes::new(declaration, model, &by_parameters)?;
-        let (mut constraints, mut domain) = (Vec::new(), Vec::new());
-        for constraint in model.constraints.clone() {
-            let condition = Condition::new(declaration, model, &constraint)?;
-            let is_of_domain = matches!(constraint.limit, model::Limit::Domain(_));
-            if is_of_domain { &mut domain } else { &mut constraints }.push(condition);
-        }
-        Some(Self { gradient, constraints, domain })
+        let (constraints, domain) = (model.constraints.clone(), model.domain_constraints.clone());
+        let mut conditions = |constraints: &[model::Constraint]| {
+            let conditions = constraints.iter().map(|one| Condition::new(declaration, model, one));
+            conditions.collect::<Option<Vec<_>>>()
+        };
+        Some(Self { gradient, constraints: conditions(&constraints)?, domain: conditions(&domain)? })
     }
 
     /// ∂ψi/∂p for each number p.
@@ -39,7 +38,7 @@ impl Fit {
         self.gradient.each(material, &stretches, &|material| material.gradient(stretches))
     }
 
-    /// The conditions on the parameters alone, those on numbers before those on the entries of lists.
+    /// The conditions on the parameters alone.
     pub(crate) fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
         all(&self.constraints, material, &[])
     }
@@ -51,10 +50,7 @@ impl Fit {
 }
 
 fn all(conditions: &[Condition], material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
-    let (of_entries, of_numbers): (Vec<_>, Vec<_>) =
-        conditions.iter().partition(|condition| condition.list.is_some());
-    let all = of_numbers.into_iter().chain(of_entries);
-    all.flat_map(|condition| condition.constraints(material, arguments)).collect()
+    conditions.iter().flat_map(|condition| condition.constraints(material, arguments)).collect()
 }
 
 /// A condition on the parameters as a program, with its derivatives.
@@ -69,12 +65,12 @@ struct Condition {
 
 impl Condition {
     fn new(declaration: &Declaration, model: &mut Model, constraint: &model::Constraint) -> Option<Self> {
-        let text = |condition: Option<&syn::Expr>| condition.map(condition_text).unwrap_or_default().into();
+        let text = constraint.limit.condition(declaration).map(condition_text).unwrap_or_default();
         let limit = match constraint.limit {
-            model::Limit::Admissible(k) => Limit::Admissible(text(declaration.options.admissible.get(k))),
+            model::Limit::Admissible(_) => Limit::Admissible(text.into()),
             model::Limit::ShearModulus => Limit::ShearModulus,
             model::Limit::BulkModulus => Limit::BulkModulus,
-            model::Limit::Domain(k) => Limit::Domain(text(declaration.bounds().nth(k))),
+            model::Limit::Domain(_) => Limit::Domain(text.into()),
         };
         let is_of_length = |length| {
             let mut parameters = declaration.parameters.iter();
@@ -123,22 +119,13 @@ struct Slopes {
 impl Slopes {
     /// From the derivatives of the expressions by each parameter, or by the current entry of each list.
     fn new(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> Option<Self> {
-        let is_difference = |model: &Model, k: usize| {
-            declaration.parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
+        let model::Slopes { groups, differences } =
+            model::Slopes::new(&model.graph, declaration, by_parameters);
+        let program = |group: model::Group| {
+            let list = group.length.and(group.parameters.first().copied());
+            Some((list, group.parameters, lower(declaration, &model.program(&group.roots))?))
         };
-        let mut programs = Vec::new();
-        for wanted in std::iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
-            let parameters = 0..by_parameters.len();
-            let alike = parameters.filter(|&k| declaration.parameters[k].length() == wanted);
-            let alike: Vec<_> = alike.filter(|&k| !is_difference(model, k)).collect();
-            if let Some(&first) = alike.first() {
-                let roots: Vec<_> = alike.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
-                let program = lower(declaration, &model.program(&roots))?;
-                programs.push((wanted.map(|_| first), alike, program));
-            }
-        }
-        let differences = (0..by_parameters.len()).filter(|&k| is_difference(model, k)).collect();
-        Some(Self { programs, differences })
+        Some(Self { programs: groups.into_iter().map(program).collect::<Option<_>>()?, differences })
     }
 
     /// The derivatives of N results by each number, lists entry by entry.
@@ -202,13 +189,4 @@ fn length(values: &ParameterValues, parameter: usize) -> usize {
         Some(Value::Numbers(numbers)) => numbers.len(),
         _ => 0,
     }
-}
-
-/// Whether a derivative of a function occurs that functions do not give.
-fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
-    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
-        Node::Function(_, order, _) => order > 2,
-        Node::FunctionQuotient(_, order, ..) => order > 1,
-        _ => false,
-    })
 }

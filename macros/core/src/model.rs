@@ -27,6 +27,9 @@ use crate::read::parse::{Declaration, Parameter};
 use crate::read::resolve::{self, Invariantly, Resolver};
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
+pub use slopes::{Group, Slopes};
+
+mod slopes;
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -56,8 +59,10 @@ pub struct Model {
     pub moduli: [Id; 2],
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, where asked for.
     pub by_parameters: Option<Vec<[Id; 3]>>,
-    /// Conditions that keep parameters admissible, if the attribute asks for them.
+    /// Conditions that keep parameters admissible, where asked for; those on the entries of lists come last.
     pub constraints: Vec<Constraint>,
+    /// Conditions on parameters that keep given stretches inside the domain, where asked for.
+    pub domain_constraints: Vec<Constraint>,
     /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
     pub from_young_poisson: Option<YoungPoisson>,
     /// Sums that cancel on flat, thin or huge elements and cost digits there.
@@ -123,6 +128,18 @@ pub enum Limit {
     BulkModulus,
     /// A comparison of `domain(…)` at given stretches, by its place among those that are not about J alone.
     Domain(usize),
+}
+
+impl Limit {
+    /// The comparison as declared; `None` for the moduli.
+    #[must_use]
+    pub fn condition(self, declaration: &Declaration) -> Option<&Expr> {
+        match self {
+            Self::Admissible(k) => declaration.options.admissible.get(k),
+            Self::Domain(k) => declaration.bounds().nth(k),
+            Self::ShearModulus | Self::BulkModulus => None,
+        }
+    }
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -280,7 +297,7 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
         findings.extend(judge::fractions(&graph, &source));
     }
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
-    let constraints = if options.fit {
+    let mut constraints: Vec<_> = if options.fit {
         let admissible = constrained.into_iter().enumerate();
         let admissible = admissible.filter_map(|(k, value)| Some((Limit::Admissible(k), value?)));
         let bulk = bulk(&mut graph, moduli);
@@ -293,6 +310,9 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
     } else {
         Vec::new()
     };
+    let domain_constraints =
+        constraints.extract_if(.., |constraint| matches!(constraint.limit, Limit::Domain(_))).collect();
+    constraints.sort_by_key(|constraint| constraint.length.is_some());
     if options.fit && findings.is_empty() {
         findings.extend(judge::fractions(&graph, &source));
     }
@@ -313,6 +333,7 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
         moduli,
         by_parameters,
         constraints,
+        domain_constraints,
         from_young_poisson,
         lossy,
         samples,

@@ -8,8 +8,8 @@ use syn::Ident;
 use super::declared::read;
 use super::writer::{Writer, free_name};
 use super::{condition_text, generics, naming};
-use crate::algebra::expr::{Graph, Id, Length, Node};
-use crate::model::{Constraint, Limit, Model};
+use crate::algebra::expr::Id;
+use crate::model::{Constraint, Group, Limit, Model, Slopes};
 use crate::read::parse::{Declaration, Kind, Parameter};
 
 /// `impl Fittable`, where it is asked for.
@@ -40,10 +40,8 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
         &by_parameters,
         &|material| quote!(::piola::Material::gradient(#material, [#l1, #l2, #l3])),
     );
-    let is_of_domain = |constraint: &Constraint| matches!(constraint.limit, Limit::Domain(_));
-    let (of_domain, of_parameters): (Vec<_>, Vec<_>) =
-        model.constraints.clone().into_iter().partition(is_of_domain);
-    let of_parameters = constraints(declaration, model, &of_parameters);
+    let of_parameters = constraints(declaration, model, &model.constraints.clone());
+    let of_domain = model.domain_constraints.clone();
     let of_domain = (!of_domain.is_empty()).then(|| {
         let constraints = constraints(declaration, model, &of_domain);
         quote! {
@@ -104,47 +102,39 @@ fn derivatives(
     by_parameters: &[Vec<Id>],
     of: &dyn Fn(&Ident) -> TokenStream,
 ) -> TokenStream {
-    let width = Literal::usize_unsuffixed(by_parameters.first().map_or(0, Vec::len));
+    let Slopes { groups, differences } = Slopes::new(&model.graph, declaration, by_parameters);
     let writer = Writer::new(declaration);
-    let derivatives = free_name(declaration, &["derivatives", "by_parameters"]);
-    let is_difference: Vec<bool> = (0..by_parameters.len())
-        .map(|k| {
-            declaration.parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
-        })
-        .collect();
-    // Numbers together, and lists of one length together: each has a program of its own.
-    let mut program = |length: Option<Length>| {
-        let members: Vec<usize> = (0..by_parameters.len())
-            .filter(|&k| declaration.parameters[k].length() == length && !is_difference[k])
-            .collect();
-        let roots: Vec<_> = members.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
-        let (statements, outputs) = writer.program(&model.program(&roots));
-        let arrays = outputs.chunks((outputs.len() / members.len().max(1)).max(1));
-        let arrays = members.iter().zip(arrays).map(|(&k, array)| {
-            let k = Literal::usize_unsuffixed(k);
-            quote!(#derivatives[#k].push([#(#array),*]);)
-        });
-        quote!(#statements #(#arrays)*)
+    let width = by_parameters.first().map_or(1, Vec::len);
+    let mut program = |group: &Group| {
+        let (statements, outputs) = writer.program(&model.program(&group.roots));
+        let arrays: Vec<_> = outputs.chunks(width).map(|array| quote!([#(#array),*])).collect();
+        (statements, arrays)
     };
-    let numbers = program(None);
-    // A program reads entry q of a list outside its sums, and sums have an index of their own.
-    let lists = (0..declaration.lengths.len()).map(|length| {
-        let entries = program(Some(length));
-        let (index, length) = (&writer.index, declaration.lengths[length].of_self());
-        quote!(for #index in 0..#length { #entries })
+    if let ([numbers @ Group { length: None, .. }], []) = (&groups[..], &differences[..]) {
+        let (statements, arrays) = program(numbers);
+        return quote!(#statements ::std::vec![#(#arrays),*]);
+    }
+    let derivatives = free_name(declaration, &["derivatives", "by_parameters"]);
+    let groups = groups.iter().map(|group| {
+        let (statements, arrays) = program(group);
+        let places = group.parameters.iter().map(|&k| Literal::usize_unsuffixed(k));
+        let pushed = quote!(#statements #(#derivatives[#places].push(#arrays);)*);
+        // A program reads entry q of a list outside its sums, and sums have an index of their own.
+        group.length.map_or(pushed.clone(), |length| {
+            let (index, length) = (&writer.index, declaration.lengths[length].of_self());
+            quote!(for #index in 0..#length { #pushed })
+        })
     });
-    let lists: Vec<_> = lists.collect();
-    let differences = (0..by_parameters.len()).filter(|&k| is_difference[k]).map(|k| {
-        let array = differences(declaration, &declaration.parameters[k], of);
+    let groups: Vec<_> = groups.collect();
+    let differences = differences.iter().map(|&k| {
+        let array = self::differences(declaration, &declaration.parameters[k], of);
         let k = Literal::usize_unsuffixed(k);
         quote!(#derivatives[#k] = #array;)
     });
-    let differences: Vec<_> = differences.collect();
-    let count = Literal::usize_unsuffixed(by_parameters.len());
+    let [width, count] = [width, by_parameters.len()].map(Literal::usize_unsuffixed);
     quote! {
         let mut #derivatives: [__p::Vec<[f64; #width]>; #count] = [const { __p::Vec::new() }; #count];
-        #numbers
-        #(#lists)*
+        #(#groups)*
         #(#differences)*
         #derivatives.concat()
     }
@@ -176,15 +166,6 @@ fn differences(
             Some(#results)
         })
     }
-}
-
-/// Whether a derivative of a function occurs that functions do not give.
-fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
-    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
-        Node::Function(_, order, _) => order > 2,
-        Node::FunctionQuotient(_, order, ..) => order > 1,
-        _ => false,
-    })
 }
 
 /// The constraints, one for each entry where they are on entries.
@@ -244,6 +225,9 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
             type R = f64;
         )
     });
+    if of_entries.is_empty() {
+        return quote!(#uses_reals #of_numbers);
+    }
     quote! {
         #uses_reals
         let mut constraints = #of_numbers;
@@ -253,17 +237,11 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
 }
 
 fn limit(declaration: &Declaration, limit: Limit) -> TokenStream {
-    let text = |condition: Option<&syn::Expr>| condition.map(condition_text).unwrap_or_default();
+    let text = limit.condition(declaration).map(condition_text).unwrap_or_default();
     match limit {
-        Limit::Admissible(k) => {
-            let text = text(declaration.options.admissible.get(k));
-            quote!(__p::Limit::Admissible(__p::Borrowed(#text)))
-        }
+        Limit::Admissible(_) => quote!(__p::Limit::Admissible(__p::Borrowed(#text))),
         Limit::ShearModulus => quote!(__p::Limit::ShearModulus),
         Limit::BulkModulus => quote!(__p::Limit::BulkModulus),
-        Limit::Domain(k) => {
-            let text = text(declaration.bounds().nth(k));
-            quote!(__p::Limit::Domain(__p::Borrowed(#text)))
-        }
+        Limit::Domain(_) => quote!(__p::Limit::Domain(__p::Borrowed(#text))),
     }
 }
