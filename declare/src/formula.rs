@@ -16,7 +16,7 @@ use piola_codegen::emit::spaced;
 use piola_codegen::model::Model;
 use piola_codegen::printer;
 use piola_codegen::read::parse::Declaration;
-use piola_codegen::{analyse_within, read};
+use piola_codegen::{analyse, read};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -152,7 +152,7 @@ impl Parsed {
     fn analyse(&self) -> syn::Result<(TokenStream, Declaration, Model)> {
         let mut mistakes = None;
         for arguments in self.arguments() {
-            match analyse_within(arguments.clone(), self.item(), MOST_EXPRESSIONS) {
+            match analyse(arguments.clone(), self.item(), MOST_EXPRESSIONS) {
                 Ok((declaration, model)) => return Ok((arguments, declaration, model)),
                 Err(error) => mistakes = Some(error),
             }
@@ -164,7 +164,7 @@ impl Parsed {
     fn free_rest(&mut self) -> syn::Result<()> {
         let domain = if self.domain.is_empty() { vec![quote!(J > 0.0)] } else { self.domain.clone() };
         let (declaration, mut model) =
-            analyse_within(quote!(domain(#(#domain),*), prestressed), self.item(), MOST_EXPRESSIONS)?;
+            analyse(quote!(domain(#(#domain),*), prestressed), self.item(), MOST_EXPRESSIONS)?;
         let stress = substitute_rest(&mut model.graph, model.plain.gradient[0]);
         if model.graph.is_zero(stress) {
             return Ok(());

@@ -1,6 +1,6 @@
 //! Declarations in Rust: the same function that `#[piola::material]` takes.
 
-use piola_codegen::analyse_within;
+use piola_codegen::analyse;
 use piola_codegen::read::parse::{Declaration, Kind};
 use proc_macro2::TokenStream;
 use syn::Type;
@@ -54,7 +54,7 @@ impl Energy {
 
 fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Energy, Mistakes> {
     let (declaration, model) =
-        analyse_within(arguments, item, MOST_EXPRESSIONS).map_err(|error| Mistakes::from_syn(text, error))?;
+        analyse(arguments, item, MOST_EXPRESSIONS).map_err(|error| Mistakes::from_syn(text, error))?;
     only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
     Energy::new(&declaration, model, text.to_owned(), text.to_owned())
         .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))

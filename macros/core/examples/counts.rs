@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Err(format!("{path}: no function has the attribute `material`").into());
         }
         for (arguments, item) in declarations {
-            let (declaration, mut model) = piola_codegen::analyse(arguments, item)?;
+            let (declaration, mut model) = piola_codegen::analyse(arguments, item, None)?;
             println!("\n## {}\n\n{}", declaration.name, table(&declaration, &model.counts()).trim_end());
         }
     }

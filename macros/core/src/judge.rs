@@ -8,14 +8,13 @@
 use crate::algebra::excess::has_squares;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Estimate, Point, evaluate};
+use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 pub(crate) use explain::report;
-pub(crate) use finding::Finding;
-use finding::{Findings, Violation};
-use samples::is_zero;
-pub(crate) use samples::samples;
+use finding::{Finding, Findings, Violation};
+use samples::{is_zero, samples};
 pub(crate) use source::Source;
-pub(crate) use units::units;
+use units::units;
 
 mod argument;
 mod blame;
@@ -29,8 +28,71 @@ mod units;
 mod vanishing;
 mod volume;
 
+/// Checks an energy as it is written, and gives samples of its domain if nothing is mistaken.
+pub(crate) fn written(
+    graph: &mut Graph,
+    source: &Source<'_>,
+    is_well_formed: bool,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Point>> {
+    // A misspelt domain may be the one that `extend` needs.
+    report(graph, source, options(source, is_well_formed), diagnostics);
+    if !diagnostics.is_clean() {
+        return None;
+    }
+    let samples = samples(graph, source);
+    let samples = samples.map_err(|finding| report(graph, source, [finding], diagnostics)).ok()?;
+    let asymmetry = isotropy(graph, source, &samples);
+    let found = asymmetry.into_iter().chain(domain(graph, source, &samples)).chain(units(graph, source));
+    report(graph, source, found.collect::<Vec<_>>(), diagnostics);
+    diagnostics.is_clean().then_some(samples)
+}
+
+/// Derivatives of an energy, as far as they are judged.
+pub(crate) struct Derived {
+    /// ψ1 inside the domain.
+    pub(crate) gradient: Id,
+    /// The second derivatives inside the domain.
+    pub(crate) hessian: [Id; 6],
+    /// The small-strain shear modulus.
+    pub(crate) shear: Id,
+    /// The energy continued beyond its domain, if it is to be.
+    pub(crate) continued: Option<Id>,
+    /// Whether the fractions of these derivatives are exact.
+    pub(crate) is_exact: bool,
+}
+
+/// Checks an energy by its derivatives. What follows from a mistake is not reported beside it.
+pub(crate) fn derived(
+    graph: &mut Graph,
+    source: &Source<'_>,
+    derived: &Derived,
+    samples: &[Point],
+) -> Vec<Finding> {
+    let overflow = || Finding::new(source.blamed_term(|_| false), Violation::Overflow);
+    let mut findings = match derived.is_exact {
+        true => values(graph, source, derived, samples),
+        false => vec![overflow()],
+    };
+    findings.extend(flat(graph, source, samples));
+    findings.extend(continued_powers(graph, source));
+    if findings.is_empty() {
+        findings.extend(derived.continued.and_then(|energy| continued_value(graph, source, energy, samples)));
+    }
+    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
+    if !source.declaration.options.prestressed
+        && !findings.iter().any(|finding| finding.violation.affects_rest())
+    {
+        findings.extend(stiffness(graph, source, derived.shear, samples));
+    }
+    if findings.is_empty() && graph.overflowed() {
+        findings.push(overflow());
+    }
+    findings
+}
+
 /// Checks that ψ does not change when two stretches are exchanged.
-pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
+fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
     [[0, 1], [1, 2]].into_iter().find_map(|exchanged| {
         let is_asymmetric = |id: Id| differs(graph, [id; 2], exchanged, samples);
         is_asymmetric(source.energy).then(|| {
@@ -42,7 +104,7 @@ pub(crate) fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) ->
 }
 
 /// Checks that conditions of the domain are alike for all stretches, or on the largest or the smallest one.
-pub(crate) fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
+fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
     let is_on_second = |bound: Id| {
         let differs = |exchanged| differs(graph, [bound; 2], exchanged, samples);
         differs([0, 1]) && differs([1, 2]) && !differs([0, 2])
@@ -70,19 +132,13 @@ fn differs(graph: &Graph, [one, other]: [Id; 2], [i, j]: [usize; 2], samples: &[
     })
 }
 
-/// Checks that the energy has a value wherever its domain reaches, and no stress at rest, given ψ1 and the
-/// second derivatives.
-pub(crate) fn values(
-    graph: &mut Graph,
-    source: &Source<'_>,
-    (gradient, hessian): (Id, &[Id]),
-    samples: &[Point],
-) -> Vec<Finding> {
+/// Checks that the energy has a value wherever its domain reaches, and no stress at rest.
+fn values(graph: &mut Graph, source: &Source<'_>, derived: &Derived, samples: &[Point]) -> Vec<Finding> {
     let mut findings = Findings::new(source);
     vanishing::powers_at_rest(graph, samples, &mut findings);
-    roughness::roughness(graph, hessian, &mut findings);
+    roughness::roughness(graph, &derived.hessian, &mut findings);
     if !source.declaration.options.prestressed {
-        rest::rest(graph, gradient, samples, &mut findings);
+        rest::rest(graph, derived.gradient, samples, &mut findings);
     }
     volume::volumes(graph, samples, &mut findings);
     vanishing::limits(graph, samples, &mut findings);
@@ -91,7 +147,7 @@ pub(crate) fn values(
 
 /// Checks that the words of the attribute fit the declaration. The domain of one with mistakes of form is not
 /// judged.
-pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding> {
+fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding> {
     let options = &source.declaration.options;
     let word = |name: &str| options.words.iter().find(|word| *word == name);
     let mut findings = Vec::new();
@@ -102,7 +158,7 @@ pub(crate) fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding>
 }
 
 /// Checks that no real power of what vanishes at rest is to be continued.
-pub(crate) fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
+fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
     let options = &source.declaration.options;
     let word = options.words.iter().find(|word| *word == "extend");
     (options.extend.is_some() && has_squares(graph, source.energy))
@@ -110,12 +166,7 @@ pub(crate) fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Fin
 }
 
 /// Checks that the continuation of an energy has a value where elements are nearly flat, flat and inverted.
-pub(crate) fn continued_value(
-    graph: &Graph,
-    source: &Source<'_>,
-    continued: Id,
-    samples: &[Point],
-) -> Option<Finding> {
+fn continued_value(graph: &Graph, source: &Source<'_>, continued: Id, samples: &[Point]) -> Option<Finding> {
     /// λ3 where the continuation begins at 0.1.
     const THIRD: [f64; 7] = [0.05, 0.01, 1e-3, 0.0, -0.01, -0.3, -1.0];
     // The domain of functions is not known here.
@@ -141,7 +192,7 @@ pub(crate) fn continued_value(
 const FLAT: [[f64; 3]; 2] = [[1.0, 1.0, 1e-30], [0.7, 1.0, 1e-30]];
 
 /// Checks that no condition of the domain excludes flat elements, where an extension begins if there is one.
-pub(crate) fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
+fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
     if source.declaration.options.extend.is_none() {
         return Vec::new();
     }
@@ -158,13 +209,8 @@ pub(crate) fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec
 }
 
 /// Checks that some shear modulus is positive: the constructor would refuse all parameters else.
-pub(crate) fn stiffness(graph: &Graph, source: &Source<'_>, shear: Id, samples: &[Point]) -> Option<Finding> {
+fn stiffness(graph: &Graph, source: &Source<'_>, shear: Id, samples: &[Point]) -> Option<Finding> {
     let vanishes = samples.iter().all(|point| is_zero(evaluate(graph, shear, point)));
     (vanishes && !source.declaration.has_functions())
         .then(|| Finding::new(source.blamed_term(|_| false), Violation::NoShearModulus))
-}
-
-/// Checks that the derivatives are exact.
-pub(crate) fn fractions(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
-    graph.overflowed().then(|| Finding::new(source.blamed_term(|_| false), Violation::Overflow))
 }

@@ -37,33 +37,25 @@ use read::parse::{self, Declaration};
 /// The expansion of `#[material(arguments)] item`.
 #[must_use]
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    match analyse(arguments, item.clone()) {
+    match analyse(arguments, item.clone(), None) {
         Ok((declaration, model)) => emit::emit(&declaration, model),
         Err(mistakes) => emit::stub::inert(&mistakes, item),
     }
 }
 
-/// The declaration `#[material(arguments)] item` with its energy, derived and checked.
+/// The declaration `#[material(arguments)] item` with its energy, derived and checked; it may have so many
+/// different expressions at most, derivatives included, `None` for as many as memory holds.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
-pub fn analyse(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
-    analyse_within(arguments, item, None)
-}
-
-/// Like [`analyse`], for a declaration of so many different expressions at most, derivatives included: texts
-/// of anybody take no longer than that allows.
-///
-/// # Errors
-/// All mistakes of form and meaning, each at its tokens.
-pub fn analyse_within(
+pub fn analyse(
     arguments: TokenStream,
     item: TokenStream,
     most: Option<usize>,
 ) -> syn::Result<(Declaration, Model)> {
     let mut diagnostics = Diagnostics::default();
     let analysed = parse::parse_declaration(arguments, item, &mut diagnostics).and_then(|declaration| {
-        let model = model::read_within(&declaration, &mut diagnostics, most)?;
+        let model = model::read(&declaration, &mut diagnostics, most)?;
         Some((declaration, model))
     });
     diagnostics.finish(analysed)

@@ -6,9 +6,8 @@ use rustc_hash::FxHashMap;
 use syn::{BinOp, Expr};
 
 use crate::algebra::by_parameters::by_parameters;
-use crate::algebra::cancellation::{Ways, lossy, over_one_denominator};
+use crate::algebra::cancellation::{lossy, over_one_denominator};
 use crate::algebra::diff::Differentiator;
-use crate::algebra::excess::{self, has_squares, with_squares, with_squares_in_sums};
 use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
@@ -18,17 +17,18 @@ use crate::algebra::invariants::{ByInvariants, by_invariants};
 use crate::algebra::quotient::Quotients;
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
-use crate::algebra::volume::{Purpose, separate};
 use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
-use crate::judge::{self, Source};
+use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Parameter};
 use crate::read::resolve::{self, Invariantly, Resolver};
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
+use forms::{Evaluated, Prepared};
 pub use slopes::{Group, Slopes};
 
+mod forms;
 mod slopes;
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
@@ -173,22 +173,13 @@ impl Variant {
 /// All mistakes of meaning, each at its tokens.
 pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     let mut diagnostics = Diagnostics::default();
-    let model = read(declaration, &mut diagnostics);
+    let model = read(declaration, &mut diagnostics, None);
     diagnostics.finish(model)
 }
 
-/// The model of a declaration that may have mistakes of form: then names are resolved, and nothing further is
-/// checked.
-pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
-    read_within(declaration, diagnostics, None)
-}
-
-/// The model of a declaration of so many different expressions at most, derivatives included.
-pub fn read_within(
-    declaration: &Declaration,
-    diagnostics: &mut Diagnostics,
-    most: Option<usize>,
-) -> Option<Model> {
+/// The model of a declaration of so many different expressions at most, derivatives included; `None` for as
+/// many as memory holds. Of one with mistakes of form names are resolved, and nothing further is checked.
+pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Option<usize>) -> Option<Model> {
     let (graph, is_full) = Graph::with_most(most);
     let model = read_into(graph, declaration, diagnostics);
     if !is_full.get() {
@@ -202,66 +193,46 @@ pub fn read_within(
     None
 }
 
+/// The stages of a model: names are resolved, forms prepared and derivatives derived; what is written is
+/// judged before, and all else after.
 fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let options = &declaration.options;
     let is_well_formed = diagnostics.is_clean();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
-    let written = resolver.energy();
-    let written_bounds: Vec<_> =
-        declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
+    let energy = resolver.energy();
+    let bounds = declaration.bounds().filter_map(|condition| resolver.bound(condition)).collect();
     let constrained: Vec<_> =
         options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
     let mut nodes = resolver.into_nodes();
-    let energy = with_squares(&mut graph, written);
-    if has_squares(&graph, energy) {
-        nodes.replace(|id| with_squares(&mut graph, id));
-    }
-    let bounds: Vec<_> = written_bounds.into_iter().map(|bound| with_squares(&mut graph, bound)).collect();
+    let (energy, bounds) = forms::in_squares(&mut graph, energy, bounds, &mut nodes);
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
-    // A misspelt domain may be the one that `extend` needs.
-    judge::report(&mut graph, &source, judge::options(&source, is_well_formed), diagnostics);
-    if !diagnostics.is_clean() {
-        return None;
-    }
-    let samples = judge::samples(&mut graph, &source);
-    let samples =
-        samples.map_err(|finding| judge::report(&mut graph, &source, [finding], diagnostics)).ok()?;
-    let asymmetry = judge::isotropy(&graph, &source, &samples);
-    let units = judge::units(&graph, &source);
-    let found = asymmetry.into_iter().chain(judge::domain(&graph, &source, &samples)).chain(units);
-    judge::report(&mut graph, &source, found, diagnostics);
-    if !diagnostics.is_clean() {
-        return None;
-    }
 
-    let positive = volume == Volume::Positive;
-    let in_range =
-        |graph: &mut Graph, id| if positive { separate(graph, id, Purpose::Evaluation) } else { id };
-    let bounds_have_squares = bounds.iter().any(|&bound| has_squares(&graph, bound));
-    let mut without_written = FxHashMap::default();
-    let bounds: Vec<_> = bounds
-        .iter()
-        .map(|&bound| {
-            let bound = in_range(&mut graph, bound);
-            excess::squares_alone(&mut graph, bound, &mut without_written)
-        })
-        .collect();
-    let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, &constrained);
-    let ways = Ways::new(&samples, |point| source.is_inside(&graph, point));
-    let accurate = with_squares_in_sums(&mut graph, energy);
-    let joined = over_one_denominator(&mut graph, accurate, &ways);
-    let energy_in_range = in_range(&mut graph, joined);
-    let plain = derive(&mut graph, energy_in_range, &samples, positive);
-    let lossy = lossy(&graph, energy_in_range, [&plain.gradient, &plain.blocks()[3..]], &ways);
-    let mut findings: Vec<_> = judge::fractions(&graph, &source).into_iter().collect();
-    if findings.is_empty() {
-        findings = judge::values(&mut graph, &source, (plain.gradient[0], &plain.hessian), &samples);
-    }
-    findings.extend(judge::flat(&graph, &source, &samples));
-    findings.extend(judge::continued_powers(&graph, &source));
+    let samples = judge::written(&mut graph, &source, is_well_formed, diagnostics)?;
+    let prepared = forms::prepare(&mut graph, &source, &samples);
+    let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples);
+    let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);
+    judge::report(&mut model.graph, &source, findings, diagnostics);
+    Some(model)
+}
+
+/// All derivatives of an energy in its prepared form, and those that are judged.
+fn derive(
+    mut graph: Graph,
+    source: &Source<'_>,
+    constrained: &[Option<Id>],
+    prepared: &Prepared,
+    samples: Vec<Point>,
+) -> (Model, Derived) {
+    let Source { declaration, energy, volume, .. } = *source;
+    let options = &declaration.options;
+    let bounds = prepared.bounds.clone();
+    let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, constrained);
+    let plain = variant(&mut graph, prepared.energy, &samples, volume == Volume::Positive);
+    let is_exact = !graph.overflowed();
+    let lossy = lossy(&graph, prepared.energy, [&plain.gradient, &plain.blocks()[3..]], &prepared.ways);
     let mut increments = Increments::default();
     let at_strains = plain.gradient.map(|derivative| {
         let increment = increments.increment(&mut graph, derivative);
@@ -274,53 +245,44 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
     });
     let extended = options.extend.is_some().then(|| {
         let extended = extension::extend(&mut graph, energy);
-        derive(&mut graph, extended, &samples, false)
+        variant(&mut graph, extended, &samples, false)
     });
-    if let Some(extended) = extended.as_ref().filter(|_| findings.is_empty()) {
-        findings.extend(judge::continued_value(&graph, &source, extended.energy, &samples));
-    }
     let moduli = moduli(&mut graph, &plain);
-    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
-    if !options.prestressed && !findings.iter().any(|finding| finding.violation.affects_rest()) {
-        findings.extend(judge::stiffness(&graph, &source, moduli[0], &samples));
-    }
+    let derived = Derived {
+        gradient: plain.gradient[0],
+        hessian: plain.hessian,
+        shear: moduli[0],
+        continued: extended.as_ref().map(|extended| extended.energy),
+        is_exact,
+    };
     // By invariants, I1b − 3 is not known well enough for real powers, be they of the energy or of a bound.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
-        .filter(|_| !bounds_have_squares && !has_squares(&graph, accurate))
+        .filter(|_| !prepared.has_squares)
         .map(|Invariantly { energy, bounds, is_written_so }| {
-            let energy = over_one_denominator(&mut graph, energy, &ways.by_invariants());
+            let energy = over_one_denominator(&mut graph, energy, &prepared.ways.by_invariants());
             by_invariants(&mut graph, energy, is_written_so, bounds)
         });
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
-    if findings.is_empty() {
-        findings.extend(judge::fractions(&graph, &source));
-    }
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
-    let mut constraints: Vec<_> = if options.fit {
-        let admissible = constrained.into_iter().enumerate();
-        let admissible = admissible.filter_map(|(k, value)| Some((Limit::Admissible(k), value?)));
+    let (mut constraints, mut domain_constraints) = (Vec::new(), Vec::new());
+    if options.fit {
+        let admissible = constrained.iter().enumerate();
+        let admissible = admissible.filter_map(|(k, &value)| Some((Limit::Admissible(k), value?)));
         let bulk = bulk(&mut graph, moduli);
         let moduli = [(Limit::ShearModulus, moduli[0]), (Limit::BulkModulus, bulk)];
         // Moduli of a stressed rest state determine no response.
         let moduli = moduli.into_iter().filter(|_| !options.prestressed);
         let domain = bounds.iter().enumerate().map(|(k, &bound)| (Limit::Domain(k), bound));
-        let all: Vec<_> = admissible.chain(moduli).chain(domain).collect();
-        all.into_iter().map(|(limit, value)| constraint(&mut graph, &variables, limit, value)).collect()
-    } else {
-        Vec::new()
-    };
-    let domain_constraints =
-        constraints.extract_if(.., |constraint| matches!(constraint.limit, Limit::Domain(_))).collect();
-    constraints.sort_by_key(|constraint| constraint.length.is_some());
-    if options.fit && findings.is_empty() {
-        findings.extend(judge::fractions(&graph, &source));
+        let mut constraint = |(limit, value)| constraint(&mut graph, &variables, limit, value);
+        constraints.extend(admissible.chain(moduli).map(&mut constraint));
+        constraints.sort_by_key(|constraint| constraint.length.is_some());
+        domain_constraints.extend(domain.map(&mut constraint));
     }
-    judge::report(&mut graph, &source, findings, diagnostics);
     // Those with functions are known to the constructor alone.
     let are_known = !options.prestressed && !declaration.has_functions();
     let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
-    Some(Model {
+    let model = Model {
         graph,
         energy,
         plain,
@@ -339,7 +301,8 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
         samples,
         programs: FxHashMap::default(),
         collector: Collector::default(),
-    })
+    };
+    (model, derived)
 }
 
 /// A parameter, or the entry of a list, as a variable of derivatives.
@@ -385,7 +348,8 @@ fn bulk(graph: &mut Graph, [shear, lame]: [Id; 2]) -> Id {
     expand_products(graph, bulk)
 }
 
-fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
+/// An energy with its first and second derivatives and quotients.
+fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
     let mut d = Differentiator::default();
     let gradient = [0, 1, 2].map(|i| {
         let derivative = d.by_stretch(graph, energy, i);
@@ -399,18 +363,14 @@ fn derive(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> V
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
-    let mut lowered = FxHashMap::default();
-    let mut without_written = FxHashMap::default();
-    let mut lower = |id| {
-        let id = extension::lower(graph, id, &mut lowered);
-        excess::squares_alone(graph, id, &mut without_written)
-    };
+    let mut evaluated = Evaluated::default();
+    let mut evaluated = |id| evaluated.of(graph, id);
     Variant {
-        energy: lower(energy),
-        gradient: gradient.map(&mut lower),
-        hessian: hessian.map(&mut lower),
-        flip: flip.map(&mut lower),
-        twist: twist.map(|twist| lower(twist.value)),
+        energy: evaluated(energy),
+        gradient: gradient.map(&mut evaluated),
+        hessian: hessian.map(&mut evaluated),
+        flip: flip.map(&mut evaluated),
+        twist: twist.map(|twist| evaluated(twist.value)),
         has_pole: twist.iter().any(|twist| twist.has_pole),
     }
 }

@@ -14,7 +14,7 @@ use piola_codegen::schedule::count::{Count, OperationKind};
 fn check(declaration: &str, operations: usize, powers: usize) {
     let (arguments, item) = declaration.split_once(';').expect("arguments; item");
     let (arguments, item) = (arguments.parse().expect("tokens"), item.parse().expect("tokens"));
-    let (_, mut model) = analyse(arguments, item).expect("an energy without mistakes");
+    let (_, mut model) = analyse(arguments, item, None).expect("an energy without mistakes");
     let Variant { energy, gradient, hessian, .. } = &model.plain;
     let roots = [&[*energy], &gradient[..], hessian].concat();
     let count = Count::of(&model.program(&roots));

@@ -24,7 +24,7 @@ const STRETCHES: [[f64; 3]; 7] = [
 
 fn model(arguments: &TokenStream, energy: TokenStream, parameters: TokenStream) -> Model {
     let item = quote!(fn E([l1, l2, l3]: [f64; 3], #parameters) -> f64 { #energy });
-    let found = analyse(arguments.clone(), item);
+    let found = analyse(arguments.clone(), item, None);
     found
         .unwrap_or_else(|error| panic!("{:?}", error.into_iter().map(|e| e.to_string()).collect::<Vec<_>>()))
         .1
@@ -112,7 +112,8 @@ fn formulas_have_the_exponents() {
             sum(|p| c[p] * (I1b - 3.0).powi(i[p])) + (J - 1.0).powi(n)
         }
     };
-    let (declaration, mut model) = analyse(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
+    let (declaration, mut model) =
+        analyse(quote!(domain(J > 0.0), prestressed), item, None).expect("an energy");
     let mut print = |id| formula(&mut model.graph, &declaration, id);
     assert_eq!(print(model.energy), "Σₚ cₚ (I1 J^(−2/3) − 3)^iₚ + (J − 1)^n");
     assert_eq!(print(model.moduli[0]), "2 Σₚ cₚ [iₚ = 1] − 1/2 [n = 1]");

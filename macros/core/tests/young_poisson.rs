@@ -37,7 +37,7 @@ fn the_catalogue_has_these() {
     for file in fs::read_dir(&folder).expect("the catalogue's sources") {
         let source = fs::read_to_string(file.expect("a file").path()).expect("a source");
         for (arguments, item) in declarations(&source).expect("Rust") {
-            let (declaration, model) = analyse(arguments, item).expect("a material");
+            let (declaration, model) = analyse(arguments, item, None).expect("a material");
             if model.from_young_poisson.is_some() {
                 found.push(declaration.name.to_string());
             }
@@ -52,7 +52,7 @@ fn the_catalogue_has_these() {
 fn check(arguments: &str, body: &str, expected: &[(usize, [&str; 3])]) {
     let item = format!("fn E([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {{ {body} }}");
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    let (_, model) = analyse(tokens(arguments), tokens(&item)).expect("a material");
+    let (_, model) = analyse(tokens(arguments), tokens(&item), None).expect("a material");
     let solved = |one: Determined| (one.parameter, [one.mu, one.lambda, one.constant].map(|c| c.to_string()));
     let found: Vec<_> = model.from_young_poisson.into_iter().flat_map(|both| both.0.map(solved)).collect();
     let expected: Vec<_> = expected.iter().map(|&(k, c)| (k, c.map(str::to_owned))).collect();

@@ -141,7 +141,8 @@ fn compile_and_run(
 ) -> Result<(), String> {
     let tokens = |text: &str| text.parse().map_err(|error| format!("not Rust: {error}"));
     let (arguments, item) = (tokens(&declaration.arguments())?, tokens(&declaration.item())?);
-    let (read, mut model) = piola_codegen::analyse(arguments, item).map_err(|error| error.to_string())?;
+    let (read, mut model) =
+        piola_codegen::analyse(arguments, item, None).map_err(|error| error.to_string())?;
     let values: Vec<&[f64]> =
         declaration.parameters.iter().map(|parameter| parameter.values.as_slice()).collect();
     let parameters = Parameters::new(&read, &values);

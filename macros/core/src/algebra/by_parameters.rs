@@ -74,7 +74,7 @@ mod tests {
         let item = quote! {
             fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
         };
-        let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item).expect("an energy");
+        let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item, None).expect("an energy");
         let point = Point {
             stretches,
             parameters: parameters.iter().map(|list| list.to_vec()).collect(),

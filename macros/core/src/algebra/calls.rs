@@ -46,7 +46,7 @@ mod tests {
     /// The function and the list of each call, by their places among the parameters m, f, g.
     fn found(body: TokenStream) -> Vec<(usize, Option<usize>)> {
         let item = quote!(fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], f: Curve, g: Curve) -> f64 { #body });
-        let (_, model) = analyse(quote!(prestressed), item).expect("an energy");
+        let (_, model) = analyse(quote!(prestressed), item, None).expect("an energy");
         calls(&model.graph, model.energy).into_iter().map(|call| (call.function, call.list)).collect()
     }
 
@@ -65,7 +65,7 @@ mod tests {
                 m * (I1 - 2.0 * J - 1.0)
             }
         );
-        let (_, model) = analyse(quote!(), item).expect("an energy");
+        let (_, model) = analyse(quote!(), item, None).expect("an energy");
         assert!(calls(&model.graph, model.energy).is_empty());
         assert!(!matches!(model.graph.node(model.energy), Node::Function(..)));
     }

@@ -171,7 +171,7 @@ mod tests {
             }
         };
         let (declaration, mut model) =
-            crate::analyse(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item).unwrap();
+            crate::analyse(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item, None).unwrap();
         let texts = super::Texts::of(&declaration, &mut model);
         let documentation = super::page(&declaration, &mut model, &texts);
         let lines: Vec<_> = documentation.lines().collect();
@@ -204,7 +204,7 @@ mod tests {
             }
         };
         let arguments = quote!(domain(J > 0.0), admissible(mu_2 > 0.0), prestressed);
-        let (declaration, mut model) = crate::analyse(arguments, item).unwrap();
+        let (declaration, mut model) = crate::analyse(arguments, item, None).unwrap();
         let digits = super::digits(&declaration, &mut model);
         assert!(digits.starts_with("**Digits**") && digits.matches('`').count() == 2, "{digits}");
         assert!(digits.contains("− μ_2`"), "{digits}");

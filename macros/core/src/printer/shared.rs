@@ -107,7 +107,7 @@ mod tests {
     fn check(energy: &syn::Expr, parts: &[(&str, &str)], first: &str) {
         let item = quote!(fn E([l1, l2, l3]: [f64; 3], c: f64, d: f64) -> f64 { #energy });
         let (declaration, mut model) =
-            crate::analyse(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
+            crate::analyse(quote!(domain(J > 0.0), prestressed), item, None).expect("an energy");
         let roots = [model.plain.gradient[0], model.plain.hessian[0]];
         let found = formulas(&mut model.graph, &declaration, &roots);
         let found_parts: Vec<_> = found.parts.iter().map(|(name, text)| (&name[..], &text[..])).collect();

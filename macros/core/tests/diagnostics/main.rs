@@ -13,7 +13,7 @@ use proc_macro2::TokenStream;
 /// The messages of a declaration, each with the tokens that it stands on.
 fn mistakes(arguments: &str, item: &str) -> Vec<(String, String)> {
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    let understood = piola_codegen::analyse(tokens(arguments), tokens(item));
+    let understood = piola_codegen::analyse(tokens(arguments), tokens(item), None);
     let errors = understood.err().into_iter().flatten();
     errors.map(|error| (error.span().source_text().unwrap_or_default(), error.to_string())).collect()
 }
@@ -322,7 +322,7 @@ fn the_compiler_shows_these_messages() {
         }
         let said: Vec<String> = declarations
             .into_iter()
-            .flat_map(|(arguments, item)| piola_codegen::analyse(arguments, item).err())
+            .flat_map(|(arguments, item)| piola_codegen::analyse(arguments, item, None).err())
             .flatten()
             .map(|error| error.to_string())
             .collect();

@@ -13,7 +13,7 @@ fn parts_are_named_inside_sums() {
             "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N]) -> f64 {{ {energy} + {sum} }}"
         );
         let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-        let (_, model) = piola_codegen::analyse(tokens("domain(J > 0.0)"), tokens(&item)).expect(sum);
+        let (_, model) = piola_codegen::analyse(tokens("domain(J > 0.0)"), tokens(&item), None).expect(sum);
         let point = &model.samples[0];
         [model.energy, model.plain.energy].map(|id| evaluate(&model.graph, id, point).value)
     };
