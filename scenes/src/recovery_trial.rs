@@ -32,14 +32,7 @@ pub struct TrialOutcome {
 /// # Errors
 /// Those of [`Play::new`] and [`Play::step`], and [`Error::Equilibrium`].
 pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
-    continue_trial(Play::new(settings, geometry)?, settings.frames, geometry)
-}
-
-/// Continues a scene on one thread, up to a number of frames or until the body has recovered.
-///
-/// # Errors
-/// Those of [`Play::step`], and [`Error::Equilibrium`].
-pub fn continue_trial(mut play: Play, frames: usize, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+    let mut play = Play::new(settings, geometry)?;
     let mesh = &geometry.mesh;
     let pinned = play.simulation().pinned().len();
     let start = play.simulation().positions();
@@ -51,7 +44,7 @@ pub fn continue_trial(mut play: Play, frames: usize, geometry: &Geometry) -> Res
         final_state: None,
     };
     let unit = play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets);
-    for frame in 1..=frames {
+    for frame in 1..=settings.frames {
         let before = play.simulation_mut().energies();
         let report = play.step()?;
         let energies = before.elastic.abs() + before.kinetic + before.springs + before.gravity.abs();

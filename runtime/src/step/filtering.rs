@@ -19,7 +19,7 @@ pub enum Filtering {
     Always(Filter),
     /// No filter where the matrix is positive definite without one, and clamped eigenvalues where it is not,
     /// which costs a second linearisation and factorisation: half the iterations of clamping always, or
-    /// fewer, where steps are solved to their end (`cargo speed-report`).
+    /// fewer, where steps are solved to their end (`cargo speed-report --only steps`).
     OnDemand,
 }
 

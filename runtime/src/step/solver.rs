@@ -48,9 +48,8 @@ pub enum LinearSolver {
     Automatic,
     /// Sparse Cholesky factorisation.
     ///
-    /// The fastest for bodies of up to a few thousand elements (`cargo speed-report` shows all of them from
-    /// a thousand to a million), and the only one without a tolerance. An indefinite matrix gets inertia
-    /// until it is definite.
+    /// The fastest for bodies of up to a few thousand elements (`cargo speed-report --only growth`), and the
+    /// only one without a tolerance. An indefinite matrix gets inertia until it is definite.
     Cholesky,
     /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the
     /// diagonal or, where these take many iterations, by multigrid (smoothed aggregation), whose iterations

@@ -2,13 +2,10 @@
 
 use crate::data::Report;
 
-mod growth;
 mod heat;
 mod panel;
 mod point;
 mod steps;
-mod sweeps;
-mod time;
 
 pub(crate) use point::{best_settings, materials};
 
@@ -29,17 +26,9 @@ pub(crate) fn draw(report: &Report) -> Result<Vec<Chart>, String> {
     if !report.rows.is_empty() {
         charts.extend(point::draw(&report.rows)?);
         charts.extend(heat::draw(&report.rows)?);
-        charts.push(sweeps::draw(&report.rows)?);
     }
     if !report.steps.is_empty() {
-        charts.extend(steps::draw(&report.steps)?);
-        charts.extend(time::draw_histories(&report.histories)?);
-    }
-    if !report.adaptive.is_empty() {
-        charts.push(time::draw_adaptive(&report.adaptive)?);
-    }
-    if !report.growth.is_empty() {
-        charts.push(growth::draw(&report.growth)?);
+        charts.push(steps::draw(&report.steps)?);
     }
     Ok(charts)
 }

@@ -1,18 +1,19 @@
 //! Measures speed against error and writes what it found: `cargo speed-report`.
 //!
-//! Into `target/report/`: charts, a page that tells what they mean, and all numbers as `report.json`. With
+//! Into `target/report/`: charts, a page with every table, and all numbers as `report.json`. With
 //! `--quick` in less than two minutes, from fewer repeats and smaller bodies. Nothing else should run on the
 //! machine.
 //!
 //! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
-//! * [`steps`]: trajectories of bodies held and free, wall time against the error of a much finer one;
+//! * [`steps`]: a motion by integrators and solvers, wall time against the distance from a much finer one;
 //! * [`growth`]: time and memory of a step against the number of elements.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
-use std::time::{Duration, SystemTime};
+use std::process::{Command, ExitCode};
+use std::time::Duration;
+use std::{error, fs};
 
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +23,6 @@ use piola_tests::cases::Case;
 
 mod charts;
 mod data;
-mod files;
 mod growth;
 mod page;
 mod point;
@@ -44,12 +44,6 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
-    /// Trajectories of these bodies only
-    #[arg(long, value_enum, value_delimiter = ',')]
-    bodies: Vec<steps::Body>,
-    /// Measure nothing, and make charts and page again from the numbers of the run before
-    #[arg(long, conflicts_with_all = ["quick", "only", "bodies"])]
-    redraw: bool,
     /// What `cargo bench` adds
     #[arg(long, hide = true)]
     bench: bool,
@@ -62,6 +56,9 @@ enum Section {
     Growth,
 }
 
+/// The page.
+const PAGE: &str = "report.md";
+
 /// Where the report goes.
 fn folder() -> PathBuf {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -69,10 +66,9 @@ fn folder() -> PathBuf {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match make(&arguments) {
+    match make(&Arguments::parse()) {
         Ok(()) => {
-            println!("{}", folder().join(files::PAGE).display());
+            println!("{}", folder().join(PAGE).display());
             ExitCode::SUCCESS
         }
         Err(error) => {
@@ -83,21 +79,17 @@ fn main() -> ExitCode {
 }
 
 /// Measures all that is asked for, then writes: a run that fails leaves the files of the one before.
-fn make(arguments: &Arguments) -> Result<(), String> {
+fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
-    let folder = files::Folder::prepare(&folder())?;
-    if arguments.redraw {
-        return folder.write(&folder.read()?);
-    }
+    let folder = folder();
+    // Before anything is measured in vain.
+    fs::create_dir_all(&folder)?;
     let mut report = Report {
         machine: processor(),
         back_end: Backend::best().to_string(),
-        commit: files::commit(),
-        time: SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_secs(),
+        commit: commit(),
         rows: Vec::new(),
         steps: Vec::new(),
-        histories: Vec::new(),
-        adaptive: Vec::new(),
         growth: Vec::new(),
     };
     if asked(Section::Point) {
@@ -107,20 +99,29 @@ fn make(arguments: &Arguments) -> Result<(), String> {
         progress.finish_and_clear();
     }
     if asked(Section::Steps) {
-        let plan = steps::plan(arguments.quick, &arguments.bodies);
-        let progress = bar("steps", steps::count(&plan));
-        let measured = steps::measure(&plan, &progress)?;
-        (report.steps, report.histories, report.adaptive) =
-            (measured.rows, measured.histories, measured.frames);
+        let progress = bar("steps", 0);
+        report.steps = steps::rows(arguments.quick, &progress)?;
         progress.finish_and_clear();
     }
     if asked(Section::Growth) {
-        let plan = growth::plan(arguments.quick);
-        let progress = bar("growth", plan.len() as u64);
-        report.growth = growth::rows(&plan, &MEMORY, &progress)?;
+        let progress = bar("growth", 0);
+        report.growth = growth::rows(arguments.quick, &MEMORY, &progress)?;
         progress.finish_and_clear();
     }
-    folder.write(&report)
+    let charts = charts::draw(&report)?;
+    for chart in &charts {
+        fs::write(folder.join(&chart.file), &chart.svg)?;
+    }
+    fs::write(folder.join("report.json"), serde_json::to_string_pretty(&report)?)?;
+    Ok(fs::write(folder.join(PAGE), page::tell(&report, &charts))?)
+}
+
+/// The commit that is checked out, where there is Git and a checkout; with a mark where files differ from it.
+fn commit() -> Option<String> {
+    let describe = ["describe", "--always", "--dirty", "--abbrev=12"];
+    let output = Command::new("git").current_dir(env!("CARGO_MANIFEST_DIR")).args(describe).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
 }
 
 fn effort(is_quick: bool) -> Effort {

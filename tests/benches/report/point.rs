@@ -17,7 +17,7 @@ mod methods;
 mod subject;
 
 use contestant::{Contestant, Number, Output, POINTS, Points};
-pub(crate) use methods::{OURS, OURS_AS_A_SCALAR, SWEPT};
+pub(crate) use methods::{OURS, OURS_AS_A_SCALAR};
 use subject::Subject;
 
 /// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
@@ -149,14 +149,12 @@ fn contest<S: Subject, E: Number>(
     let rows = labels.into_iter().zip(errors).zip(times).map(|((label, mut errors), times)| {
         errors.sort_by(f64::total_cmp);
         PointRow {
-            section: "point",
             work: work.name(),
             material: S::NAME,
             precision: E::NAME,
             method: label.method,
             setting: label.setting,
             ns_per_element: times.least,
-            median_ns_per_element: times.median,
             worst_error: errors[errors.len() - 1],
             median_error: errors[errors.len() / 2],
             family: family.to_owned(),
@@ -206,13 +204,7 @@ fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
     for row in rows.iter().filter(|row| row.family != ORDINARY) {
         let same = |other: &PointRow| (other.method, &other.setting) == (row.method, &row.setting);
         let index = together.iter().position(same).unwrap_or_else(|| {
-            let zero = PointRow {
-                ns_per_element: 0.0,
-                median_ns_per_element: 0.0,
-                worst_error: 0.0,
-                cases: 0,
-                ..row.clone()
-            };
+            let zero = PointRow { ns_per_element: 0.0, worst_error: 0.0, cases: 0, ..row.clone() };
             together.push(PointRow { family: HARD.to_owned(), ..zero });
             counts.push((0, Vec::new()));
             together.len() - 1
@@ -221,13 +213,11 @@ fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
         *families += 1;
         medians.push(row.median_error);
         sum.ns_per_element += row.ns_per_element;
-        sum.median_ns_per_element += row.median_ns_per_element;
         sum.worst_error = sum.worst_error.max(row.worst_error);
         sum.cases += row.cases;
     }
     for (row, (families, mut medians)) in together.iter_mut().zip(counts) {
         row.ns_per_element /= families as f64;
-        row.median_ns_per_element /= families as f64;
         medians.sort_by(f64::total_cmp);
         row.median_error = medians[medians.len() / 2];
     }

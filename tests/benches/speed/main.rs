@@ -8,11 +8,9 @@
 use std::time::Duration;
 
 use piola::lanes::Backend;
-use piola_speed::{Effort, IN_CACHE, STREAMING, processor};
+use piola_speed::{Effort, IN_CACHE, processor};
 
-mod comparisons;
 mod measure;
-mod point_by_point;
 mod tables;
 mod typed;
 
@@ -21,15 +19,13 @@ fn main() {
     let at_most = Duration::MAX;
     let repeats = if is_quick { 15 } else { 101 };
     let effort = Effort { repeats, at_least: Duration::from_micros(100), at_most };
-    let repeats = if is_quick { 5 } else { 15 };
-    let streaming_effort = Effort { repeats, at_least: Duration::ZERO, at_most };
     let best = Backend::best();
 
     println!("# Nanoseconds per point, one thread\n");
     println!("Processor: {}. Best back end: {best}.\n", processor());
     println!(
         "Of {} repeats the least and, in parentheses, the median. In cache: {IN_CACHE} points, the same arrays again and \
-         again. Streaming: {STREAMING} points, once through. +C: filtered with `Filter::Clamp`.\n",
+         again. +C: filtered with `Filter::Clamp`.\n",
         effort.repeats
     );
     println!(
@@ -37,12 +33,9 @@ fn main() {
          `Layout::Points`.\n"
     );
     println!("## Energies typed at run time\n\n{}", typed::table(effort).expect("typical parameters"));
-    println!("## The method of [SZLSB11], a scalar at a time\n\n{}", comparisons::paper(effort));
     println!("## Few points a call, {best}, f64, by points\n\n{}", tables::few_points(effort));
     for backend in Backend::available().take(if is_quick { 1 } else { usize::MAX }) {
         println!("## In cache, {backend}, f64\n\n{}", tables::in_cache::<f64>(effort, backend));
         println!("## In cache, {backend}, f32\n\n{}", tables::in_cache::<f32>(effort, backend));
     }
-    println!("## Streaming, {best}, f64, in lines\n\n{}", tables::streaming::<f64>(streaming_effort));
-    println!("## Streaming, {best}, f32, in lines\n\n{}", tables::streaming::<f32>(streaming_effort));
 }

@@ -1,10 +1,8 @@
 //! One configuration at a time.
 
-use piola::batch::{Batch, Layout, Stages, TileMaterial};
-use piola::point::{Filter, Matrix3};
-use piola_speed::{
-    Arrays, Effort, IN_CACHE, STREAMING, Task, Times, deformation_gradients, time, time_in_turns,
-};
+use piola::batch::{Batch, Layout, Stages};
+use piola::point::Matrix3;
+use piola_speed::{Arrays, Effort, IN_CACHE, Task, Times, deformation_gradients, time, time_in_turns};
 
 /// Deformation gradients of [`Arrays`], as matrices.
 pub(crate) fn matrices(count: usize) -> Vec<Matrix3<f64>> {
@@ -16,20 +14,6 @@ pub(crate) fn matrices(count: usize) -> Vec<Matrix3<f64>> {
 pub(crate) fn in_cache<E: Stages>(effort: Effort, task: Task, layout: Layout, batch: &Batch<'_, E>) -> Times {
     let mut arrays = Arrays::new(task, layout, IN_CACHE);
     time(effort, IN_CACHE, || arrays.run(batch))
-}
-
-/// Once through more points than any cache holds, in lines: with ordinary stores and with stores past the
-/// caches.
-pub(crate) fn streaming<E: Stages>(
-    effort: Effort,
-    arrays: &mut Arrays<E>,
-    energy: &dyn TileMaterial<E>,
-    filter: Filter,
-) -> [Times; 2] {
-    [false, true].map(|streams| {
-        let batch = Batch::new(energy).with_filter(filter).with_streams(streams);
-        time(effort, STREAMING, || arrays.run(&batch))
-    })
 }
 
 /// Both in turns: the first, the second.

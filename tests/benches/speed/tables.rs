@@ -5,9 +5,9 @@ use std::fmt::Write;
 use piola::batch::{Batch, Layout, Stages};
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, STREAMING, Task, Times, materials, time};
+use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, Task, Times, materials, time};
 
-use super::measure::{in_cache as measure_in_cache, streaming as measure_streaming};
+use super::measure::in_cache as measure_in_cache;
 
 /// `least (median)`.
 pub(crate) fn cell(Times { least, median }: Times) -> String {
@@ -75,27 +75,6 @@ pub(crate) fn few_points(effort: Effort) -> String {
             }
         }
         row(&mut table, &cells);
-    }
-    table
-}
-
-/// Ordinary stores and those past the caches beside each other.
-pub(crate) fn streaming<E: Stages>(effort: Effort) -> String {
-    let materials = materials::<E>();
-    let mut titles = vec!["kernel".to_owned()];
-    for (name, _) in &materials {
-        titles.extend([name.to_string(), "non-temporal".to_owned()]);
-    }
-    let mut table = header(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-    for task in Task::ALL {
-        let mut arrays = Arrays::<E>::new(task, Layout::Lines, STREAMING);
-        for &filter in task.filters() {
-            let mut cells = vec![task.label(filter)];
-            for (_, energy) in &materials {
-                cells.extend(measure_streaming(effort, &mut arrays, &**energy, filter).map(cell));
-            }
-            row(&mut table, &cells);
-        }
     }
     table
 }

@@ -30,9 +30,6 @@ pub use timing::{Effort, Times, time, time_all_in_turns, time_in_turns};
 /// Points whose numbers stay in the caches of a core.
 pub const IN_CACHE: usize = 128;
 
-/// Points whose tangents are larger than any cache: 85 MB of `f64`.
-pub const STREAMING: usize = 1 << 17;
-
 /// Shear modulus of [`materials`], MPa, but for Ogden's.
 pub const MU: f64 = 1.0;
 

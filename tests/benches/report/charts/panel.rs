@@ -13,12 +13,7 @@ pub(crate) const VERMILION: RGBColor = RGBColor(213, 94, 0);
 pub(crate) const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub(crate) const GREEN: RGBColor = RGBColor(0, 158, 115);
 pub(crate) const PURPLE: RGBColor = RGBColor(204, 121, 167);
-pub(crate) const ORANGE: RGBColor = RGBColor(230, 159, 0);
-pub(crate) const SKY: RGBColor = RGBColor(86, 180, 233);
 pub(crate) const GREY: RGBColor = RGBColor(90, 90, 90);
-
-/// Colours for series without a meaning of their own.
-pub(crate) const COLOURS: [RGBColor; 7] = [VERMILION, BLUE, GREEN, PURPLE, ORANGE, SKY, GREY];
 
 pub(super) const FONT: &str = "sans-serif";
 /// Height of a label, pixels.

@@ -155,12 +155,15 @@ impl Label {
     }
 }
 
+/// A computation of all points.
+type Run<E> = dyn FnMut(&Points<E>, &mut Output<E>);
+
 /// A method for one energy.
 pub(crate) struct Contestant<E> {
     pub(crate) label: Label,
     /// In which it leaves its numbers.
     pub(crate) layout: Layout,
-    pub(crate) run: Box<dyn FnMut(&Points<E>, &mut Output<E>)>,
+    pub(crate) run: Box<Run<E>>,
 }
 
 impl<E: Number> Contestant<E> {

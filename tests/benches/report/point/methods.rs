@@ -40,16 +40,6 @@ pub(crate) const JACOBI: &str = "Jacobi SVD";
 pub(crate) const NALGEBRA: &str = "nalgebra SVD";
 pub(crate) const FAER: &str = "faer SVD";
 
-/// Those with a setting, and what it is.
-pub(crate) const SWEPT: [(&str, &str); 6] = [
-    (PAPER, "ε of the regularisation"),
-    (COINCIDENCES, "gap below which stretches count as equal"),
-    (SWITCHED, "gap below which the limit is taken"),
-    (DIFFERENCES, "step, relative to F"),
-    (CLAMPED, "stretch below which it is clamped"),
-    (JACOBI, "sweeps"),
-];
-
 /// All that take part for an energy.
 pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contestant<E>> {
     let (material, potential) = (subject.material(), subject.potential());
