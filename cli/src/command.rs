@@ -2,11 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use piola::step::Integrator;
-use piola_scenes::options::{SceneOptions, scenes};
-use piola_scenes::output::Newton;
+use piola_scenes::options::{SceneOptions, StepOptions, scenes};
 use piola_scenes::run::{Existing, Output};
 use piola_scenes::settings::{Files, Settings};
 use piola_viewer::state::State;
@@ -118,27 +115,12 @@ struct Choice {
     #[command(flatten)]
     scene: SceneOptions,
 
-    /// Time step in s [default: the scene's, 1/30].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    dt: Option<f64>,
-
     /// The surface to embed in them, OBJ [default: their boundary].
     #[arg(long, value_name = "FILE", requires = "mesh")]
     surface: Option<PathBuf>,
 
-    /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work
-    /// as a step of implicit Euler, and errors of second and third order.
-    #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "implicit-euler")]
-    integrator: Integrator,
-
-    /// Largest error of the motion that steps of time may make, in body heights per second: each frame is
-    /// made in steps as short as that takes. Best with --integrator sdirk2 and --newton full.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    tolerance: Option<f64>,
-
-    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
-    #[arg(long, value_enum, default_value_t = Newton::Single)]
-    newton: Newton,
+    #[command(flatten)]
+    steps: StepOptions,
 
     /// Threads for the solver; 0 for one per core.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -204,22 +186,8 @@ impl Choice {
     /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
         let settings = self.scene.settings(self.surface)?;
-        let dt = self.dt.unwrap_or(settings.dt);
-        Ok(settings
-            .with_dt(dt)
-            .with_integrator(self.integrator)
-            .with_tolerance(self.tolerance)
-            .with_newton(self.newton)
-            .with_threads(self.threads))
+        Ok(self.steps.apply(settings).with_threads(self.threads))
     }
-}
-
-fn integrators() -> impl TypedValueParser<Value = Integrator> {
-    PossibleValuesParser::new(["implicit-euler", "sdirk2", "sdirk3"]).map(|name| match name.as_str() {
-        "sdirk2" => Integrator::Sdirk2,
-        "sdirk3" => Integrator::Sdirk3,
-        _ => Integrator::ImplicitEuler,
-    })
 }
 
 #[cfg(test)]

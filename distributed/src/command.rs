@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use piola::point::Filter;
-use piola::step::{Filtering, Integrator, LinearSolver, NewtonSettings};
+use piola::step::{Filtering, LinearSolver, NewtonSettings};
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::options::{SceneOptions, in_file, parameter, scenes, with_values};
+use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scenes, with_values};
 use piola_scenes::output::Newton;
 use piola_scenes::settings::Settings;
 
@@ -81,9 +81,8 @@ pub struct RunOptions {
     #[command(flatten)]
     choice: Choice,
 
-    /// Time step in s [default: the scene's, 1/30].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    dt: Option<f64>,
+    #[command(flatten)]
+    steps: StepOptions,
 
     /// Number of time steps [default: the scene's].
     #[arg(long, value_name = "N")]
@@ -110,19 +109,6 @@ pub struct RunOptions {
     /// Steps from one checkpoint to the next; 0 for one at the end alone.
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub checkpoint_every: usize,
-
-    /// Method by which steps advance in time: implicit-euler, sdirk2 or sdirk3.
-    #[arg(long, value_name = "METHOD", value_parser = integrator, default_value = "implicit-euler")]
-    integrator: Integrator,
-
-    /// Largest error of the motion that steps of time may make, in body heights per second: each frame is
-    /// made in steps as short as that takes. Best with --integrator sdirk2 and --newton full.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    tolerance: Option<f64>,
-
-    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
-    #[arg(long, value_enum, default_value_t = Newton::Single)]
-    newton: Newton,
 
     #[command(flatten)]
     #[expect(missing_docs, reason = "clap would print it")]
@@ -210,13 +196,9 @@ impl RunOptions {
     /// [`Error::Scene`], [`Error::Options`].
     pub fn task(&self) -> Result<Task, Error> {
         let mut task = self.choice.task()?;
-        let settings = &mut task.settings;
-        settings.dt = self.dt.unwrap_or(settings.dt);
-        settings.frames = self.frames.unwrap_or(settings.frames);
-        settings.integrator = self.integrator;
-        settings.tolerance = self.tolerance;
-        settings.newton = self.newton;
-        settings.check()?;
+        let frames = self.frames.unwrap_or(task.settings.frames);
+        task.settings = self.steps.apply(task.settings).with_frames(frames);
+        task.settings.check()?;
         Ok(task)
     }
 
@@ -225,7 +207,7 @@ impl RunOptions {
     /// # Errors
     /// [`Error::Options`].
     pub fn newton(&self) -> Result<NewtonSettings, Error> {
-        self.solver.settings(self.newton == Newton::Single)
+        self.solver.settings(self.steps.newton == Newton::Single)
     }
 }
 
@@ -325,16 +307,6 @@ fn filtering(text: &str) -> Result<Filtering, String> {
         "absolute" => Ok(Filtering::Always(Filter::Absolute)),
         "none" => Ok(Filtering::Always(Filter::None)),
         _ => Err("write on-demand, clamp, absolute or none".to_owned()),
-    }
-}
-
-/// Reads the name of an integrator.
-fn integrator(text: &str) -> Result<Integrator, String> {
-    match text {
-        "implicit-euler" => Ok(Integrator::ImplicitEuler),
-        "sdirk2" => Ok(Integrator::Sdirk2),
-        "sdirk3" => Ok(Integrator::Sdirk3),
-        _ => Err("write implicit-euler, sdirk2 or sdirk3".to_owned()),
     }
 }
 

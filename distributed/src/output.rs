@@ -111,14 +111,26 @@ fn make(folder: &Path, may_replace: bool) -> Result<(), Error> {
 /// # Errors
 /// [`Error::OnRank`].
 pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<(), Error> {
-    let path = folder.join(SUMMARY);
-    let write = || {
-        let mut text = serde_json::to_vec_pretty(summary)
-            .map_err(|error| Error::Write { path: path.clone(), source: error.into() })?;
-        text.push(b'\n');
-        Ok(write_whole(&path, &text)?)
+    let write = |bytes: &mut Vec<u8>| {
+        serde_json::to_writer_pretty(&mut *bytes, summary)?;
+        writeln!(bytes)
     };
-    team.agree(if team.rank() == 0 { write() } else { Ok(()) })
+    write_once(team, folder.join(SUMMARY), write)
+}
+
+/// Writes a file by the first rank.
+fn write_once(
+    team: &Team,
+    path: PathBuf,
+    content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>,
+) -> Result<(), Error> {
+    team.agree(if team.rank() == 0 { write(path, content) } else { Ok(()) })
+}
+
+fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> Result<(), Error> {
+    let mut bytes = Vec::new();
+    content(&mut bytes).map_err(|source| Error::Write { path: path.clone(), source })?;
+    Ok(write_whole(&path, &bytes)?)
 }
 
 /// Writes the tetrahedra of a frame: a piece of each rank, and a file that names the pieces.
@@ -128,31 +140,20 @@ pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<()
 pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simulation) -> Result<(), Error> {
     let (share, state) = (simulation.share(), simulation.state());
     let piece = |rank: usize| format!("frame_{frame:04}_{rank}.vtu");
-    let write_piece = || -> Result<(), Error> {
-        let (x, v) = (state.positions(), state.velocities());
-        let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
-        let displacement: Vec<f64> = (0..x.len())
-            .flat_map(|node| (0..3).map(move |c| x[node][c] - share.places[node].rest[c]))
-            .collect();
-        let rank = vec![team.rank() as f64; tets.len()];
-        let nodal = [
-            Field { name: "displacement", components: 3, values: &displacement },
-            Field { name: "velocity", components: 3, values: v.as_flattened() },
-        ];
-        let elemental = [Field { name: "rank", components: 1, values: &rank }];
-        let (path, mut bytes) = (folder.join(piece(team.rank())), Vec::new());
-        let written = write_vtu(&mut bytes, x, &tets, &nodal, &elemental);
-        written.map_err(|source| Error::Write { path: path.clone(), source })?;
-        Ok(write_whole(&path, &bytes)?)
-    };
-    team.agree(write_piece())?;
-    let write_list = || -> Result<(), Error> {
-        let (path, mut bytes) = (folder.join(frame_file(frame)), Vec::new());
-        let written = write_pvtu(&mut bytes, (0..team.size()).map(piece));
-        written.map_err(|source| Error::Write { path: path.clone(), source })?;
-        Ok(write_whole(&path, &bytes)?)
-    };
-    team.agree(if team.rank() == 0 { write_list() } else { Ok(()) })
+    let (x, v) = (state.positions(), state.velocities());
+    let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
+    let displacement: Vec<f64> =
+        (0..x.len()).flat_map(|node| (0..3).map(move |c| x[node][c] - share.places[node].rest[c])).collect();
+    let rank = vec![team.rank() as f64; tets.len()];
+    let nodal = [
+        Field { name: "displacement", components: 3, values: &displacement },
+        Field { name: "velocity", components: 3, values: v.as_flattened() },
+    ];
+    let elemental = [Field { name: "rank", components: 1, values: &rank }];
+    let written = write(folder.join(piece(team.rank())), |file| write_vtu(file, x, &tets, &nodal, &elemental));
+    team.agree(written)?;
+    let pieces = (0..team.size()).map(piece);
+    write_once(team, folder.join(frame_file(frame)), |file| write_pvtu(file, pieces))
 }
 
 fn write_pvtu(target: &mut impl Write, pieces: impl Iterator<Item = String>) -> io::Result<()> {
@@ -186,12 +187,6 @@ fn frame_file(frame: usize) -> String {
 /// # Errors
 /// [`Error::OnRank`].
 pub fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
-    let write = || -> Result<(), Error> {
-        let (path, mut bytes) = (folder.join(FRAMES), Vec::new());
-        let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
-        let written = write_pvd(&mut bytes, frames);
-        written.map_err(|source| Error::Write { path: path.clone(), source })?;
-        Ok(write_whole(&path, &bytes)?)
-    };
-    team.agree(if team.rank() == 0 { write() } else { Ok(()) })
+    let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
+    write_once(team, folder.join(FRAMES), |file| write_pvd(file, frames))
 }

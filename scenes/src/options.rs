@@ -1,9 +1,11 @@
 //! Options of a command line that choose a scene and replace what it says, for every program that plays one.
 
 mod energy;
+mod step;
 mod value;
 
 pub use energy::{Formula, in_file, with_values};
+pub use step::StepOptions;
 pub use value::{Given, inversion, parameter};
 
 use std::path::PathBuf;
