@@ -31,7 +31,7 @@ impl Term for Ground {
 }
 
 /// Conjugate gradients.
-fn conjugate(matrix: LowerTriangle<'_>, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError> {
+fn conjugate(matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError> {
     let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let (mut x, mut r, mut p, mut product) = (vec![0.0; b.len()], b.to_vec(), b.to_vec(), b.to_vec());
     let (mut iterations, mut square, goal) = (0, dot(b, b), tolerance * tolerance * dot(b, b));

@@ -101,8 +101,8 @@ pub use tile::Rows;
 use call::Call;
 #[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
-#[cfg(any(feature = "bodies", test))]
-pub(crate) use form::PACKED_12;
+#[cfg(test)]
+use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::Source;
 use stage::{Deform, StiffnessForm, Stress, StressByInvariants, TangentForm};
@@ -303,7 +303,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
     /// F = Ds Dm⁻¹. Of the gradients there are 12 components, coordinate a of node n at 3n+a; **forces are
     /// minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a. With feature
-    /// `bodies`, `BlockMatrix` sums them into a sparse matrix.
+    /// `bodies`, `CsrPlaces` sums them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
     /// the tangent, it is cut there, because a factorisation could not resolve more.

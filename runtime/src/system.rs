@@ -4,30 +4,25 @@
 //! included.
 
 pub(crate) mod assemble;
-mod block_matrix;
 mod body;
 mod csr;
 pub(crate) mod element;
-mod fill;
 pub(crate) mod graph;
 pub(crate) mod linear;
 mod lower_triangle;
 mod memory;
 pub(crate) mod nodal_stiffness;
-pub(crate) mod pattern;
 mod pins;
 mod response;
 pub(crate) mod stiffnesses;
 #[cfg(test)]
 pub(crate) mod testing;
 
-pub use block_matrix::BlockMatrix;
 pub use body::{Body, BodyError, Part};
 pub use csr::{CsrError, CsrPlaces};
 pub use element::Tetrahedron;
 pub use linear::{Cholesky, LinearError};
 pub use lower_triangle::LowerTriangle;
 pub use nodal_stiffness::NodalStiffness;
-pub use pattern::Pattern;
 pub use pins::{PinError, Pins};
 pub use response::ElasticResponse;

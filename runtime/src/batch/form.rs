@@ -141,7 +141,7 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
 }
 
 pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
-pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
+pub(super) static PACKED_12: [[usize; 12]; 12] = packed();
 
 /// Dm⁻¹ row by row, its volume last: what an element's forms need of its shape at rest.
 struct Rest<R> {

@@ -87,7 +87,7 @@ impl Viscosity {
     /// Takes the stiffnesses where the energies were evaluated last.
     pub(super) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, factor: f64) {
         self.factor = factor;
-        elastic.linearise(body, Filter::Clamp, &mut self.stiffnesses);
+        elastic.linearise(body, Filter::Clamp, 0, self.stiffnesses.tiles_mut());
     }
 
     /// Adds β/h K d for a displacement of each node.
@@ -103,11 +103,6 @@ impl Viscosity {
     /// β/h dᵀK d.
     pub(super) fn curvature(&self, body: &Body, displacement: &[[f64; 3]]) -> f64 {
         self.factor * self.stiffnesses.quadratic_form(body, displacement)
-    }
-
-    /// Adds β/h K to the stiffnesses of the elements.
-    pub(crate) fn add_to(&self, stiffnesses: &mut ElementStiffnesses) {
-        stiffnesses.add(self.factor, &self.stiffnesses);
     }
 
     /// Adds β/h K to the stiffnesses of the elements of some tiles.

@@ -14,14 +14,10 @@
 //! smallest eigenvalue of K is the largest of (K + σM)⁻¹M, the better separated from the others the smaller σ
 //! is.
 
-use faer::sparse::SparseColMatRef;
-
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::linear::lanczos::{add, dot, largest, norm};
-use crate::system::linear::symmetric_product;
-use crate::system::stiffnesses::ElementStiffnesses;
-use crate::system::{Body, Cholesky, LinearError, Pattern, Pins, Tetrahedron};
+use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, Pins, Tetrahedron};
 
 use super::integrator::Stage;
 use super::minimisation::demand_admissible;
@@ -96,8 +92,8 @@ pub enum Stability {
 impl Equilibrium {
     /// Analyses a body at its current positions, as if it did not move.
     ///
-    /// Takes memory for the stiffness and a factor of it, 720 bytes for each element, and at most a hundred
-    /// vectors; takes about as long as ten to a hundred Newton iterations.
+    /// Takes memory for the stiffness, a factor of it and at most a hundred vectors, and about as long as ten
+    /// to a hundred Newton iterations.
     ///
     /// # Errors
     /// [`NewtonError::Inadmissible`] for an element outside the domain of its material,
@@ -107,12 +103,8 @@ impl Equilibrium {
     pub fn of(simulation: &Simulation) -> Result<Self, NewtonError> {
         let (body, positions) = (simulation.body(), simulation.positions());
         let mut elastic = Elastic::new(body);
-        let mut stiffnesses = ElementStiffnesses::new(body);
         let survey = elastic.evaluate(body, positions);
         demand_admissible(&survey, body, &elastic)?;
-        let tangents = elastic.linearise(body, Filter::None, &mut stiffnesses);
-        demand_admissible(&tangents, body, &elastic)?;
-
         let stage = Stage::at_rest(positions.len());
         let quadratic = Quadratic {
             masses: body.masses(),
@@ -129,17 +121,21 @@ impl Equilibrium {
         if let Some(node) = blocks.missing() {
             return Err(NewtonError::NoSuchNode { node, nodes: positions.len() });
         }
+        let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
+        let mut stiffness = NodalStiffness::new(body, &pairs)?;
+        let tangents = stiffness.linearise(body, &mut elastic, Filter::None, |_, _| {});
+        demand_admissible(&tangents, body, &elastic)?;
         let objective =
             Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks, viscosity: None };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 
         let pins = Pins::at(simulation.pinned().iter().copied());
-        let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
-        let pattern = Pattern::with_pairs(positions.len(), body.elements(), &pairs, &pins)?;
-        let rigid = rigid::motions(simulation, pattern.node_of_free())?;
-        let spectrum = Spectrum::new(body.masses(), &stiffnesses, &blocks, pattern, &rigid);
-        let smallest_eigenvalue = spectrum.and_then(|spectrum| spectrum.smallest())?;
+        let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
+        matrix.fill(&stiffness, |_| 0.0)?;
+        blocks.add_to_triangle(&mut matrix);
+        let rigid = rigid::motions(simulation, matrix.free_nodes())?;
+        let smallest_eigenvalue = Spectrum::new(body.masses(), matrix, &rigid)?.smallest()?;
 
         let square = |x: &[f64; 3]| x.iter().map(|c| c * c).sum::<f64>();
         let is_free = |node: &usize| simulation.pinned().binary_search(node).is_err();
@@ -187,40 +183,30 @@ fn unit_force(body: &Body) -> f64 {
 
 /// The stiffness over the unknowns, and the rigid motions that are left out of it.
 struct Spectrum<'a> {
-    pattern: Pattern,
-    /// Entries of K.
-    stiffness: Vec<f64>,
+    /// K.
+    stiffness: LowerTriangle,
     /// Mass of each unknown.
     masses: Vec<f64>,
     rigid: &'a [Vec<f64>],
 }
 
 impl<'a> Spectrum<'a> {
-    fn new(
-        masses: &[f64],
-        stiffnesses: &ElementStiffnesses,
-        blocks: &NodeBlocks,
-        pattern: Pattern,
-        rigid: &'a [Vec<f64>],
-    ) -> Result<Self, NewtonError> {
-        let mut stiffness = vec![0.0; pattern.entries().row_idx().len()];
-        stiffnesses.fill(&pattern, |_| 0.0, &mut stiffness);
-        blocks.add_to_entries(&pattern, &mut stiffness);
-        if !stiffness.iter().all(|entry| entry.is_finite()) {
+    fn new(masses: &[f64], stiffness: LowerTriangle, rigid: &'a [Vec<f64>]) -> Result<Self, NewtonError> {
+        if !stiffness.values().iter().all(|entry| entry.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
-        let masses = pattern.node_of_free().iter().flat_map(|&node| [masses[node]; 3]).collect();
-        Ok(Self { pattern, stiffness, masses, rigid })
+        let masses = stiffness.free_nodes().iter().flat_map(|&node| [masses[node]; 3]).collect();
+        Ok(Self { stiffness, masses, rigid })
     }
 
     fn smallest(&self) -> Result<Option<Eigenvalue>, NewtonError> {
-        let mut cholesky = Cholesky::of_pattern(self.pattern.shared_entries())?;
+        let mut cholesky = Cholesky::of_pattern(self.stiffness.entries())?;
         self.factor(&mut cholesky)?;
         let vector = largest(&self.masses, self.rigid, |x, product| {
             product.iter_mut().zip(x.iter().zip(&self.masses)).for_each(|(product, (x, m))| *product = m * x);
             cholesky.substitute(product);
         })?;
-        let eigenvalue = vector.map(|vector| self.quotient(&vector));
+        let eigenvalue = vector.map(|vector| self.quotient(&vector)).transpose()?;
         match eigenvalue.is_none_or(|Eigenvalue { value, error }| value.is_finite() && error.is_finite()) {
             true => Ok(eigenvalue),
             false => Err(NewtonError::NotFinite),
@@ -229,25 +215,22 @@ impl<'a> Spectrum<'a> {
 
     /// Factors K + σM for the first σ for which it is positive definite.
     fn factor(&self, cholesky: &mut Cholesky) -> Result<(), NewtonError> {
-        let entries = self.pattern.entries();
-        let diagonal = |column: usize| entries.col_range(column).start;
-        let unknowns = 0..self.masses.len();
-        let ratio = |i: usize| self.stiffness[diagonal(i)].abs() / self.masses[i];
-        let scale = unknowns.clone().map(ratio).fold(0.0, f64::max);
+        let ratios = self.stiffness.diagonal().zip(&self.masses).map(|(entry, mass)| entry.abs() / mass);
+        let scale = ratios.fold(0.0, f64::max);
         // A body without stiffness needs some positive shift.
         let scale = if scale > 0.0 { scale } else { 1.0 };
         let mut shift = FIRST_SHIFT;
         loop {
-            let mut shifted = self.stiffness.clone();
-            for i in unknowns.clone() {
-                shifted[diagonal(i)] += shift * scale * self.masses[i];
+            let mut shifted = self.stiffness.values().to_vec();
+            for (&start, mass) in self.stiffness.column_starts().iter().zip(&self.masses) {
+                shifted[start] += shift * scale * mass;
             }
             match cholesky.factor(&shifted) {
                 Ok(()) => return Ok(()),
                 Err(LinearError::NotPositive { .. }) if shift < LAST_SHIFT => shift *= NEXT_SHIFT,
                 Err(LinearError::NotPositive { column }) => {
                     return Err(NewtonError::NotPositive {
-                        node: self.pattern.node_of_free()[column / 3],
+                        node: self.stiffness.free_nodes()[column / 3],
                         shift,
                     });
                 }
@@ -258,15 +241,14 @@ impl<'a> Spectrum<'a> {
 
     /// Rayleigh quotient ω² = vᵀKv/vᵀMv, from which some eigenvalue differs by no more than the norm of M⁻¹Kv
     /// − ω²v, for v of norm 1.
-    fn quotient(&self, vector: &[f64]) -> Eigenvalue {
+    fn quotient(&self, vector: &[f64]) -> Result<Eigenvalue, NewtonError> {
         let mut product = vec![0.0; vector.len()];
-        let matrix = SparseColMatRef::new(self.pattern.entries(), &self.stiffness);
-        symmetric_product(matrix, vector, &mut product);
+        self.stiffness.multiply(vector, &mut product)?;
         product.iter_mut().zip(&self.masses).for_each(|(product, m)| *product /= m);
         let length = dot(&self.masses, vector, vector);
         let value = dot(&self.masses, vector, &product) / length;
         add(-value, vector, &mut product);
-        Eigenvalue { value, error: norm(&self.masses, &product) / length.sqrt() }
+        Ok(Eigenvalue { value, error: norm(&self.masses, &product) / length.sqrt() })
     }
 }
 

@@ -17,10 +17,11 @@
 use std::iter;
 use std::sync::Arc;
 
-use crate::system::Body;
+use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::{Body, NodalStiffness};
 
 use super::damping::Viscosity;
 use super::integrator::Stage;
@@ -165,6 +166,17 @@ impl Objective<'_> {
     /// Evaluates the energies at `x`, where gradients and second derivatives are taken after that.
     pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
         self.elastic.evaluate(self.body, x)
+    }
+
+    /// Evaluates the elastic gradients and the filtered stiffness, that of damping included, where the
+    /// energies were evaluated last.
+    pub(super) fn linearise(&mut self, filter: Filter, stiffness: &mut NodalStiffness) -> Evaluated {
+        let viscosity = self.viscosity;
+        stiffness.linearise(self.body, self.elastic, filter, |tiles, stiffnesses| {
+            if let Some(viscosity) = viscosity {
+                viscosity.add_tiles_to(tiles, stiffnesses);
+            }
+        })
     }
 
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.

@@ -5,7 +5,6 @@
 
 mod assembled;
 mod conjugate;
-mod direct;
 mod interface;
 mod own;
 mod preconditioner;
@@ -17,7 +16,6 @@ use crate::system::{Body, Pins};
 
 use assembled::Assembled;
 use conjugate::Conjugate;
-use direct::Direct;
 
 pub use own::SparseSolver;
 
@@ -107,9 +105,9 @@ impl LinearSolver {
     ) -> Result<Box<dyn Solver>, LinearError> {
         Ok(match self {
             Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
-            Self::Cholesky => Box::new(Assembled::new(body, pins, pairs, |pattern| {
-                Ok(Direct { solver: Cholesky::of_pattern(pattern.shared_entries())? })
-            })?),
+            Self::Cholesky => {
+                Box::new(Assembled::new(body, pins, pairs, |matrix| Cholesky::of_pattern(matrix.entries()))?)
+            }
             Self::ConjugateGradients { tolerance, max_iterations } => {
                 Box::new(Conjugate::new(body, pins, pairs, tolerance, max_iterations)?)
             }
@@ -146,10 +144,10 @@ pub(crate) trait SetUp: Send + Sync {
 
 impl<S: SparseSolver> SetUp for S {
     fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError> {
-        let analysed = Assembled::new(body, pins, pairs, |pattern| {
+        let analysed = Assembled::new(body, pins, pairs, |matrix| {
             let mut solver = self.clone();
-            solver.analyse(pattern.column_starts(), pattern.row_indices())?;
-            Ok(Direct { solver })
+            solver.analyse(matrix.column_starts(), matrix.row_indices())?;
+            Ok(solver)
         })?;
         Ok(Box::new(analysed))
     }

@@ -4,8 +4,8 @@
 //! obeys the same line search and the same refusal of a trial as an energy that ends at J = 0.
 
 use crate::lanes::Real;
+use crate::system::LowerTriangle;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
-use crate::system::pattern::Pattern;
 
 use super::spring::Spring;
 
@@ -145,19 +145,10 @@ impl NodeBlocks {
         }
     }
 
-    /// Adds the blocks of free nodes to the entries of a pattern that has all their pairs.
-    pub(super) fn add_to_entries(&self, pattern: &Pattern, values: &mut [f64]) {
+    /// Adds the blocks of free nodes to a matrix that has all their pairs.
+    pub(super) fn add_to_triangle(&self, matrix: &mut LowerTriangle) {
         for NodeBlock { row, column, entries } in &self.blocks {
-            let numbers = pattern.free_of_node()[*row].zip(pattern.free_of_node()[*column]);
-            let Some((i, j)) = numbers else { continue };
-            let (row, column) = (i.max(j), i.min(j));
-            let Some(block) = pattern.block(row, column) else { continue };
-            for r in 0..3 {
-                for c in 0..if row == column { r + 1 } else { 3 } {
-                    let entry = if i < j { entries[c][r] } else { entries[r][c] };
-                    values[pattern.scalar(column, block, r, c)] += entry;
-                }
-            }
+            matrix.add_block(*row, *column, entries);
         }
     }
 

@@ -7,16 +7,14 @@
 //!
 //! 1. *Elements.* Groups of elements are evaluated in parallel, each element into a place of its own.
 //! 2. *Entries.* Each entry of the matrix has a list of the element blocks that add up to it, made once with
-//!    the sparsity pattern and sorted by element. Columns are summed in parallel, each entry by one thread in
+//!    the sparsity pattern and sorted by element. Rows are summed in parallel, each entry by one thread in
 //!    the order of its list. Nodal vectors and energies are summed by one thread in the order of the
 //!    elements: that takes microseconds.
 //!
 //! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a
 //! division. A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720
-//! bytes of stiffness for each element, which stays in the cache for the bodies this is made for. It
-//! belongs to the caller ([`ElementStiffnesses`](super::stiffnesses::ElementStiffnesses)); large bodies
-//! are assembled in waves, which share one small buffer
-//! ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
+//! bytes of stiffness for each element. Bodies are assembled in waves of some thousand elements, which share
+//! one buffer that stays in the cache ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken
 //! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is
@@ -29,7 +27,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::body::Body;
-use super::element::{ElementGroup, Evaluated, Tetrahedron};
+use super::element::{ElementGroup, Evaluated, Stiffness, Tetrahedron};
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::{Filter, svd};
@@ -49,24 +47,6 @@ struct State {
     group: ElementGroup,
     elements: Range<usize>,
     evaluated: Evaluated,
-}
-
-/// A form in which the tangents of a body are kept.
-pub(crate) trait Tangents {
-    /// The tangents of a group.
-    type Tile: Send;
-
-    /// The tangents of each of [`Body::groups`].
-    fn tiles(&mut self) -> &mut [Self::Tile];
-
-    /// Evaluates gradients and filtered tangents of a group where its energies were evaluated last.
-    fn evaluate(
-        tile: &mut Self::Tile,
-        group: &mut ElementGroup,
-        material: &dyn TileMaterial<f64>,
-        elements: &[Tetrahedron],
-        filter: Filter,
-    ) -> Status<u64>;
 }
 
 impl Elastic {
@@ -100,28 +80,18 @@ impl Elastic {
         self.groups.par_iter_mut().for_each(|state| state.evaluate(body, ElementGroup::evaluate_gradients));
     }
 
-    /// Evaluates gradients and filtered tangents where the energies were evaluated last.
-    pub(crate) fn linearise<T: Tangents>(
+    /// Evaluates gradients and filtered stiffnesses of the groups from `first` on, one for each tile, where
+    /// the energies were evaluated last.
+    pub(crate) fn linearise(
         &mut self,
         body: &Body,
         filter: Filter,
-        tangents: &mut T,
-    ) -> Evaluated {
-        self.linearise_groups::<T>(body, filter, 0..self.groups.len(), tangents.tiles());
-        self.survey()
-    }
-
-    /// Evaluates gradients and filtered tangents of some groups where the energies were evaluated last.
-    pub(crate) fn linearise_groups<T: Tangents>(
-        &mut self,
-        body: &Body,
-        filter: Filter,
-        groups: Range<usize>,
-        tiles: &mut [T::Tile],
+        first: usize,
+        tiles: &mut [[Stiffness; TILE]],
     ) {
-        self.groups[groups].par_iter_mut().zip(tiles).for_each(|(state, tile)| {
+        self.groups[first..].par_iter_mut().zip(tiles).for_each(|(state, tile)| {
             state.evaluate(body, |group, material, elements| {
-                T::evaluate(tile, group, material, elements, filter)
+                group.evaluate_stiffnesses(material, elements, filter, tile)
             });
         });
     }

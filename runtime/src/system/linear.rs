@@ -170,22 +170,6 @@ fn scratch(symbolic: &SymbolicCholesky<usize>) -> StackReq {
         .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))
 }
 
-/// Product A x of a symmetric matrix given by its lower triangle.
-pub(crate) fn symmetric_product(matrix: SparseColMatRef<'_, usize, f64>, x: &[f64], product: &mut [f64]) {
-    product.fill(0.0);
-    for column in 0..x.len() {
-        let entries = matrix.row_idx_of_col_raw(column).iter().zip(matrix.val_of_col(column));
-        let mut sum = 0.0;
-        for (&row, value) in entries {
-            sum += value * x[row];
-            if row != column {
-                product[row] += value * x[column];
-            }
-        }
-        product[column] += sum;
-    }
-}
-
 /// Why a system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -215,24 +199,12 @@ pub enum LinearError {
     },
     /// The eigenvalues of a small matrix cannot be computed.
     NoEigenvalues,
-    /// An element or a pin names a node that does not exist.
+    /// A pin names a node that does not exist.
     NoSuchNode {
         /// The missing node.
         node: usize,
         /// Number of nodes.
         nodes: usize,
-    },
-    /// A matrix has no block for two nodes, since no tetrahedron has both.
-    NotJoined {
-        /// The nodes.
-        nodes: [usize; 2],
-    },
-    /// A tetrahedron names a node more than once.
-    RepeatedNode {
-        /// Index of the tetrahedron, from 0.
-        element: usize,
-        /// The node.
-        node: usize,
     },
 }
 
@@ -245,13 +217,6 @@ impl fmt::Display for LinearError {
             Self::NoSuchNode { node, nodes } => {
                 write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
             }
-            Self::NotJoined { nodes: [a, b] } => {
-                write!(f, "the matrix has no block for nodes {a} and {b} (from 0): no tetrahedron has both")
-            }
-            Self::RepeatedNode { element, node } => write!(
-                f,
-                "tetrahedron {element} (from 0) names node {node} more than once; its four nodes must differ"
-            ),
             Self::Length { slice, found, expected } => {
                 write!(f, "`{slice}` has {found} entries; the matrix demands {expected}")
             }

@@ -1,40 +1,176 @@
-//! A symmetric matrix as its lower triangle, on its way to a solver.
+//! The stiffness of a body as the lower triangle of a sparse matrix, for factorisations.
+//!
+//! Unknowns are the coordinates of the nodes that are not pinned, numbered so that a Cholesky factor stays
+//! sparse: by approximate minimum degree on the graph of nodes, whose edges are 3×3 blocks.
 
-use faer::sparse::SparseColMatRef;
+use std::sync::Arc;
 
-use super::linear::{LinearError, fits, symmetric_product};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::amd;
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// A symmetric matrix, given by its lower triangle in compressed columns: the form of
-/// [`BlockMatrix`](super::BlockMatrix), of SciPy's `csc_matrix` and of most sparse solvers.
+use super::graph::Graph;
+use super::linear::{LinearError, fits};
+use super::memory::{filled, reserved};
+use super::nodal_stiffness::NodalStiffness;
+use super::pins::Pins;
+
+/// Lower triangle of a [`NodalStiffness`], N/m, without the rows and columns of pinned nodes, in compressed
+/// columns: the form of SciPy's `csc_matrix` and of most sparse solvers.
 ///
 /// Entries of column c are those from `column_starts()[c]` to `column_starts()[c + 1]`, their rows ascending
-/// from the diagonal, which is always stored.
-#[derive(Clone, Copy, Debug)]
-pub struct LowerTriangle<'a>(pub(crate) SparseColMatRef<'a, usize, f64>);
+/// from the diagonal, which is always stored. Three rows belong to each free node, in an order that keeps a
+/// factor sparse. Read as compressed rows, the same slices are the upper triangle.
+#[derive(Clone, Debug)]
+pub struct LowerTriangle {
+    entries: Arc<SymbolicSparseColMat<usize>>,
+    values: Vec<f64>,
+    /// Index of each entry among the scalars of the blocks of the stiffness.
+    sources: Vec<u32>,
+    /// Number of blocks of the stiffness.
+    blocks: usize,
+    free_nodes: Vec<usize>,
+    /// Index of each node in `free_nodes`; `None` for a pinned node.
+    free_of_node: Vec<Option<usize>>,
+}
 
-impl<'a> LowerTriangle<'a> {
+impl LowerTriangle {
+    /// A matrix of zeros, which [`LowerTriangle::fill`] replaces by the entries of the stiffness.
+    ///
+    /// # Errors
+    /// [`LinearError::NoSuchNode`] for a pin, [`LinearError::OutOfMemory`].
+    pub fn new(stiffness: &NodalStiffness, pins: &Pins) -> Result<Self, LinearError> {
+        let (graph, pattern) = (stiffness.graph(), stiffness.matrix().pattern());
+        let nodes = graph.rows();
+        if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
+            return Err(LinearError::NoSuchNode { node, nodes });
+        }
+        let blocks = pattern.len();
+        u32::try_from(9 * blocks).map_err(|_| LinearError::OutOfMemory)?;
+        let free_nodes = order(graph, pins)?;
+        let mut free_of_node = filled(nodes, None)?;
+        free_nodes.iter().enumerate().for_each(|(free, &node)| free_of_node[node] = Some(free));
+
+        let unknowns = 3 * free_nodes.len();
+        let (mut starts, mut rows, mut sources) =
+            (reserved(unknowns + 1)?, reserved(9 * blocks)?, reserved(9 * blocks)?);
+        starts.push(0);
+        // Row, index and transposition of the blocks of a column.
+        let mut of_column = Vec::new();
+        for (column, &node) in free_nodes.iter().enumerate() {
+            of_column.clear();
+            of_column.push((column, pattern.diagonal(node), false));
+            for &other in graph.neighbours(node) {
+                let row = free_of_node[other as usize].filter(|&row| row > column);
+                let block = row.and_then(|row| Some((row, pattern.block(other as usize, node)?)));
+                of_column.extend(block.map(|(row, (block, is_transposed))| (row, block, is_transposed)));
+            }
+            of_column.sort_unstable();
+            for c in 0..3 {
+                for &(row, block, is_transposed) in &of_column {
+                    for r in if row == column { c } else { 0 }..3 {
+                        let entry = if is_transposed { 3 * c + r } else { 3 * r + c };
+                        rows.push(3 * row + r);
+                        sources.push((9 * block + entry) as u32);
+                    }
+                }
+                starts.push(rows.len());
+            }
+        }
+        Ok(Self {
+            values: filled(rows.len(), 0.0)?,
+            entries: Arc::new(SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows)),
+            sources,
+            blocks,
+            free_nodes,
+            free_of_node,
+        })
+    }
+
+    /// Replaces the values by those of the stiffness that this was made for, and adds `diagonal(node)`, N/m,
+    /// to the diagonal for each free node, such as a mass over the square of a time step.
+    ///
+    /// # Errors
+    /// [`LinearError::Length`] if the stiffness has another number of blocks.
+    pub fn fill(
+        &mut self,
+        stiffness: &NodalStiffness,
+        diagonal: impl Fn(usize) -> f64,
+    ) -> Result<(), LinearError> {
+        fits("stiffness", stiffness.len(), self.blocks)?;
+        let scalars = stiffness.matrix().blocks().as_flattened().as_flattened();
+        for (value, &source) in self.values.iter_mut().zip(&self.sources) {
+            *value = scalars[source as usize];
+        }
+        let starts = self.entries.col_ptr();
+        for (free, &node) in self.free_nodes.iter().enumerate() {
+            let added = diagonal(node);
+            starts[3 * free..3 * free + 3].iter().for_each(|&start| self.values[start] += added);
+        }
+        Ok(())
+    }
+
+    /// Adds to the block of two nodes and to its transpose; nothing where a node is pinned or no element has
+    /// both.
+    pub(crate) fn add_block(&mut self, row: usize, column: usize, block: &[[f64; 3]; 3]) {
+        let Some((i, j)) = self.free_of_node[row].zip(self.free_of_node[column]) else { return };
+        for c in 0..3 {
+            let range = self.entries.col_range(3 * i.min(j) + c);
+            let first = if i == j { c } else { 0 };
+            let rows = &self.entries.row_idx()[range.clone()];
+            let Ok(at) = rows.binary_search(&(3 * i.max(j) + first)) else { return };
+            for (value, r) in self.values[range.start + at..].iter_mut().zip(first..3) {
+                *value += if i < j { block[c][r] } else { block[r][c] };
+            }
+        }
+    }
+
+    /// Separates some of the free nodes from the others: their rows and columns become those of the unit
+    /// matrix.
+    pub(crate) fn hold(&mut self, held: &[bool]) {
+        for column in 0..3 * held.len() {
+            for at in self.entries.col_range(column) {
+                let row = self.entries.row_idx()[at];
+                if held[row / 3] || held[column / 3] {
+                    self.values[at] = f64::from(u8::from(row == column));
+                }
+            }
+        }
+    }
+
+    /// The nodes that are not pinned: rows and columns 3k, 3k+1 and 3k+2 are the coordinates of node
+    /// `free_nodes()[k]`.
+    #[must_use]
+    pub fn free_nodes(&self) -> &[usize] {
+        &self.free_nodes
+    }
+
+    pub(crate) fn entries(&self) -> &Arc<SymbolicSparseColMat<usize>> {
+        &self.entries
+    }
+
     /// Start of each column among the entries, and the end of the last.
     #[must_use]
-    pub fn column_starts(&self) -> &'a [usize] {
-        self.0.symbolic().col_ptr()
+    pub fn column_starts(&self) -> &[usize] {
+        self.entries.col_ptr()
     }
 
     /// Row of each entry.
     #[must_use]
-    pub fn row_indices(&self) -> &'a [usize] {
-        self.0.symbolic().row_idx()
+    pub fn row_indices(&self) -> &[usize] {
+        self.entries.row_idx()
     }
 
-    /// The entries.
+    /// The entries, N/m.
     #[must_use]
-    pub fn values(&self) -> &'a [f64] {
-        self.0.val()
+    pub fn values(&self) -> &[f64] {
+        &self.values
     }
 
-    /// The entries on the diagonal.
-    pub fn diagonal(&self) -> impl Iterator<Item = f64> + 'a {
-        let (starts, values) = (self.column_starts(), self.values());
-        starts.iter().take(starts.len().saturating_sub(1)).map(move |&start| values[start])
+    /// The entries on the diagonal, N/m.
+    pub fn diagonal(&self) -> impl Iterator<Item = f64> {
+        let starts = self.column_starts();
+        starts[..starts.len() - 1].iter().map(|&start| self.values[start])
     }
 
     /// Computes A x of the whole matrix, both triangles.
@@ -42,29 +178,52 @@ impl<'a> LowerTriangle<'a> {
     /// # Errors
     /// [`LinearError::Length`] unless `x` and `product` have one entry for each row.
     pub fn multiply(&self, x: &[f64], product: &mut [f64]) -> Result<(), LinearError> {
-        fits("x", x.len(), self.0.nrows())?;
-        fits("product", product.len(), self.0.nrows())?;
-        symmetric_product(self.0, x, product);
+        let unknowns = 3 * self.free_nodes.len();
+        fits("x", x.len(), unknowns)?;
+        fits("product", product.len(), unknowns)?;
+        product.fill(0.0);
+        for column in 0..unknowns {
+            let range = self.entries.col_range(column);
+            let entries = self.row_indices()[range.clone()].iter().zip(&self.values[range]);
+            let mut sum = 0.0;
+            for (&row, value) in entries {
+                sum += value * x[row];
+                if row != column {
+                    product[row] += value * x[column];
+                }
+            }
+            product[column] += sum;
+        }
         Ok(())
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use faer::sparse::SymbolicSparseColMatRef;
-
-    #[test]
-    fn the_product_is_that_of_both_triangles() {
-        // [[4, 2, 0], [2, 5, 1], [0, 1, 3]]
-        let pattern = SymbolicSparseColMatRef::new_checked(3, 3, &[0, 2, 4, 5], None, &[0, 1, 1, 2, 2]);
-        let matrix = LowerTriangle(SparseColMatRef::new(pattern, &[4.0, 2.0, 5.0, 1.0, 3.0]));
-        let mut product = [0.0; 3];
-        assert_eq!(matrix.multiply(&[1.0, 2.0, 3.0], &mut product), Ok(()));
-        assert_eq!(
-            (product, matrix.diagonal().collect::<Vec<_>>()),
-            ([8.0, 15.0, 11.0], vec![4.0, 5.0, 3.0])
-        );
-        assert!(matrix.multiply(&[1.0; 2], &mut product).is_err());
+/// Orders the free nodes so that a Cholesky factor stays sparse.
+fn order(graph: &Graph, pins: &Pins) -> Result<Vec<usize>, LinearError> {
+    let nodes = graph.rows();
+    let mut free: Vec<usize> = reserved(nodes)?;
+    free.extend((0..nodes).filter(|node| pins.nodes().binary_search(node).is_err()));
+    let mut number = filled(nodes, None)?;
+    free.iter().enumerate().for_each(|(at, &node)| number[node] = Some(at));
+    let mut starts = reserved(free.len() + 1)?;
+    starts.push(0);
+    let mut rows: Vec<usize> = Vec::new();
+    for (at, &node) in free.iter().enumerate() {
+        let start = rows.len();
+        rows.push(at);
+        rows.extend(graph.neighbours(node).iter().filter_map(|&other| number[other as usize]));
+        rows[start..].sort_unstable();
+        starts.push(rows.len());
     }
+    let graph = SymbolicSparseColMatRef::new_checked(free.len(), free.len(), &starts, None, &rows);
+
+    let (mut forward, mut inverse) = (filled(free.len(), 0)?, filled(free.len(), 0)?);
+    let scratch = amd::order_scratch::<usize>(free.len(), rows.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory)?;
+    amd::order(&mut forward, &mut inverse, graph, amd::Control::default(), MemStack::new(&mut memory))
+        .map_err(|_| LinearError::OutOfMemory)?;
+    Ok(forward.into_iter().map(|number| free[number]).collect())
 }
+
+#[cfg(test)]
+mod tests;

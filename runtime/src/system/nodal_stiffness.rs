@@ -1,10 +1,10 @@
-//! The stiffness of a body as a matrix of one 3×3 block for each two nodes that share an element, for
-//! products.
+//! The stiffness of a body as a matrix of one 3×3 block for each two nodes that share an element.
 //!
 //! Assembled in waves: the stiffnesses of some thousand elements, 720 bytes each, are evaluated into a
 //! buffer that stays in the cache, and each chunk of the matrix gathers its part of them in a fixed order
 //! (see [assembly](super::assemble)) before the next wave. So nothing but the matrix grows with the body,
-//! and the sums have the same bits for any number of threads.
+//! and the sums have the same bits for any number of threads. Factorisations, which take more memory anyway,
+//! keep the stiffnesses of all elements for products with a displacement of few nodes.
 //!
 //! Pinned nodes have rows too, so that what moves them enters the right side; this module knows no pins.
 
@@ -16,9 +16,9 @@ use super::assemble::Elastic;
 use super::body::Body;
 use super::element::{Evaluated, Stiffness, pair};
 use super::graph::Graph;
-use super::linear::LinearError;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
-use super::memory::reserved;
+use super::linear::{LinearError, fits};
+use super::memory::{filled, reserved};
 use super::stiffnesses::ElementStiffnesses;
 use crate::batch::element::TILE;
 use crate::point::Filter;
@@ -28,19 +28,25 @@ const WAVE: usize = 64;
 
 /// Stiffness of a body as one 3×3 block for each node and each two nodes that share an element, N/m; pinned
 /// nodes have rows too. Zero at first, and filled by
-/// [`ElasticResponse::stiffness_here`](super::ElasticResponse::stiffness_here).
+/// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
 ///
-/// For solvers with matrices of their own. Takes some 250 bytes for each element, where
-/// [`BlockMatrix`](super::BlockMatrix) needs a buffer of 720 beside its entries.
+/// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
+/// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for each
+/// element, and a buffer of up to 3 MB.
 #[derive(Clone)]
 pub struct NodalStiffness {
     shape: Arc<Shape>,
     matrix: SymmetricBlocks<f64, 3>,
-    wave: Vec<[Stiffness; TILE]>,
+    /// Of a wave, or of the whole body.
+    elements: ElementStiffnesses,
 }
 
 /// Graph, order and places, which depend on the mesh alone.
 struct Shape {
+    /// Number of elements.
+    elements: usize,
+    /// Number of tiles that these fill.
+    tiles: usize,
     graph: Graph,
     order: Vec<u32>,
     /// The element blocks that each chunk of the matrix gathers.
@@ -80,6 +86,28 @@ impl NodalStiffness {
         Self::new(body, &[])
     }
 
+    /// The block on the diagonal of a node; `None` if there is no such node.
+    #[must_use]
+    pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
+        (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
+    }
+
+    /// Replaces `product`, N, by the product with a displacement of each node, m.
+    ///
+    /// # Errors
+    /// [`LinearError::Length`] unless both have one vector for each node.
+    pub fn multiply(
+        &mut self,
+        displacement: &[[f64; 3]],
+        product: &mut [[f64; 3]],
+    ) -> Result<(), LinearError> {
+        let nodes = self.matrix.pattern().rows();
+        fits("displacement", displacement.len(), nodes)?;
+        fits("product", product.len(), nodes)?;
+        self.matrix.multiply(displacement, product);
+        Ok(())
+    }
+
     /// Number of blocks that [`NodalStiffness::blocks`] goes through.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -110,16 +138,38 @@ impl NodalStiffness {
     /// # Errors
     /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
+        Self::of_tiles(body, pairs, WAVE)
+    }
+
+    /// The same as [`NodalStiffness::new`], which keeps the stiffness of each element as well.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn with_elements(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
+        Self::of_tiles(body, pairs, usize::MAX)
+    }
+
+    fn of_tiles(body: &Body, pairs: &[[usize; 2]], most: usize) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes), pairs)?;
         let order = along_a_curve(body.rest());
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let matrix = SymmetricBlocks::new(pattern.clone())?;
         let gather = gather(body, &pattern)?;
-        let tiles = body.groups().count().min(WAVE);
-        let mut wave = reserved(tiles)?;
-        wave.resize(tiles, [[[[0.0; 3]; 3]; 10]; TILE]);
-        Ok(Self { shape: Arc::new(Shape { graph, order, gather }), matrix, wave })
+        let tiles = body.groups().count();
+        let elements = ElementStiffnesses { tiles: filled(tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])? };
+        let shape = Shape { elements: body.elements().len(), tiles, graph, order, gather };
+        Ok(Self { shape: Arc::new(shape), matrix, elements })
+    }
+
+    /// Numbers of nodes, elements and tiles of the body.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
+    }
+
+    /// The stiffness of each element, if this was made by [`NodalStiffness::with_elements`].
+    pub(crate) fn elements(&self) -> &ElementStiffnesses {
+        &self.elements
     }
 
     pub(crate) fn matrix(&self) -> &SymmetricBlocks<f64, 3> {
@@ -148,13 +198,14 @@ impl NodalStiffness {
         filter: Filter,
         more: impl Fn(Range<usize>, &mut [[Stiffness; TILE]]),
     ) -> Evaluated {
-        let Self { shape, matrix, wave } = self;
+        let Self { shape, matrix, elements } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
-        let groups = body.groups().count();
-        for (number, first) in (0..groups).step_by(WAVE).enumerate() {
-            let range = first..groups.min(first + WAVE);
-            let tiles = &mut wave[..range.len()];
-            elastic.linearise_groups::<ElementStiffnesses>(body, filter, range.clone(), tiles);
+        let keeps_all = elements.tiles.len() == shape.tiles;
+        for (number, first) in (0..shape.tiles).step_by(WAVE).enumerate() {
+            let range = first..shape.tiles.min(first + WAVE);
+            let start = if keeps_all { first } else { 0 };
+            let tiles = &mut elements.tiles[start..start + range.len()];
+            elastic.linearise(body, filter, first, tiles);
             more(range, tiles);
             let elements = tiles.as_flattened();
             matrix.for_each_chunk(|chunk, _, blocks| {

@@ -3,11 +3,9 @@
 //! This module knows no time and no pins: a caller adds inertia and leaves pinned nodes out.
 
 use super::assemble::Elastic;
-use super::block_matrix::BlockMatrix;
 use super::body::Body;
 use super::element::Evaluated;
 use super::nodal_stiffness::NodalStiffness;
-use super::stiffnesses::ElementStiffnesses;
 use crate::batch::LengthError;
 use crate::point::Filter;
 use crate::status::Survey;
@@ -21,7 +19,7 @@ use crate::status::Survey;
 /// ```
 /// use piola::mesh::tetrahedral_box;
 /// use piola::point::Filter;
-/// use piola::system::{BlockMatrix, Body, Cholesky, ElasticResponse, Pins};
+/// use piola::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
 ///
 /// /// Rubber.
 /// #[piola::material(domain(J > 0.0))]
@@ -34,18 +32,20 @@ use crate::status::Survey;
 /// // A weight of 1 N hangs on the last node, and the four nodes of an end are held: Newton's method.
 /// let (mut x, last) = (body.rest().to_vec(), body.rest().len() - 1);
 /// let pins = Pins::at((0..=last).filter(|&node| x[node][0] == 0.0));
-/// let mut matrix = BlockMatrix::of_body(&body, &pins)?;
-/// let mut cholesky = Cholesky::new(matrix.pattern().column_starts(), matrix.pattern().row_indices())?;
+/// let mut stiffness = NodalStiffness::of_body(&body)?;
+/// let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
+/// let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
 /// let mut response = ElasticResponse::new(&body);
 /// let mut gradient = vec![[0.0; 3]; x.len()];
 /// for _ in 0..8 {
-///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix)?.is_clean());
+///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
 ///     gradient[last][1] += 1.0;
-///     let nodes = matrix.pattern().node_of_free();
+///     let nodes = matrix.free_nodes();
 ///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     matrix.fill(&stiffness, |_| 0.0)?;
 ///     cholesky.factor(matrix.values())?;
 ///     cholesky.solve(&mut step)?;
-///     for (&node, step) in nodes.iter().zip(step.chunks_exact(3)) {
+///     for (&node, step) in matrix.free_nodes().iter().zip(step.chunks_exact(3)) {
 ///         (0..3).for_each(|c| x[node][c] += step[c]);
 ///     }
 /// }
@@ -58,8 +58,6 @@ use crate::status::Survey;
 #[derive(Clone)]
 pub struct ElasticResponse {
     elastic: Elastic,
-    /// Made by the first call that needs them.
-    stiffnesses: Option<ElementStiffnesses>,
     nodes: usize,
     elements: usize,
 }
@@ -71,11 +69,11 @@ impl std::fmt::Debug for ElasticResponse {
 }
 
 impl ElasticResponse {
-    /// Allocates the memory for a body, but for that of stiffnesses, 720 bytes for each element.
+    /// Allocates the memory for a body.
     #[must_use]
     pub fn new(body: &Body) -> Self {
         let (nodes, elements) = (body.rest().len(), body.elements().len());
-        Self { elastic: Elastic::new(body), stiffnesses: None, nodes, elements }
+        Self { elastic: Elastic::new(body), nodes, elements }
     }
 
     /// Energy of deformation, J, with the nodes at `positions`, of the body that this memory was made for.
@@ -104,9 +102,7 @@ impl ElasticResponse {
     }
 
     /// Replaces `gradient` as [`ElasticResponse::gradient`] does, and `matrix` by the stiffness, N/m, with
-    /// the filter on dP/dF of each element.
-    ///
-    /// The matrix comes from [`BlockMatrix::of_body`]; pinned nodes have no rows in it.
+    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
     ///
     /// # Errors
     /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
@@ -117,15 +113,10 @@ impl ElasticResponse {
         positions: &[[f64; 3]],
         filter: Filter,
         gradient: &mut [[f64; 3]],
-        matrix: &mut BlockMatrix,
+        matrix: &mut NodalStiffness,
     ) -> Result<Survey, LengthError> {
-        self.check("gradient", gradient.len())?;
-        same("matrix", matrix.pattern().elements(), self.elements, 1)?;
-        let energies = self.evaluate(body, positions)?;
-        let stiffnesses = self.stiffnesses.get_or_insert_with(|| ElementStiffnesses::new(body));
-        self.elastic.linearise(body, filter, stiffnesses);
-        matrix.fill(stiffnesses);
-        Ok(self.sum(energies, body, gradient))
+        self.evaluate(body, positions)?;
+        self.stiffness_here(body, filter, gradient, matrix)
     }
 
     /// Replaces `gradient` by that of the energy, N, at the positions where it was evaluated last: cheaper
@@ -141,8 +132,8 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m,
-    /// with the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` as
+    /// [`ElasticResponse::stiffness`] does.
     ///
     /// # Errors
     /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
@@ -156,7 +147,10 @@ impl ElasticResponse {
     ) -> Result<Survey, LengthError> {
         self.check("gradient", gradient.len())?;
         self.check_body(body)?;
-        same("matrix", 3 * matrix.matrix().pattern().rows(), self.nodes, 3)?;
+        let [nodes, elements, tiles] = matrix.counts();
+        same("matrix", 3 * nodes, self.nodes, 3)?;
+        same("matrix", elements, self.elements, 1)?;
+        same("matrix", tiles, body.groups().count(), 1)?;
         let energies = self.elastic.survey();
         matrix.linearise(body, &mut self.elastic, filter, |_, _| {});
         Ok(self.sum(energies, body, gradient))
@@ -225,7 +219,6 @@ pub(super) fn same(
 mod tests {
     use super::*;
     use crate::random::Random;
-    use crate::system::Pins;
     use crate::system::testing::{NEO_HOOKEAN, beam, shake};
 
     /// Central differences of the energy and of its gradient.
@@ -236,12 +229,17 @@ mod tests {
         let mut random = Random::new(3);
         let mut x = shake(&mut random, body.rest(), 0.01);
         let mut response = ElasticResponse::new(&body);
-        let mut matrix = BlockMatrix::of_body(&body, &Pins::none()).expect("small");
+        let mut matrix = NodalStiffness::of_body(&body).expect("small");
         let (nodes, h) = (x.len(), 1e-6);
         let (mut gradient, mut ahead, mut behind) =
             (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes]);
         let survey = response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix);
         assert!(survey.expect("lengths").is_clean());
+        let mut dense = vec![vec![[[0.0; 3]; 3]; nodes]; nodes];
+        for (row, column, block) in matrix.blocks() {
+            dense[column][row] = std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]));
+            dense[row][column] = *block;
+        }
         for node in 0..nodes {
             for c in 0..3 {
                 let at = x[node][c];
@@ -255,10 +253,9 @@ mod tests {
                 let slope = (up - down) / (2.0 * h);
                 assert!((slope - gradient[node][c]).abs() <= 1e-3, "{slope} for {}", gradient[node][c]);
                 for other in 0..nodes {
-                    let block = matrix.block(other, node);
                     for r in 0..3 {
                         let expected = (ahead[other][r] - behind[other][r]) / (2.0 * h);
-                        let entry = block.map_or(0.0, |block| block[r][c]);
+                        let entry = dense[other][node][r][c];
                         assert!((entry - expected).abs() <= 1.0, "{entry} for {expected}");
                     }
                 }
@@ -266,7 +263,7 @@ mod tests {
         }
     }
 
-    /// Blocks of nodes and differences of elements, at the positions evaluated last, are those of the plain
+    /// Blocks and differences of elements, at the positions evaluated last, are those of the plain
     /// methods.
     #[test]
     fn what_is_taken_here_is_what_positions_give() {
@@ -275,8 +272,8 @@ mod tests {
         let mut random = Random::new(5);
         let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
         let mut response = ElasticResponse::new(&body);
-        let mut matrix = BlockMatrix::of_body(&body, &Pins::none()).expect("small");
-        let mut nodal = NodalStiffness::of_body(&body).expect("small");
+        let mut matrix = NodalStiffness::of_body(&body).expect("small");
+        let mut here = matrix.clone();
         let (mut expected, mut found) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
         let (at_start, _) = response.energy(&body, &before).expect("lengths");
         response.set_base();
@@ -288,25 +285,10 @@ mod tests {
         assert!(response.gradient_here(&body, &mut found).expect("lengths").is_clean());
         assert_eq!(found, expected);
         found.fill([f64::NAN; 3]);
-        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut nodal);
+        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut here);
         assert!(survey.expect("lengths").is_clean());
-        let mut blocks = 0;
-        for (row, column, entries) in nodal.blocks() {
-            let expected = matrix.block(row, column).expect("nodes that share an element");
-            for r in 0..3 {
-                for c in 0..3 {
-                    // Sums of some twenty elements in different orders.
-                    let error = (entries[r][c] - expected[r][c]).abs();
-                    assert!(error <= 1e-12 * expected[r][r].abs().max(1e4), "{error} in {row}, {column}");
-                }
-            }
-            blocks += 1;
-        }
-        assert_eq!(blocks, nodal.len());
-        let other = NodalStiffness::of_body(&Body::new(&beam(1), NEO_HOOKEAN, 1.0).expect("a body"));
-        assert!(
-            response.stiffness_here(&body, Filter::None, &mut found, &mut other.expect("small")).is_err()
-        );
+        assert!(here.blocks().eq(matrix.blocks()));
+        assert_eq!((found, here.blocks().count()), (expected, here.len()));
     }
 
     #[test]
@@ -318,8 +300,18 @@ mod tests {
         assert!(response.energy(&body, &body.rest()[1..]).is_err());
         assert!(response.gradient(&body, body.rest(), &mut gradient[1..]).is_err());
         assert!(response.energy(&other, body.rest()).is_err());
-        let mut matrix = BlockMatrix::of_body(&other, &Pins::none()).expect("small");
+        let mut matrix = NodalStiffness::of_body(&other).expect("small");
         assert!(response.stiffness(&body, body.rest(), Filter::None, &mut gradient, &mut matrix).is_err());
+        // As many nodes, of which another number of elements is made.
+        let [five, six] = [false, true].map(|with_last| {
+            let mut mesh = beam(1);
+            mesh.tets.truncate(if with_last { 6 } else { 5 });
+            Body::new(&mesh.without_unused_nodes(), NEO_HOOKEAN, 1000.0).expect("a body")
+        });
+        assert_eq!((five.rest().len(), six.rest().len()), (8, 8));
+        let mut matrix = NodalStiffness::of_body(&five).expect("small");
+        let error = response.stiffness(&six, six.rest(), Filter::None, &mut gradient, &mut matrix);
+        assert_eq!(error.expect_err("of five elements").slice, "matrix");
         let mirrored: Vec<[f64; 3]> = body.rest().iter().map(|&[x, y, z]| [-x, y, z]).collect();
         let survey = response.gradient(&body, &mirrored, &mut gradient).expect("lengths");
         assert_eq!((survey.refused, survey.first), (body.elements().len(), Some(0)));

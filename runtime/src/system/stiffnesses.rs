@@ -3,43 +3,33 @@
 
 use std::ops::Range;
 
-use super::assemble::Tangents;
 use super::body::Body;
-use super::element::{ElementGroup, Stiffness, Tetrahedron, pair};
-use super::fill::{NodePairs, fill};
-use super::pattern::Pattern;
-use crate::batch::TileMaterial;
+use super::element::{Stiffness, Tetrahedron, pair};
 use crate::batch::element::TILE;
-use crate::point::Filter;
-use crate::status::Status;
 
 /// The filtered stiffness of each element, 720 bytes, where they were evaluated last: zero before that.
 #[derive(Clone)]
 pub(crate) struct ElementStiffnesses {
-    tiles: Vec<[Stiffness; TILE]>,
-    /// The tile of each element and its lane there.
-    places: Vec<(u32, u32)>,
+    /// The stiffnesses of each of [`Body::groups`].
+    pub(super) tiles: Vec<[Stiffness; TILE]>,
 }
 
 impl ElementStiffnesses {
     pub(crate) fn new(body: &Body) -> Self {
-        let mut places = Vec::with_capacity(body.elements().len());
-        let mut tiles = 0;
-        for (_, elements) in body.groups() {
-            places.extend((0..elements.len() as u32).map(|lane| (tiles, lane)));
-            tiles += 1;
-        }
-        Self { tiles: vec![[[[[0.0; 3]; 3]; 10]; TILE]; tiles as usize], places }
+        Self { tiles: vec![[[[[0.0; 3]; 3]; 10]; TILE]; body.groups().count()] }
     }
 
-    /// The stiffness of each element of the body.
-    pub(super) fn of_elements(&self) -> impl Iterator<Item = &Stiffness> {
-        self.places.iter().map(|&(tile, lane)| &self.tiles[tile as usize][lane as usize])
+    pub(crate) fn tiles_mut(&mut self) -> &mut [[Stiffness; TILE]] {
+        &mut self.tiles
     }
 
-    /// Adds a factor times other stiffnesses of the same body.
-    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
-        other.add_tiles_to(factor, 0..other.tiles.len(), &mut self.tiles);
+    /// Each element of the body with its stiffness.
+    pub(super) fn of_elements<'a>(
+        &'a self,
+        body: &'a Body,
+    ) -> impl Iterator<Item = (&'a Tetrahedron, &'a Stiffness)> {
+        let tiles = body.groups().zip(&self.tiles);
+        tiles.flat_map(|((_, elements), tile)| body.elements()[elements].iter().zip(tile))
     }
 
     /// Adds a factor times the stiffnesses of some tiles to others.
@@ -62,7 +52,7 @@ impl ElementStiffnesses {
         displacement: impl Fn(usize) -> [f64; 3],
         total: &mut [[f64; 3]],
     ) {
-        for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
+        for (element, stiffness) in self.of_elements(body) {
             for (j, &from) in element.nodes.iter().enumerate() {
                 let d = displacement(from);
                 if d == [0.0; 3] {
@@ -86,7 +76,7 @@ impl ElementStiffnesses {
     /// dᵀ K d.
     pub(crate) fn quadratic_form(&self, body: &Body, d: &[[f64; 3]]) -> f64 {
         let mut sum = 0.0;
-        for (element, stiffness) in body.elements().iter().zip(self.of_elements()) {
+        for (element, stiffness) in self.of_elements(body) {
             for (i, &row) in element.nodes.iter().enumerate() {
                 for (j, &column) in element.nodes[..=i].iter().enumerate() {
                     let twice = if i == j { 1.0 } else { 2.0 };
@@ -100,35 +90,5 @@ impl ElementStiffnesses {
             }
         }
         sum
-    }
-
-    /// Sums the stiffnesses into the entries of the pattern and adds `diagonal(node)` to the diagonal.
-    pub(crate) fn fill(&self, pattern: &Pattern, diagonal: impl Fn(usize) -> f64 + Sync, values: &mut [f64]) {
-        fill(pattern, self, &diagonal, values);
-    }
-}
-
-impl NodePairs for ElementStiffnesses {
-    fn block(&self, element: usize, i: usize, j: usize) -> [[f64; 3]; 3] {
-        let (tile, lane) = self.places[element];
-        self.tiles[tile as usize][lane as usize][pair(i, j)]
-    }
-}
-
-impl Tangents for ElementStiffnesses {
-    type Tile = [Stiffness; TILE];
-
-    fn tiles(&mut self) -> &mut [Self::Tile] {
-        &mut self.tiles
-    }
-
-    fn evaluate(
-        tile: &mut Self::Tile,
-        group: &mut ElementGroup,
-        material: &dyn TileMaterial<f64>,
-        elements: &[Tetrahedron],
-        filter: Filter,
-    ) -> Status<u64> {
-        group.evaluate_stiffnesses(material, elements, filter, tile)
     }
 }

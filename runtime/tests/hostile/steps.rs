@@ -48,7 +48,7 @@ struct Wrong {
 }
 
 impl SparseSolver for Wrong {
-    fn solve(&mut self, _: LowerTriangle<'_>, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+    fn solve(&mut self, _: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
         self.error.map_or(Ok(0), Err)?;
         b.fill(self.x);
         Ok(0)

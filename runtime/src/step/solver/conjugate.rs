@@ -83,12 +83,7 @@ impl Solver for Conjugate {
     }
 
     fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
-        let viscosity = objective.viscosity;
-        self.stiffness.linearise(objective.body, objective.elastic, filter, |tiles, stiffnesses| {
-            if let Some(viscosity) = viscosity {
-                viscosity.add_tiles_to(tiles, stiffnesses);
-            }
-        })
+        objective.linearise(filter, &mut self.stiffness)
     }
 
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {

@@ -1,4 +1,4 @@
-//! Linear solvers of a caller's own, which factor or iterate on the assembled matrix.
+//! User-defined linear solvers, which factor or iterate on the assembled matrix.
 
 use crate::system::LowerTriangle;
 use crate::system::linear::{Cholesky, LinearError};
@@ -6,7 +6,7 @@ use crate::system::linear::{Cholesky, LinearError};
 /// Solver of the linear systems A x = b of Newton's method that is not piola's own: see
 /// [`Simulation::set_linear_solver`](crate::step::Simulation::set_linear_solver).
 ///
-/// Three rows and columns of A belong to each node that is not pinned. A function of the form of
+/// Three rows and columns of A belong to each of [`LowerTriangle::free_nodes`]. A function of the form of
 /// [`SparseSolver::solve`] is such a solver, and [`Cholesky`] is another.
 pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// Takes the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
@@ -25,25 +25,15 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// # Errors
     /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: it comes again then,
     /// with its eigenvalues clamped or with inertia added. Other errors end the step.
-    fn solve(
-        &mut self,
-        matrix: LowerTriangle<'_>,
-        b: &mut [f64],
-        tolerance: f64,
-    ) -> Result<usize, LinearError>;
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
 }
 
 impl<F> SparseSolver for F
 where
-    F: FnMut(LowerTriangle<'_>, &mut [f64], f64) -> Result<usize, LinearError>,
+    F: FnMut(&LowerTriangle, &mut [f64], f64) -> Result<usize, LinearError>,
     F: Clone + Send + Sync + 'static,
 {
-    fn solve(
-        &mut self,
-        matrix: LowerTriangle<'_>,
-        b: &mut [f64],
-        tolerance: f64,
-    ) -> Result<usize, LinearError> {
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError> {
         self(matrix, b, tolerance)
     }
 }
@@ -54,7 +44,7 @@ impl SparseSolver for Cholesky {
         Ok(())
     }
 
-    fn solve(&mut self, matrix: LowerTriangle<'_>, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
         self.factor(matrix.values())?;
         Cholesky::solve(self, b)?;
         Ok(0)

@@ -309,7 +309,7 @@ fn solvers_of_ones_own_serve_until_the_settings_are_replaced() {
 
     let before = own.positions().to_vec();
     let error = LinearError::NotPositive { column: 0 };
-    own.set_linear_solver(move |_: LowerTriangle<'_>, _: &mut [f64], _: f64| Err(error)).expect("a pattern");
+    own.set_linear_solver(move |_: &LowerTriangle, _: &mut [f64], _: f64| Err(error)).expect("a pattern");
     let failed = own.step(0.02).expect_err("a solver that never solves");
     assert!(matches!(failed, StepError::Newton(NewtonError::NotPositive { .. })), "{failed}");
     assert_eq!(own.positions(), before);

@@ -20,7 +20,7 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let mut random = Random::new(4);
     let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
     let mut elements = ElementStiffnesses::new(&body);
-    elastic.linearise(&body, Filter::Clamp, &mut elements);
+    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
     let mut expected = vec![[0.0; 3]; nodes];
     elements.add_product(&body, 1.5, |node| x[node], &mut expected);
 
@@ -31,13 +31,33 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
         let more = |tiles: Range<usize>, to: &mut [[Stiffness; TILE]]| elements.add_tiles_to(0.5, tiles, to);
         let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp, more);
         assert!(evaluated.survey.is_clean(), "{evaluated:?}");
-        stiffness.matrix_mut().multiply(&x, &mut found);
+        stiffness.multiply(&x, &mut found).expect("lengths");
     }
     let largest = expected.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
         // Sums of some 24 elements times 12 terms, in different orders, which cancel.
         assert!((found - expected).abs() <= 600.0 * f64::EPSILON * largest, "{found} for {expected}");
     }
+    for (row, _, block) in stiffness.blocks().filter(|(row, column, _)| row == column) {
+        assert_eq!(stiffness.diagonal(row), Some(block));
+    }
+    assert_eq!(stiffness.diagonal(nodes), None);
+    assert!(stiffness.multiply(&x[1..], &mut found).is_err());
+    assert!(stiffness.multiply(&x, &mut found[1..]).is_err());
+}
+
+/// A matrix that keeps the stiffnesses of all elements has the same blocks.
+#[test]
+fn elements_that_are_kept_change_no_bit() {
+    let (body, mut elastic) = shaken();
+    let [mut waves, mut kept] = [NodalStiffness::new(&body, &[]), NodalStiffness::with_elements(&body, &[])]
+        .map(|k| k.expect("small"));
+    waves.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
+    kept.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
+    assert!(waves.matrix().blocks() == kept.matrix().blocks());
+    let mut elements = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
+    assert!(kept.elements().tiles == elements.tiles && waves.elements().tiles.len() == WAVE);
 }
 
 #[test]

@@ -198,7 +198,7 @@ fn simulations_go_to_other_threads() {
     check::<Simulation>();
     check::<TetMesh>();
     check::<crate::system::Cholesky>();
-    check::<crate::system::BlockMatrix>();
+    check::<crate::system::LowerTriangle>();
 }
 
 #[test]
