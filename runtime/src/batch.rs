@@ -8,7 +8,7 @@
 //! and what lies between the stages stays in the inner caches.
 //!
 //! ```
-//! use piola::batch::Batch;
+//! use piola::batch::{Batch, MatrixForm};
 //! use piola::material;
 //! use piola::point::Filter;
 //!
@@ -24,7 +24,7 @@
 //! // Nine numbers for each of a thousand points, row by row: a simple shear.
 //! let F: Vec<f64> = [1.0, 0.2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
 //! let (mut P, mut dP_dF) = (vec![0.0; 9 * 1000], vec![0.0; 81 * 1000]);
-//! let survey = batch.tangents(&F, &mut P, &mut dP_dF)?;
+//! let survey = batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)?;
 //! assert!(survey.is_clean());
 //! assert!((P[9 * 999 + 1] - 0.2e6).abs() < 1e-3);
 //! # Ok(())
@@ -90,6 +90,7 @@ mod tetrahedra;
 mod tile;
 mod workspace;
 
+pub use form::MatrixForm;
 pub use material::{Arguments, Properties, TileMaterial};
 pub use quadrature::Quadrature;
 pub use sink::Layout;
@@ -105,34 +106,26 @@ pub(crate) use form::MAX_STIFFNESS_RATIO;
 use form::PACKED_12;
 use jobs::{Tile, Work};
 use sink::Source;
-use stage::{Deform, StiffnessForm, Stress, StressByInvariants, TangentForm};
+use stage::{Deform, StiffnessForm, Stress, StressByInvariants};
 use tile::first_bits;
 use workspace::Workspace;
 
 /// A material with the settings to evaluate it at many points at once.
 #[derive(Clone, Copy)]
-#[non_exhaustive]
 pub struct Batch<'a, E> {
-    /// The material of the points: a [`Material`](crate::Material), or a
-    /// [`PerPoint`](crate::material::PerPoint).
-    pub material: &'a dyn TileMaterial<E>,
-    /// Treatment of negative eigenvalues of dP/dF.
-    pub filter: Filter,
-    /// Vector instructions of the kernels.
-    pub backend: Backend,
-    /// Order of the points' components in every slice of a call.
-    pub layout: Layout,
-    /// Whether tangents are written past the caches: about twice as fast where they are larger than the last
-    /// one, and slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64 bytes,
-    /// else it does nothing.
-    pub streams: bool,
-    /// Whether the points are shared among the threads of rayon's pool.
-    pub threads: bool,
+    material: &'a dyn TileMaterial<E>,
+    filter: Filter,
+    backend: Backend,
+    layout: Layout,
+    streams: bool,
+    threads: bool,
     statuses: &'a [StatusCell],
 }
 
 impl<'a, E: Stages> Batch<'a, E> {
     /// A batch without filter, with the best instructions of this processor, point by point, on one thread.
+    ///
+    /// The material is a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
     #[must_use]
     pub fn new(material: &'a dyn TileMaterial<E>) -> Self {
         Self {
@@ -146,25 +139,27 @@ impl<'a, E: Stages> Batch<'a, E> {
         }
     }
 
-    /// Sets the filter of dP/dF.
+    /// Sets the treatment of negative eigenvalues of dP/dF.
     #[must_use]
     pub fn with_filter(self, filter: Filter) -> Self {
         Self { filter, ..self }
     }
 
-    /// Sets the instructions to compute with.
+    /// Sets the vector instructions of the kernels.
     #[must_use]
     pub fn with_backend(self, backend: Backend) -> Self {
         Self { backend, ..self }
     }
 
-    /// Sets the layout of every slice.
+    /// Sets the order of the points' components in every slice of a call.
     #[must_use]
     pub fn with_layout(self, layout: Layout) -> Self {
         Self { layout, ..self }
     }
 
-    /// Sets whether tangents are written past the caches; see [`Batch::streams`].
+    /// Sets whether tangents are written past the caches: about twice as fast where they are larger than the
+    /// last one, and slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64
+    /// bytes, else it does nothing.
     #[must_use]
     pub fn with_streams(self, streams: bool) -> Self {
         Self { streams, ..self }
@@ -258,21 +253,24 @@ impl<'a, E: Stages> Batch<'a, E> {
         })
     }
 
-    /// Stresses P and all 81 entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P,
-    /// column 3k+l for entry (k, l) of F.
+    /// Stresses P and the entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P, column
+    /// 3k+l for entry (k, l) of F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
-        self.respond(TangentForm::Full, F, P, ("dP_dF", dP_dF, 81))
-    }
-
-    /// Stresses P and the 45 entries of the filtered dP/dF on and above the diagonal, row by row, Pa.
-    ///
-    /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn packed_tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
-        self.respond(TangentForm::Packed, F, P, ("dP_dF", dP_dF, 45))
+    pub fn tangents(
+        &self,
+        form: MatrixForm,
+        F: &[E],
+        P: &mut [E],
+        dP_dF: &mut [E],
+    ) -> Result<Survey, LengthError> {
+        let outputs = [("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
+        self.run([("F", F, 9)], outputs, |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F], outputs: [P, tangents] } = tile;
+            let (F, rooms) = batch.enter(workspace, F);
+            batch.respond(form, F, start, count, rooms, P, tangents, None)
+        })
     }
 
     /// Energies ψ, stresses P and filtered dP/dF, Pa: [`Batch::energies`] and [`Batch::tangents`] with one
@@ -282,28 +280,26 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn energies_and_tangents(
         &self,
+        form: MatrixForm,
         F: &[E],
         energies: &mut [E],
         P: &mut [E],
         dP_dF: &mut [E],
     ) -> Result<Survey, LengthError> {
-        self.run(
-            [("F", F, 9)],
-            [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)],
-            |batch, tile| {
-                let Tile { workspace, start, count, inputs: [F], outputs: [energies, P, tangents] } = tile;
-                let (F, rooms) = batch.enter(workspace, F);
-                batch.respond(TangentForm::Full, F, start, count, rooms, P, tangents, Some(energies))
-            },
-        )
+        let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
+        self.run([("F", F, 9)], outputs, |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F], outputs: [energies, P, tangents] } = tile;
+            let (F, rooms) = batch.enter(workspace, F);
+            batch.respond(form, F, start, count, rooms, P, tangents, Some(energies))
+        })
     }
 
     /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
     ///
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
     /// F = Ds Dm⁻¹. Of the gradients there are 12 components, coordinate a of node n at 3n+a; **forces are
-    /// minus these**. Of the stiffnesses all 144 entries, unknown 3n+a in row and column 3n+a. With feature
-    /// `bodies`, `CsrPlaces` sums them into a sparse matrix.
+    /// minus these**. Unknown 3n+a of a stiffness is in row and column 3n+a. With feature `bodies`,
+    /// `CsrPlaces` sums them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
     /// the tangent, it is cut there, because a factorisation could not resolve more.
@@ -312,37 +308,32 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn stiffnesses(
         &self,
+        form: MatrixForm,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        self.respond_elements(StiffnessForm::Full, F, rest, gradients, (stiffnesses, 144))
+        let inputs = [("F", F, 9), ("rest", rest, REST)];
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
+        self.run(inputs, outputs, |batch, tile| {
+            let Tile { workspace, start, count, inputs: [F, rest], outputs: [gradients, stiffnesses] } = tile;
+            let (lines, shapes, rooms) = workspace.for_elements();
+            let F = Source::new(batch.backend, batch.layout, F, lines);
+            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
+            let form = StiffnessForm::Matrix(form);
+            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
+        })
     }
 
-    /// Gradients as of [`Batch::stiffnesses`] and packed stiffnesses: the 78 entries on and above the
-    /// diagonal, row by row.
-    ///
-    /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn packed_stiffnesses(
-        &self,
-        F: &[E],
-        rest: &[E],
-        gradients: &mut [E],
-        stiffnesses: &mut [E],
-    ) -> Result<Survey, LengthError> {
-        self.respond_elements(StiffnessForm::Packed, F, rest, gradients, (stiffnesses, 78))
-    }
-
-    /// Gradients and stiffnesses as of [`Batch::stiffnesses`], for tetrahedra whose nodes are at `positions`,
+    /// Gradients and stiffnesses as of [`Batch::stiffnesses`] for tetrahedra whose nodes are at `positions`,
     /// m: F = Ds Dm⁻¹ is made on the way.
     ///
     /// `rest` says how many there are. In [`Layout::Lines`] it goes on to the end of the last line; what
     /// stands there is for tetrahedra with edges of length 1 along the axes.
     ///
     /// ```
-    /// use piola::batch::{Batch, Tetrahedra};
+    /// use piola::batch::{Batch, MatrixForm, Tetrahedra};
     /// use piola::material;
     ///
     /// /// Rubber.
@@ -359,7 +350,8 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// let rest = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     /// let positions = [[0.0, 0.0, 0.0], [1.1, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let (mut gradients, mut stiffnesses) = ([0.0; 12], [0.0; 144]);
-    /// Batch::new(&rubber).stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
+    /// let (rubber, full) = (Batch::new(&rubber), MatrixForm::Full);
+    /// rubber.stiffnesses_at(full, tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
     /// let P11 = 1e6 * (1.1 - 1.0 / 1.1) + 4e6 * f64::ln(1.1) / 1.1;
     /// assert!((gradients[3] - P11 / 6.0).abs() < 1e-9);
     /// # Ok(())
@@ -370,72 +362,12 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn stiffnesses_at(
         &self,
+        form: MatrixForm,
         tetrahedra: Tetrahedra<'_>,
         positions: &[[E; 3]],
         rest: &[E],
         gradients: &mut [E],
         stiffnesses: &mut [E],
-    ) -> Result<Survey, LengthError> {
-        self.respond_at(StiffnessForm::Full, tetrahedra, positions, rest, gradients, (stiffnesses, 144))
-    }
-
-    /// Gradients and packed stiffnesses as of [`Batch::packed_stiffnesses`], for tetrahedra whose nodes are
-    /// at `positions`, m; see [`Batch::stiffnesses_at`].
-    ///
-    /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
-    pub fn packed_stiffnesses_at(
-        &self,
-        tetrahedra: Tetrahedra<'_>,
-        positions: &[[E; 3]],
-        rest: &[E],
-        gradients: &mut [E],
-        stiffnesses: &mut [E],
-    ) -> Result<Survey, LengthError> {
-        self.respond_at(StiffnessForm::Packed, tetrahedra, positions, rest, gradients, (stiffnesses, 78))
-    }
-
-    fn respond(
-        &self,
-        form: TangentForm,
-        F: &[E],
-        P: &mut [E],
-        tangents: (&'static str, &mut [E], usize),
-    ) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("P", P, 9), tangents], |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [P, tangents] } = tile;
-            let (F, rooms) = batch.enter(workspace, F);
-            batch.respond(form, F, start, count, rooms, P, tangents, None)
-        })
-    }
-
-    fn respond_elements(
-        &self,
-        form: StiffnessForm,
-        F: &[E],
-        rest: &[E],
-        gradients: &mut [E],
-        (stiffnesses, components): (&mut [E], usize),
-    ) -> Result<Survey, LengthError> {
-        let inputs = [("F", F, 9), ("rest", rest, REST)];
-        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
-        self.run(inputs, outputs, |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F, rest], outputs: [gradients, stiffnesses] } = tile;
-            let (lines, shapes, rooms) = workspace.for_elements();
-            let F = Source::new(batch.backend, batch.layout, F, lines);
-            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
-            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
-        })
-    }
-
-    fn respond_at(
-        &self,
-        form: StiffnessForm,
-        tetrahedra: Tetrahedra<'_>,
-        positions: &[[E; 3]],
-        rest: &[E],
-        gradients: &mut [E],
-        (stiffnesses, components): (&mut [E], usize),
     ) -> Result<Survey, LengthError> {
         let group = self.group();
         let (nodes, points) = (tetrahedra.nodes(), tetrahedra.corners().len().next_multiple_of(group));
@@ -447,14 +379,15 @@ impl<'a, E: Stages> Batch<'a, E> {
             let found = rest.len();
             return Err(LengthError { slice: "rest", found, components: REST, points, group });
         }
-        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, components)];
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
         self.run([("rest", rest, REST)], outputs, |batch, tile| {
             let Tile { workspace, start, count, inputs: [rest], outputs: [gradients, stiffnesses] } = tile;
             let (edges, shapes, rooms) = workspace.for_elements();
             let rest = Source::new(batch.backend, batch.layout, rest, shapes);
             tetrahedra.set_edges(start, count, positions, edges);
             E::deform(batch.backend, Deform { edges, rest, count });
-            batch.respond_elements(form, edges.source(), rest, start, count, rooms, gradients, stiffnesses)
+            let (F, form) = (edges.source(), StiffnessForm::Matrix(form));
+            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
         })
     }
 

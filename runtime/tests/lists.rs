@@ -1,7 +1,7 @@
 //! Lists whose lengths are known at run time, beside the same energies with lengths that the compiler knows.
 #![cfg(feature = "batch")]
 
-use piola::batch::Batch;
+use piola::batch::{Batch, MatrixForm};
 use piola::lanes::Backend;
 use piola::material::{Argument, Blocks, Declared, Fittable, Form, Limit, MaterialError};
 use piola::random::Random;
@@ -95,7 +95,8 @@ fn same_bits<const N: usize>(inversion: Inversion) -> Result<(), MaterialError> 
         let tangents = |batch: Batch<'_, f64>| {
             let count = points.len() / 9;
             let (mut stresses, mut tangents) = (vec![0.0; 9 * count], vec![0.0; 81 * count]);
-            let survey = batch.with_backend(backend).tangents(&points, &mut stresses, &mut tangents);
+            let survey =
+                batch.with_backend(backend).tangents(MatrixForm::Full, &points, &mut stresses, &mut tangents);
             let numbers = stresses.into_iter().chain(tangents).map(f64::to_bits).collect::<Vec<_>>();
             (survey.expect("slices of one number of points"), numbers)
         };

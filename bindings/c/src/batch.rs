@@ -1,6 +1,6 @@
 //! Batches: many points at once, on the memory of the caller.
 
-use piola::batch::Batch;
+use piola::batch::{Batch, MatrixForm};
 use piola::point::measures;
 
 use crate::error::{Code, Failure, guard};
@@ -131,7 +131,7 @@ pub unsafe extern "C" fn piola_tangents(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
-            tangents(&batch, form, F, P, dP_dF)
+            Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
         })
     }
 }
@@ -154,7 +154,7 @@ pub unsafe extern "C" fn piola_tangents_f32(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
-            tangents(&batch, form, F, P, dP_dF)
+            Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
         })
     }
 }
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
-            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
+            Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
         })
     }
 }
@@ -209,7 +209,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
-            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
+            Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
         })
     }
 }
@@ -317,18 +317,9 @@ pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
     }
 }
 
-/// Stresses and tangents in a form.
-fn tangents<E: Precision>(
-    batch: &Batch<'_, E>,
-    form: i32,
-    F: &[E],
-    P: &mut [E],
-    dP_dF: &mut [E],
-) -> Result<piola::Survey, Failure> {
-    Ok(match lent::choice("form", form, [Form::Full, Form::Packed])? {
-        Form::Full => batch.tangents(F, P, dP_dF),
-        Form::Packed => batch.packed_tangents(F, P, dP_dF),
-    }?)
+/// The form that a number of C stands for.
+pub(crate) fn matrix_form(form: i32) -> Result<MatrixForm, Failure> {
+    lent::choice("form", form, [MatrixForm::Full, MatrixForm::Packed])
 }
 
 /// Stresses in a measure, and tangents where there is room for them.

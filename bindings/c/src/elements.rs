@@ -3,7 +3,7 @@
 use piola::batch::{Batch, REST, Tetrahedra};
 use piola::mesh::TetMesh;
 
-use crate::batch::{Form, call, call_with};
+use crate::batch::{call, call_with, matrix_form};
 use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
@@ -78,7 +78,7 @@ pub unsafe extern "C" fn piola_stiffnesses(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            stiffnesses_of(&batch, form, F, rest, gradients, stiffnesses)
+            Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
         })
     }
 }
@@ -106,7 +106,7 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
     // SAFETY: what the header asks of its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            stiffnesses_of(&batch, form, F, rest, gradients, stiffnesses)
+            Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
         })
     }
 }
@@ -201,21 +201,6 @@ pub unsafe extern "C" fn piola_stiffnesses_at_f32(
     })
 }
 
-/// Gradients and stiffnesses in a form.
-fn stiffnesses_of<E: Precision>(
-    batch: &Batch<'_, E>,
-    form: i32,
-    F: &[E],
-    rest: &[E],
-    gradients: &mut [E],
-    stiffnesses: &mut [E],
-) -> Result<piola::Survey, Failure> {
-    Ok(match is_packed(form)? {
-        false => batch.stiffnesses(F, rest, gradients, stiffnesses),
-        true => batch.packed_stiffnesses(F, rest, gradients, stiffnesses),
-    }?)
-}
-
 /// Gradients and stiffnesses in a form, with the nodes at positions.
 fn stiffnesses_at<E: Precision>(
     batch: &Batch<'_, E>,
@@ -228,13 +213,6 @@ fn stiffnesses_at<E: Precision>(
 ) -> Result<piola::Survey, Failure> {
     let positions = lent::vectors("positions", positions)?;
     let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
-    Ok(match is_packed(form)? {
-        false => batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses),
-        true => batch.packed_stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses),
-    }?)
-}
-
-fn is_packed(form: i32) -> Result<bool, Failure> {
-    let form = lent::choice("form", form, [Form::Full, Form::Packed])?;
-    Ok(matches!(form, Form::Packed))
+    let form = matrix_form(form)?;
+    Ok(batch.stiffnesses_at(form, tetrahedra, positions, rest, gradients, stiffnesses)?)
 }

@@ -10,6 +10,7 @@ use std::ops::Range;
 use piola::batch::{Batch, Layout, LengthError};
 use piola::interpreter::Interpreted;
 use piola::material::PerPoint;
+use piola::point::Filter;
 use piola::{StatusCell, Survey};
 use rayon::prelude::*;
 
@@ -21,6 +22,8 @@ const CHUNK: usize = 128;
 /// Deformation gradients in columns, and what is to be computed of them.
 pub(crate) struct Columns<'a, E> {
     pub(crate) batch: Batch<'a, E>,
+    /// The filter of the batch.
+    pub(crate) filter: Filter,
     pub(crate) quantity: Quantity,
     pub(crate) F: &'a [E],
     /// One for each point, or none.
@@ -124,7 +127,7 @@ impl<E: Number> Columns<'_, E> {
         let materials: Vec<_> = (0..F.len() / 9).map(|k| &each[last.min(points.start + k)]).collect();
         match PerPoint::new(&materials) {
             Ok(material) => {
-                let batch = Batch::new(&material).with_filter(self.batch.filter).with_layout(Layout::Lines);
+                let batch = Batch::new(&material).with_filter(self.filter).with_layout(Layout::Lines);
                 self.quantity.compute(&batch.with_statuses(cells), F, results)
             }
             Err(_) => unreachable!("all materials do the same outside of their domain"),

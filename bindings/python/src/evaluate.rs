@@ -96,14 +96,16 @@ impl<'py> Call<'_, 'py> {
                 &single
             }
         };
-        let batch = Batch::new(points).with_filter(self.filter);
-        let axes = self.axes;
+        let (axes, filter) = (self.axes, self.filter);
+        let batch = Batch::new(points).with_filter(filter);
         let compute = || match axes {
             Axes::Leading => {
                 quantity.compute(&batch.with_threads(threads).with_statuses(&cells), F, &mut results)
             }
-            Axes::Trailing => Columns { batch, quantity, F, cells: &cells, count, each: material.each() }
-                .compute(results, threads),
+            Axes::Trailing => {
+                Columns { batch, filter, quantity, F, cells: &cells, count, each: material.each() }
+                    .compute(results, threads)
+            }
         };
         let survey = match (threads, count) {
             (true, _) => py.detach(|| on_threads(compute))?,

@@ -3,11 +3,11 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use super::REST;
+use super::form::MatrixForm;
 use super::material::{Arguments, Properties, TileMaterial};
 use super::sink::{Layout, Sink, Source};
 use super::stage::{
     Decompose, Forces, Invariants, Judge, Respond, RespondByInvariants, Stages, StiffnessForm, Stress,
-    TangentForm,
 };
 use super::svd_tile::SvdTile;
 use super::tile::{Rows, first_bits};
@@ -113,7 +113,7 @@ impl<E: Stages> Call<'_, E> {
     #[expect(clippy::too_many_arguments, reason = "a tile with its rooms and its outputs")]
     pub(super) fn respond(
         &self,
-        form: TangentForm,
+        form: MatrixForm,
         F: Source<'_, E, 9>,
         start: usize,
         count: usize,

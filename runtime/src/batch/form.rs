@@ -9,8 +9,35 @@ use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
 use crate::status::Status;
 
+/// Form of a symmetric matrix in the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatrixForm {
+    /// All entries, row by row: 81 of dP/dF, 144 of a stiffness.
+    Full,
+    /// The entries on and above the diagonal, row by row: 45 of dP/dF, 78 of a stiffness.
+    Packed,
+}
+
+impl MatrixForm {
+    /// Number of entries of dP/dF.
+    pub(super) fn tangent_entries(self) -> usize {
+        match self {
+            Self::Full => 81,
+            Self::Packed => 45,
+        }
+    }
+
+    /// Number of entries of an element's stiffness.
+    pub(super) fn stiffness_entries(self) -> usize {
+        match self {
+            Self::Full => 144,
+            Self::Packed => 78,
+        }
+    }
+}
+
 /// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
-pub(super) trait Form<const REST: usize, const N: usize> {
+pub(super) trait Output<const REST: usize, const N: usize> {
     /// Changes blocks where the form asks for more than the filter does.
     #[inline(always)]
     fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Status<R::Mask> {
@@ -23,7 +50,7 @@ pub(super) trait Form<const REST: usize, const N: usize> {
 }
 
 /// Form that is made without a decomposition as well.
-pub(super) trait FormByInvariants<const REST: usize, const N: usize>: Form<REST, N> {
+pub(super) trait OutputByInvariants<const REST: usize, const N: usize>: Output<REST, N> {
     /// Puts number k at k LINE. Returns the largest entry on the diagonal of the tangent.
     fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
@@ -71,7 +98,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Scalar> {
     }
 }
 
-impl Form<0, 81> for FullTangent {
+impl Output<0, 81> for FullTangent {
     #[inline(always)]
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
@@ -79,7 +106,7 @@ impl Form<0, 81> for FullTangent {
     }
 }
 
-impl FormByInvariants<0, 81> for FullTangent {
+impl OutputByInvariants<0, 81> for FullTangent {
     #[inline(always)]
     fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
@@ -106,7 +133,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Scalar> {
     }
 }
 
-impl Form<0, 45> for PackedTangent {
+impl Output<0, 45> for PackedTangent {
     #[inline(always)]
     fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
         let Tangent { U, V, blocks } = tangent;
@@ -114,7 +141,7 @@ impl Form<0, 45> for PackedTangent {
     }
 }
 
-impl FormByInvariants<0, 45> for PackedTangent {
+impl OutputByInvariants<0, 45> for PackedTangent {
     #[inline(always)]
     fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
@@ -310,7 +337,7 @@ macro_rules! stiffness_form {
             }
         }
 
-        impl Form<10, $numbers> for $Form {
+        impl Output<10, $numbers> for $Form {
             #[inline(always)]
             fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
                 prepare_stiffness(blocks, rest, has_pole)
@@ -324,7 +351,7 @@ macro_rules! stiffness_form {
             }
         }
 
-        impl FormByInvariants<10, $numbers> for $Form {
+        impl OutputByInvariants<10, $numbers> for $Form {
             #[inline(always)]
             fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
                 terms: &Terms<R, HAS_SECOND, HAS_ALL>,

@@ -33,7 +33,7 @@ use crate::point::matrix::three;
 /// a clone for their own elements. What an element gets does not depend on the others.
 ///
 /// ```
-/// use piola::batch::{Batch, Quadrature};
+/// use piola::batch::{Batch, MatrixForm, Quadrature};
 ///
 /// /// Rubber.
 /// #[piola::material(domain(J > 0.0))]
@@ -52,7 +52,7 @@ use crate::point::matrix::three;
 /// let (mut F, mut P, mut dP_dF) = ([0.0; 9], [0.0; 9], [0.0; 81]);
 /// hexahedra.deform(&positions, &slopes, &mut F)?;
 /// let rubber = Rubber::new(1e6, 4e6)?;
-/// Batch::new(&rubber).tangents(&F, &mut P, &mut dP_dF)?;
+/// Batch::new(&rubber).tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)?;
 /// let (mut gradients, mut stiffness) = ([0.0; 24], vec![0.0; 24 * 24]);
 /// hexahedra.gradients(&slopes, &[1.0], &P, &mut gradients)?;
 /// hexahedra.stiffnesses(&slopes, &[1.0], &dP_dF, &mut stiffness)?;
@@ -296,7 +296,7 @@ impl<E: Scalar> Kernel<E> for Stiffness<'_, E> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::{Batch, Stages};
+    use crate::batch::{Batch, MatrixForm, Stages};
     use crate::hand_written::SaintVenantKirchhoff;
     use crate::random::Random;
 
@@ -316,7 +316,9 @@ mod tests {
         for backend in Backend::available() {
             let mut elements = Quadrature::new(nodes, points).with_backend(backend);
             elements.deform(&positions, &slopes, &mut F).expect("lengths fit");
-            Batch::new(&SaintVenantKirchhoff).tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
+            Batch::new(&SaintVenantKirchhoff)
+                .tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)
+                .expect("lengths fit");
             let mut gradients = zeros(3 * nodes * ELEMENTS);
             let mut stiffnesses = zeros(9 * nodes * nodes * ELEMENTS);
             elements.gradients(&slopes, &volumes, &P, &mut gradients).expect("lengths fit");

@@ -10,8 +10,8 @@ use std::cell::Cell;
 #[cfg(feature = "bodies")]
 use super::form::BlockStiffness;
 use super::form::{
-    Form, FormByInvariants, FullStiffness, FullTangent, PackedStiffness, PackedTangent, gradient_is_finite,
-    put_all, put_gradient,
+    FullStiffness, FullTangent, MatrixForm, Output, OutputByInvariants, PackedStiffness, PackedTangent,
+    gradient_is_finite, put_all, put_gradient,
 };
 use super::material::{from_rows, to_rows};
 use super::measure::{MeasuredStress, MeasuredTangent};
@@ -320,7 +320,7 @@ struct Shaped<'a, E, F, const REST: usize, const N: usize>(Respond<'a, E, REST>,
 impl<E, F, const REST: usize, const N: usize> Kernel<E> for Shaped<'_, E, F, REST, N>
 where
     E: Scalar,
-    F: Form<REST, N>,
+    F: Output<REST, N>,
 {
     type Output = Status<u64>;
 
@@ -362,18 +362,18 @@ pub(super) struct RespondByInvariants<'a, E, const REST: usize> {
 struct ShapedByInvariants<
     'a,
     E,
-    Form,
+    M,
     const HAS_SECOND: bool,
     const HAS_ALL: bool,
     const REST: usize,
     const N: usize,
->(RespondByInvariants<'a, E, REST>, Form);
+>(RespondByInvariants<'a, E, REST>, M);
 
-impl<E, Form, const HAS_SECOND: bool, const HAS_ALL: bool, const REST: usize, const N: usize> Kernel<E>
-    for ShapedByInvariants<'_, E, Form, HAS_SECOND, HAS_ALL, REST, N>
+impl<E, M, const HAS_SECOND: bool, const HAS_ALL: bool, const REST: usize, const N: usize> Kernel<E>
+    for ShapedByInvariants<'_, E, M, HAS_SECOND, HAS_ALL, REST, N>
 where
     E: Scalar,
-    Form: FormByInvariants<REST, N>,
+    M: OutputByInvariants<REST, N>,
 {
     /// The points that keep their digits and stay in range.
     type Output = u64;
@@ -398,9 +398,9 @@ where
             let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives.get_all(at));
             let rest = rest.get_all(at);
             // The larger output first: what P needs of the registers stays in few.
-            let largest = Form::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
+            let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             let stress = terms.stress();
-            let keeps_digits = terms.keeps_digits(largest) & Form::stays_finite(terms.bound(), &rest);
+            let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
             let stays_finite = put_stress(&stress, &rest, &mut first, short_line, at);
             served |= R::bits(keeps_digits & stays_finite) << at;
             // Where no register holds anything any more: the transposes need them all.
@@ -419,7 +419,7 @@ fn shape_by_invariants<E, F, const REST: usize, const N: usize>(
 ) -> u64
 where
     E: Scalar,
-    F: FormByInvariants<REST, N>,
+    F: OutputByInvariants<REST, N>,
 {
     let has_second = kernel.has_second_invariant;
     match (has_second, kernel.curvature.has_all(has_second)) {
@@ -430,18 +430,10 @@ where
     }
 }
 
-/// The second output of a response.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum TangentForm {
-    Full,
-    Packed,
-}
-
 /// The second output of an element's response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StiffnessForm {
-    Full,
-    Packed,
+    Matrix(MatrixForm),
     #[cfg(feature = "bodies")]
     Blocks,
 }
@@ -472,14 +464,14 @@ pub trait Stages: Scalar {
     #[doc(hidden)]
     fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
-    fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
+    fn tangent(backend: Backend, form: MatrixForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
     #[doc(hidden)]
     fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
     /// The points served.
     #[doc(hidden)]
     fn tangent_by_invariants(
         backend: Backend,
-        form: TangentForm,
+        form: MatrixForm,
         kernel: RespondByInvariants<'_, Self, 0>,
     ) -> u64;
     /// The points served.
@@ -535,17 +527,17 @@ macro_rules! stages {
                 backend.run(kernel)
             }
 
-            fn tangent(backend: Backend, form: TangentForm, kernel: Respond<'_, Self, 0>) -> Status<u64> {
+            fn tangent(backend: Backend, form: MatrixForm, kernel: Respond<'_, Self, 0>) -> Status<u64> {
                 match form {
-                    TangentForm::Full => backend.run(Shaped(kernel, FullTangent)),
-                    TangentForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
+                    MatrixForm::Full => backend.run(Shaped(kernel, FullTangent)),
+                    MatrixForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
                 }
             }
 
             fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64> {
                 match form {
-                    StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
-                    StiffnessForm::Packed => backend.run(Shaped(kernel, PackedStiffness)),
+                    StiffnessForm::Matrix(MatrixForm::Full) => backend.run(Shaped(kernel, FullStiffness)),
+                    StiffnessForm::Matrix(MatrixForm::Packed) => backend.run(Shaped(kernel, PackedStiffness)),
                     #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
                 }
@@ -553,12 +545,12 @@ macro_rules! stages {
 
             fn tangent_by_invariants(
                 backend: Backend,
-                form: TangentForm,
+                form: MatrixForm,
                 kernel: RespondByInvariants<'_, Self, 0>,
             ) -> u64 {
                 match form {
-                    TangentForm::Full => shape_by_invariants(backend, kernel, FullTangent),
-                    TangentForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
+                    MatrixForm::Full => shape_by_invariants(backend, kernel, FullTangent),
+                    MatrixForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
                 }
             }
 
@@ -568,8 +560,8 @@ macro_rules! stages {
                 kernel: RespondByInvariants<'_, Self, 10>,
             ) -> u64 {
                 match form {
-                    StiffnessForm::Full => shape_by_invariants(backend, kernel, FullStiffness),
-                    StiffnessForm::Packed => shape_by_invariants(backend, kernel, PackedStiffness),
+                    StiffnessForm::Matrix(MatrixForm::Full) => shape_by_invariants(backend, kernel, FullStiffness),
+                    StiffnessForm::Matrix(MatrixForm::Packed) => shape_by_invariants(backend, kernel, PackedStiffness),
                     #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
                 }

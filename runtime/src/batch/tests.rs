@@ -150,10 +150,10 @@ fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
     let surveys = [
         batch.energies(&F, &mut all.energies),
         batch.stresses(&F, &mut all.P),
-        batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
-        batch.packed_tangents(&F, &mut all.P_with_tangent, &mut all.packed),
-        batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
-        batch.packed_stiffnesses(&F, &rest, &mut all.gradients, &mut all.packed_stiffnesses),
+        batch.tangents(MatrixForm::Full, &F, &mut all.P_with_tangent, &mut all.full),
+        batch.tangents(MatrixForm::Packed, &F, &mut all.P_with_tangent, &mut all.packed),
+        batch.stiffnesses(MatrixForm::Full, &F, &rest, &mut all.gradients, &mut all.stiffnesses),
+        batch.stiffnesses(MatrixForm::Packed, &F, &rest, &mut all.gradients, &mut all.packed_stiffnesses),
     ];
     all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
     all
@@ -367,7 +367,7 @@ fn matrices_by_columns_give_matrices_by_columns() {
         let F: Vec<f64> = F.iter().flat_map(|F| (0..9).map(|k| F[place(k)]).collect::<Vec<_>>()).collect();
         let (mut energies, mut P, mut dP_dF) = (vec![0.0; 100], vec![0.0; 900], vec![0.0; 8100]);
         let batch = Batch::new(&SaintVenantKirchhoff).with_filter(Filter::Clamp);
-        let survey = batch.energies_and_tangents(&F, &mut energies, &mut P, &mut dP_dF);
+        let survey = batch.energies_and_tangents(MatrixForm::Full, &F, &mut energies, &mut P, &mut dP_dF);
         assert!(survey.expect("lengths fit").is_clean());
         let entries = |k: usize, n: usize| 81 * k + 9 * place(n / 9) + place(n % 9);
         let mut all = energies;
@@ -391,7 +391,9 @@ fn a_survey_counts_and_names_the_first() {
     for backend in Backend::available() {
         let batch = Batch::new(&NeoHookean).with_backend(backend);
         let (mut P, mut dP_dF, mut energies) = (vec![0.0; 9 * 130], vec![0.0; 81 * 130], vec![0.0; 130]);
-        for survey in [batch.energies(&F, &mut energies), batch.tangents(&F, &mut P, &mut dP_dF)] {
+        for survey in
+            [batch.energies(&F, &mut energies), batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)]
+        {
             let survey = survey.expect("lengths fit");
             // The logarithm of a negative number is not finite, and what is not a number is in no domain.
             assert_eq!((survey.refused, survey.nonfinite, survey.first), (3, 3, Some(100)), "{backend}");

@@ -94,7 +94,7 @@ mod tests {
     #![expect(non_snake_case, reason = "F as in the literature")]
 
     use super::*;
-    use crate::batch::{Batch, Layout, LengthError, REST, TileMaterial};
+    use crate::batch::{Batch, Layout, LengthError, MatrixForm, REST, TileMaterial};
     use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, SaintVenantKirchhoff};
     use crate::lanes::{Backend, Real};
     use crate::point::Filter;
@@ -188,17 +188,32 @@ mod tests {
                 let (mut gradients, mut full, mut packed) = (zeros(12), zeros(144), zeros(78));
                 let (mut expected_gradients, mut expected, mut expected_packed) =
                     (zeros(12), zeros(144), zeros(78));
-                let at = batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut full);
-                let from = batch.stiffnesses(&F, &rest, &mut expected_gradients, &mut expected);
+                let at = batch.stiffnesses_at(
+                    MatrixForm::Full,
+                    tetrahedra,
+                    &positions,
+                    &rest,
+                    &mut gradients,
+                    &mut full,
+                );
+                let from =
+                    batch.stiffnesses(MatrixForm::Full, &F, &rest, &mut expected_gradients, &mut expected);
                 assert_eq!(at, from);
                 assert!(at.expect("lengths fit").is_clean());
                 close(&gradients, &expected_gradients);
                 close(&full, &expected);
                 batch
-                    .packed_stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut packed)
+                    .stiffnesses_at(
+                        MatrixForm::Packed,
+                        tetrahedra,
+                        &positions,
+                        &rest,
+                        &mut gradients,
+                        &mut packed,
+                    )
                     .expect("lengths fit");
                 batch
-                    .packed_stiffnesses(&F, &rest, &mut expected_gradients, &mut expected_packed)
+                    .stiffnesses(MatrixForm::Packed, &F, &rest, &mut expected_gradients, &mut expected_packed)
                     .expect("lengths fit");
                 close(&packed, &expected_packed);
             }
@@ -240,7 +255,14 @@ mod tests {
         let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
         let call = |positions: usize, rest: usize| {
             let (positions, rest) = (vec![[0.0; 3]; positions], vec![0.0; rest]);
-            batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut [0.0; 24], &mut [0.0; 288])
+            batch.stiffnesses_at(
+                MatrixForm::Full,
+                tetrahedra,
+                &positions,
+                &rest,
+                &mut [0.0; 24],
+                &mut [0.0; 288],
+            )
         };
         let wrong = |slice, found, components, points| {
             Err(LengthError { slice, found, components, points, group: 1 })

@@ -38,7 +38,7 @@ impl Task {
         Self::StiffnessesAt,
     ];
 
-    /// The name of the method.
+    /// The name of the method, with the form.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

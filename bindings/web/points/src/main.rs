@@ -13,7 +13,7 @@ use std::error::Error;
 use std::io::{Write, stdin, stdout};
 
 use piola::Inversion;
-use piola::batch::{Batch, Stages, TileMaterial};
+use piola::batch::{Batch, MatrixForm, Stages, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_declare::Energy;
@@ -112,8 +112,18 @@ impl Request {
         let (mut psi, mut stress, mut tangent, mut projected) = (room(1), room(9), room(81), room(81));
         let statuses: Vec<_> = (0..count).map(|_| Default::default()).collect();
         plain.energies(&deformations, &mut psi)?;
-        plain.with_filter(Filter::Clamp).tangents(&deformations, &mut stress, &mut projected)?;
-        plain.with_statuses(&statuses).tangents(&deformations, &mut stress, &mut tangent)?;
+        plain.with_filter(Filter::Clamp).tangents(
+            MatrixForm::Full,
+            &deformations,
+            &mut stress,
+            &mut projected,
+        )?;
+        plain.with_statuses(&statuses).tangents(
+            MatrixForm::Full,
+            &deformations,
+            &mut stress,
+            &mut tangent,
+        )?;
         let wide = |values: Vec<E>| values.into_iter().map(Into::into).collect();
         Ok(Answer {
             backend: backend.name(),
