@@ -72,7 +72,6 @@ use crate::lanes::Backend;
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
-mod call;
 #[cfg(feature = "bodies")]
 pub(crate) mod element;
 mod form;
@@ -81,8 +80,7 @@ mod material;
 mod measure;
 mod measured;
 mod quadrature;
-#[cfg(feature = "bodies")]
-pub(crate) mod rest;
+mod rows;
 mod sink;
 mod stage;
 mod svd_tile;
@@ -93,21 +91,19 @@ mod workspace;
 pub use form::MatrixForm;
 pub use material::{Arguments, Properties, TileMaterial};
 pub use quadrature::Quadrature;
+pub use rows::Rows;
 pub use sink::Layout;
 pub use stage::Stages;
-pub use svd_tile::SvdTile;
 pub use tetrahedra::{NoSuchNode, Tetrahedra};
-pub use tile::Rows;
 
-use call::Call;
 #[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
 #[cfg(test)]
 use form::PACKED_12;
-use jobs::{Tile, Work};
+use jobs::{Job, Work};
 use sink::Source;
-use stage::{Deform, StiffnessForm, Stress, StressByInvariants};
-use tile::first_bits;
+use stage::{Deform, StiffnessForm};
+use tile::{Call, Tile};
 use workspace::Workspace;
 
 /// A material with the settings to evaluate it at many points at once.
@@ -202,19 +198,8 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("energies", energies, 1)], |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [energies] } = tile;
-            let Workspace { F: lines, points, invariants, energies: values, .. } = workspace;
-            let F = Source::new(batch.backend, batch.layout, F, lines);
-            let has_energy = batch.properties.has_energy_by_invariants;
-            let in_range = if has_energy { batch.invariants(F, count, invariants) } else { 0 };
-            let served = batch.energies_by_invariants(in_range, invariants, start, values, energies);
-            if served == first_bits(count) {
-                return Status::default();
-            }
-            batch.decompose(F, count, points);
-            batch.energies(points, start, served, values, energies) & !served
-        })
+        let outputs = [("energies", energies, 1)];
+        self.run([("F", F, 9)], outputs, |call, job, [F], [energies]| call.points(job, F).energies(energies))
     }
 
     /// First Piola stress P, Pa: nine components of each F. Computes no second derivative.
@@ -222,35 +207,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
     pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("P", P, 9)], |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [P] } = tile;
-            let Workspace { F: lines, points, invariants, gradients, line, .. } = workspace;
-            let F = Source::new(batch.backend, batch.layout, F, lines);
-            let mut served = batch.invariants(F, count, invariants);
-            if served != 0 {
-                let arguments = batch.arguments(invariants, start, count);
-                served &= !batch.material.tile_gradients_by_invariants(arguments, gradients).refused;
-                let kernel = StressByInvariants {
-                    F,
-                    gradients,
-                    has_second_invariant: batch.properties.has_second_invariant,
-                    rest: Source::NONE,
-                    count,
-                    line,
-                    to: batch.sink(&mut *P, 0),
-                };
-                served &= E::stress_by_invariants(batch.backend, kernel);
-            }
-            if served == first_bits(count) {
-                return Status::default();
-            }
-            batch.decompose(F, count, points);
-            let refused =
-                batch.material.tile_gradients(batch.arguments(&points.stretches, start, count), gradients);
-            let P = batch.sink(P, served);
-            let kernel = Stress { points, gradients: &gradients.0, count, line, P };
-            (refused | E::stress(batch.backend, kernel)) & !served
-        })
+        self.run([("F", F, 9)], [("P", P, 9)], |call, job, [F], [P]| call.points(job, F).stresses(P))
     }
 
     /// Stresses P and the entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P, column
@@ -266,10 +223,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         dP_dF: &mut [E],
     ) -> Result<Survey, LengthError> {
         let outputs = [("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
-        self.run([("F", F, 9)], outputs, |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [P, tangents] } = tile;
-            let (F, rooms) = batch.enter(workspace, F);
-            batch.respond(form, F, start, count, rooms, P, tangents, None)
+        self.run([("F", F, 9)], outputs, |call, job, [F], [P, dP_dF]| {
+            call.points(job, F).respond(form, P, dP_dF, None)
         })
     }
 
@@ -287,10 +242,8 @@ impl<'a, E: Stages> Batch<'a, E> {
         dP_dF: &mut [E],
     ) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
-        self.run([("F", F, 9)], outputs, |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [energies, P, tangents] } = tile;
-            let (F, rooms) = batch.enter(workspace, F);
-            batch.respond(form, F, start, count, rooms, P, tangents, Some(energies))
+        self.run([("F", F, 9)], outputs, |call, job, [F], [energies, P, dP_dF]| {
+            call.points(job, F).respond(form, P, dP_dF, Some(energies))
         })
     }
 
@@ -316,13 +269,13 @@ impl<'a, E: Stages> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let inputs = [("F", F, 9), ("rest", rest, REST)];
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
-        self.run(inputs, outputs, |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F, rest], outputs: [gradients, stiffnesses] } = tile;
-            let (lines, shapes, rooms) = workspace.for_elements();
-            let F = Source::new(batch.backend, batch.layout, F, lines);
-            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
-            let form = StiffnessForm::Matrix(form);
-            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
+        self.run(inputs, outputs, |call, job, [F, rest], [gradients, stiffnesses]| {
+            let Job { workspace, start, count } = job;
+            let Workspace { F: lines, rest: shapes, svd, scratch } = workspace;
+            let F = Source::new(call.backend, call.layout, F, lines);
+            let rest = Source::new(call.backend, call.layout, rest, shapes);
+            let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
+            tile.respond(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
         })
     }
 
@@ -380,14 +333,15 @@ impl<'a, E: Stages> Batch<'a, E> {
             return Err(LengthError { slice: "rest", found, components: REST, points, group });
         }
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
-        self.run([("rest", rest, REST)], outputs, |batch, tile| {
-            let Tile { workspace, start, count, inputs: [rest], outputs: [gradients, stiffnesses] } = tile;
-            let (edges, shapes, rooms) = workspace.for_elements();
-            let rest = Source::new(batch.backend, batch.layout, rest, shapes);
+        self.run([("rest", rest, REST)], outputs, |call, job, [rest], [gradients, stiffnesses]| {
+            let Job { workspace, start, count } = job;
+            let Workspace { F: edges, rest: shapes, svd, scratch } = workspace;
+            let rest = Source::new(call.backend, call.layout, rest, shapes);
             tetrahedra.set_edges(start, count, positions, edges);
-            E::deform(batch.backend, Deform { edges, rest, count });
-            let (F, form) = (edges.source(), StiffnessForm::Matrix(form));
-            batch.respond_elements(form, F, rest, start, count, rooms, gradients, stiffnesses)
+            E::deform(call.backend, Deform { edges, rest, count });
+            let F = edges.source();
+            let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
+            tile.respond(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
         })
     }
 
@@ -404,7 +358,7 @@ impl<'a, E: Stages> Batch<'a, E> {
         &self,
         inputs: [(&'static str, &[E], usize); I],
         outputs: [(&'static str, &mut [E], usize); O],
-        body: impl Fn(Call<'_, E>, Tile<'_, E, I, O>) -> Status<u64> + Sync,
+        body: impl for<'t> Fn(Call<'t, E>, Job<'t, E>, [&'t [E]; I], [&'t mut [E]; O]) -> Status<u64> + Sync,
     ) -> Result<Survey, LengthError> {
         let properties = self.material.properties();
         let (_, first, components) = inputs[0];
@@ -429,13 +383,16 @@ impl<'a, E: Stages> Batch<'a, E> {
             backend: self.backend,
             layout: self.layout,
             streams: self.streams,
+            keeps_svd: false,
         };
         let work = Work {
             inputs: inputs.map(|(_, slice, components)| (slice, components)),
             outputs: outputs.map(|(_, slice, components)| (slice, components)),
             statuses: self.statuses,
         };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|tile| body(call, tile)))
+        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|job, inputs, outputs| {
+            body(call, job, inputs, outputs)
+        }))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tiles of a call, one after the other or shared among threads.
 
+use super::rows::TILE;
 use super::stage::Stages;
-use super::tile::TILE;
 use super::workspace::Workspace;
 use crate::lanes::Scalar;
 use crate::status::{Status, StatusCell, Survey};
@@ -34,15 +34,13 @@ impl<'a, E: Scalar, const I: usize, const O: usize> Work<'a, E, I, O> {
     }
 }
 
-/// A tile of a call.
-pub(super) struct Tile<'a, E, const I: usize, const O: usize> {
+/// A tile of a call that a thread computes.
+pub(super) struct Job<'a, E> {
     pub(super) workspace: &'a mut Workspace<E>,
     /// Number of the first point.
     pub(super) start: usize,
-    /// How many points.
+    /// Number of points.
     pub(super) count: usize,
-    pub(super) inputs: [&'a [E]; I],
-    pub(super) outputs: [&'a mut [E]; O],
 }
 
 /// Runs `body` for each tile of the points and adds up its statuses, in the order of the points.
@@ -50,7 +48,7 @@ pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
     mut work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     threads: bool,
-    body: &(impl Fn(Tile<'_, E, I, O>) -> Status<u64> + Sync),
+    body: &(impl Fn(Job<'_, E>, [&[E]; I], [&mut [E]; O]) -> Status<u64> + Sync),
 ) -> Survey {
     let tiles = points.len().div_ceil(TILE);
     if threads && tiles > GRAIN {
@@ -70,18 +68,16 @@ fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
     mut work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     workspace: &mut Workspace<E>,
-    body: &impl Fn(Tile<'_, E, I, O>) -> Status<u64>,
+    body: &impl Fn(Job<'_, E>, [&[E]; I], [&mut [E]; O]) -> Status<u64>,
 ) -> Survey {
     let mut survey = Survey::default();
     for start in points.clone().step_by(TILE) {
         let tile = work.split_off(1);
-        let status = body(Tile {
-            workspace,
-            start,
-            count: TILE.min(points.end - start),
-            inputs: tile.inputs.map(|(slice, _)| slice),
-            outputs: tile.outputs.map(|(slice, _)| slice),
-        });
+        let status = body(
+            Job { workspace, start, count: TILE.min(points.end - start) },
+            tile.inputs.map(|(slice, _)| slice),
+            tile.outputs.map(|(slice, _)| slice),
+        );
         for (point, to) in tile.statuses.iter().enumerate() {
             to.set(status.of_point(point));
         }

@@ -1,6 +1,6 @@
 //! A material as batches see it: one dynamic dispatch for each response of a tile.
 
-use super::tile::{ROW, Rows, first_bits, for_each_group};
+use super::rows::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 #[cfg(feature = "bodies")]
 use crate::material::properties::largest_rest_stiffness;

@@ -2,9 +2,9 @@
 
 use super::form::put;
 use super::material::from_rows;
+use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{Line, Sink};
 use super::svd_tile::SvdTile;
-use super::tile::{Row, Rows, first_bits, for_each_group};
 use crate::lanes::{Kernel, Lanes, Scalar};
 use crate::point::matrix::three;
 use crate::point::measures::Measure;

@@ -6,12 +6,11 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::jobs::Tile;
 use super::measure::{MeasuredStress, MeasuredTangent};
-use super::sink::Source;
 use super::stage::Stages;
-use super::workspace::Workspace;
-use super::{Batch, Call, LengthError};
+use super::tile::{Call, Tile};
+use super::workspace::Scratch;
+use super::{Batch, LengthError};
 use crate::point::Filter;
 use crate::point::measures::Measure;
 use crate::status::Survey;
@@ -53,15 +52,14 @@ impl<E: Stages> Batch<'_, E> {
         F: &[E],
         stresses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("stresses", stresses, 6)], |batch, tile| {
-            let Tile { workspace, start, count, inputs: [F], outputs: [stresses] } = tile;
-            let Workspace { F: lines, points, gradients, line, .. } = workspace;
-            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
-            let arguments = batch.arguments(&points.stretches, start, count);
-            let refused = batch.material.tile_gradients(arguments, gradients);
-            let to = batch.sink(stresses, 0);
+        self.run([("F", F, 9)], [("stresses", stresses, 6)], |call, job, [F], [stresses]| {
+            let mut tile = call.points(job, F);
+            tile.decompose();
+            let refused = tile.gradients();
+            let Tile { count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
+            let to = call.sink(stresses, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
-            refused | E::measured_stress(batch.backend, kernel)
+            refused | E::measured_stress(call.backend, kernel)
         })
     }
 
@@ -81,19 +79,19 @@ impl<E: Stages> Batch<'_, E> {
         tangents: &mut [E],
     ) -> Result<Survey, LengthError> {
         let outputs = [("stresses", stresses, 6), ("tangents", tangents, 36)];
-        self.run([("F", F, 9)], outputs, |batch, tile| {
-            let batch = Call { filter: Filter::None, ..batch };
-            let fence = batch.fence();
-            let Tile { workspace, start, count, inputs: [F], outputs: [stresses, tangents] } = tile;
-            let Workspace { F: lines, points, blocks, line, .. } = workspace;
-            batch.decompose(Source::new(batch.backend, batch.layout, F, lines), count, points);
-            let judged = batch.blocks(points, start, count, blocks);
-            let (points, to) = (&*points, batch.sink(stresses, 0));
+        self.run([("F", F, 9)], outputs, |call, job, [F], [stresses, tangents]| {
+            let call = Call { filter: Filter::None, ..call };
+            let fence = call.fence();
+            let mut tile = call.points(job, F);
+            tile.decompose();
+            let judged = tile.blocks();
+            let Tile { count, svd: points, scratch: Scratch { blocks, line, .. }, .. } = tile;
+            let (points, to) = (&*points, call.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };
-            let stressed = E::measured_stress(batch.backend, kernel);
-            let to = batch.large_sink(tangents, fence.as_ref(), 0);
+            let stressed = E::measured_stress(call.backend, kernel);
+            let to = call.large_sink(tangents, fence.as_ref(), 0);
             let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
-            E::measured_tangent(batch.backend, kernel) | stressed | judged
+            E::measured_tangent(call.backend, kernel) | stressed | judged
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Layouts of the components of many points in a slice, and the ways of lanes into it and out of it.
 
-use super::tile::TILE;
+use super::rows::TILE;
 use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
 
 /// Layout of the N components of each of many points in a slice.

@@ -15,9 +15,9 @@ use super::form::{
 };
 use super::material::{from_rows, to_rows};
 use super::measure::{MeasuredStress, MeasuredTangent};
+use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{Line, Lines, Sink, Source};
 use super::svd_tile::SvdTile;
-use super::tile::{Row, Rows, first_bits, for_each_group};
 use super::workspace::Workspace;
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
 use crate::material::Curvature;
@@ -214,18 +214,18 @@ impl<E: Scalar> Kernel<E> for Deform<'_, E> {
     }
 }
 
-/// Kernel from frames and ψi to the gradients of elements, N.
-pub(super) struct Forces<'a, E> {
+/// Kernel from frames and ψi to P, Pa, or to the gradients of elements, N, if there are shapes at rest.
+pub(super) struct Stress<'a, E, const REST: usize> {
     pub(super) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
     pub(super) gradients: &'a [Row<E>],
-    pub(super) rest: Source<'a, E, 10>,
+    pub(super) rest: Source<'a, E, REST>,
     pub(super) count: usize,
     pub(super) line: &'a mut Line<E>,
     pub(super) to: Sink<'a, E>,
 }
 
-impl<E: Scalar> Kernel<E> for Forces<'_, E> {
+impl<E: Scalar> Kernel<E> for Stress<'_, E, 10> {
     type Output = Status<u64>;
 
     #[inline(always)]
@@ -245,29 +245,19 @@ impl<E: Scalar> Kernel<E> for Forces<'_, E> {
     }
 }
 
-/// Kernel from frames and ψi to P, Pa.
-pub(super) struct Stress<'a, E> {
-    pub(super) points: &'a SvdTile<E>,
-    /// ψi in the first three rows.
-    pub(super) gradients: &'a [Row<E>],
-    pub(super) count: usize,
-    pub(super) line: &'a mut Line<E>,
-    pub(super) P: Sink<'a, E>,
-}
-
-impl<E: Scalar> Kernel<E> for Stress<'_, E> {
+impl<E: Scalar> Kernel<E> for Stress<'_, E, 0> {
     type Output = Status<u64>;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Self { points, gradients, count, line, mut P } = self;
+        let Self { points, gradients, count, line, mut to, .. } = self;
         let mut status = Status::default();
         for_each_group!(R, count, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
-            put_all(to_row_major(stress), P.place::<R, 9>(line, at));
-            P.finish::<R, 9>(line, at, count);
+            put_all(to_row_major(stress), to.place::<R, 9>(line, at));
+            to.finish::<R, 9>(line, at, count);
         });
         status & first_bits(count)
     }
@@ -432,10 +422,33 @@ where
 
 /// The second output of an element's response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StiffnessForm {
+pub enum StiffnessForm {
     Matrix(MatrixForm),
     #[cfg(feature = "bodies")]
     Blocks,
+}
+
+/// Last stages of a tile: P and dP/dF of points without shapes at rest, gradients and stiffnesses of elements
+/// with REST components of a shape at rest each.
+#[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
+pub trait Outputs<const REST: usize>: Scalar {
+    /// Form of the second output.
+    #[doc(hidden)]
+    type Form: Copy;
+    #[doc(hidden)]
+    fn stress(backend: Backend, kernel: Stress<'_, Self, REST>) -> Status<u64>;
+    /// The points served.
+    #[doc(hidden)]
+    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, REST>) -> u64;
+    #[doc(hidden)]
+    fn respond(backend: Backend, form: Self::Form, kernel: Respond<'_, Self, REST>) -> Status<u64>;
+    /// The points served.
+    #[doc(hidden)]
+    fn respond_by_invariants(
+        backend: Backend,
+        form: Self::Form,
+        kernel: RespondByInvariants<'_, Self, REST>,
+    ) -> u64;
 }
 
 /// The kernels above for one format: no function is generic, so that each is compiled once, here. With the
@@ -445,7 +458,7 @@ pub(super) enum StiffnessForm {
     note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
 )]
 #[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
-pub trait Stages: Scalar {
+pub trait Stages: Outputs<0, Form = MatrixForm> + Outputs<10, Form = StiffnessForm> {
     #[doc(hidden)]
     fn decompose(backend: Backend, kernel: Decompose<'_, Self>);
     #[doc(hidden)]
@@ -453,34 +466,7 @@ pub trait Stages: Scalar {
     #[doc(hidden)]
     fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64;
     #[doc(hidden)]
-    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64;
-    #[cfg(feature = "bodies")]
-    #[doc(hidden)]
-    fn forces_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64;
-    #[doc(hidden)]
-    fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64>;
-    #[doc(hidden)]
-    fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Status<u64>;
-    #[doc(hidden)]
     fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Status<u64>;
-    #[doc(hidden)]
-    fn tangent(backend: Backend, form: MatrixForm, kernel: Respond<'_, Self, 0>) -> Status<u64>;
-    #[doc(hidden)]
-    fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64>;
-    /// The points served.
-    #[doc(hidden)]
-    fn tangent_by_invariants(
-        backend: Backend,
-        form: MatrixForm,
-        kernel: RespondByInvariants<'_, Self, 0>,
-    ) -> u64;
-    /// The points served.
-    #[doc(hidden)]
-    fn stiffness_by_invariants(
-        backend: Backend,
-        form: StiffnessForm,
-        kernel: RespondByInvariants<'_, Self, 10>,
-    ) -> u64;
     #[doc(hidden)]
     fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
@@ -492,6 +478,76 @@ pub trait Stages: Scalar {
 
 macro_rules! stages {
     ($($Number:ident)*) => {$(
+        #[expect(private_interfaces, reason = "as in the trait")]
+        impl Outputs<0> for $Number {
+            type Form = MatrixForm;
+
+            fn stress(backend: Backend, kernel: Stress<'_, Self, 0>) -> Status<u64> {
+                backend.run(kernel)
+            }
+
+            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64 {
+                stress_of(backend, kernel)
+            }
+
+            fn respond(backend: Backend, form: MatrixForm, kernel: Respond<'_, Self, 0>) -> Status<u64> {
+                match form {
+                    MatrixForm::Full => backend.run(Shaped(kernel, FullTangent)),
+                    MatrixForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
+                }
+            }
+
+            fn respond_by_invariants(
+                backend: Backend,
+                form: MatrixForm,
+                kernel: RespondByInvariants<'_, Self, 0>,
+            ) -> u64 {
+                match form {
+                    MatrixForm::Full => shape_by_invariants(backend, kernel, FullTangent),
+                    MatrixForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
+                }
+            }
+        }
+
+        #[expect(private_interfaces, reason = "as in the trait")]
+        impl Outputs<10> for $Number {
+            type Form = StiffnessForm;
+
+            fn stress(backend: Backend, kernel: Stress<'_, Self, 10>) -> Status<u64> {
+                backend.run(kernel)
+            }
+
+            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64 {
+                stress_of(backend, kernel)
+            }
+
+            fn respond(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64> {
+                match form {
+                    StiffnessForm::Matrix(MatrixForm::Full) => backend.run(Shaped(kernel, FullStiffness)),
+                    StiffnessForm::Matrix(MatrixForm::Packed) => backend.run(Shaped(kernel, PackedStiffness)),
+                    #[cfg(feature = "bodies")]
+                    StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
+                }
+            }
+
+            fn respond_by_invariants(
+                backend: Backend,
+                form: StiffnessForm,
+                kernel: RespondByInvariants<'_, Self, 10>,
+            ) -> u64 {
+                match form {
+                    StiffnessForm::Matrix(MatrixForm::Full) => {
+                        shape_by_invariants(backend, kernel, FullStiffness)
+                    }
+                    StiffnessForm::Matrix(MatrixForm::Packed) => {
+                        shape_by_invariants(backend, kernel, PackedStiffness)
+                    }
+                    #[cfg(feature = "bodies")]
+                    StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
+                }
+            }
+        }
+
         #[expect(private_interfaces, reason = "as in the trait")]
         impl Stages for $Number {
             fn decompose(backend: Backend, kernel: Decompose<'_, Self>) {
@@ -506,65 +562,8 @@ macro_rules! stages {
                 backend.run(kernel)
             }
 
-            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64 {
-                stress_of(backend, kernel)
-            }
-
-            #[cfg(feature = "bodies")]
-            fn forces_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64 {
-                stress_of(backend, kernel)
-            }
-
-            fn forces(backend: Backend, kernel: Forces<'_, Self>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
-            fn stress(backend: Backend, kernel: Stress<'_, Self>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
             fn judge(backend: Backend, kernel: Judge<'_, Self>) -> Status<u64> {
                 backend.run(kernel)
-            }
-
-            fn tangent(backend: Backend, form: MatrixForm, kernel: Respond<'_, Self, 0>) -> Status<u64> {
-                match form {
-                    MatrixForm::Full => backend.run(Shaped(kernel, FullTangent)),
-                    MatrixForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
-                }
-            }
-
-            fn stiffness(backend: Backend, form: StiffnessForm, kernel: Respond<'_, Self, 10>) -> Status<u64> {
-                match form {
-                    StiffnessForm::Matrix(MatrixForm::Full) => backend.run(Shaped(kernel, FullStiffness)),
-                    StiffnessForm::Matrix(MatrixForm::Packed) => backend.run(Shaped(kernel, PackedStiffness)),
-                    #[cfg(feature = "bodies")]
-                    StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
-                }
-            }
-
-            fn tangent_by_invariants(
-                backend: Backend,
-                form: MatrixForm,
-                kernel: RespondByInvariants<'_, Self, 0>,
-            ) -> u64 {
-                match form {
-                    MatrixForm::Full => shape_by_invariants(backend, kernel, FullTangent),
-                    MatrixForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
-                }
-            }
-
-            fn stiffness_by_invariants(
-                backend: Backend,
-                form: StiffnessForm,
-                kernel: RespondByInvariants<'_, Self, 10>,
-            ) -> u64 {
-                match form {
-                    StiffnessForm::Matrix(MatrixForm::Full) => shape_by_invariants(backend, kernel, FullStiffness),
-                    StiffnessForm::Matrix(MatrixForm::Packed) => shape_by_invariants(backend, kernel, PackedStiffness),
-                    #[cfg(feature = "bodies")]
-                    StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
-                }
             }
 
             fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64> {

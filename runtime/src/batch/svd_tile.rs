@@ -2,21 +2,21 @@
 
 #![expect(non_snake_case, reason = "U, V as in the literature")]
 
-use super::tile::Rows;
+use super::rows::Rows;
 use crate::lanes::{Lanes, Scalar};
 use crate::point::Svd;
 use crate::point::matrix::{to_matrix, to_row_major};
 
 /// Frames and stretches of a tile's deformation gradients.
 #[derive(Clone, Copy, Debug)]
-pub struct SvdTile<E> {
+pub(super) struct SvdTile<E> {
     pub(super) U: Rows<E, 9>,
-    pub(crate) stretches: Rows<E, 3>,
+    pub(super) stretches: Rows<E, 3>,
     pub(super) V: Rows<E, 9>,
 }
 
 impl<E: Scalar> SvdTile<E> {
-    pub(crate) fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { U: Rows::zero(), stretches: Rows::zero(), V: Rows::zero() }
     }
 

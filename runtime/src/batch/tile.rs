@@ -1,79 +1,272 @@
-//! Tiles: 64 points, component by component, small enough to stay in the innermost cache.
+//! A tile on its way through the stages: by the invariants where they serve, by a decomposition elsewhere.
 //!
-//! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as
-//! it is. A tile that is not full is padded with copies of nothing in particular: no lane looks at another.
+//! Batches lend each tile the memory of a thread. Bodies keep F, shapes at rest and decompositions of their
+//! tiles between calls ([`element`](super::element)).
 
-use crate::lanes::{Lanes, Scalar};
+#![expect(non_snake_case, reason = "F as in the literature")]
 
-/// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
-pub(crate) const TILE: usize = 64;
+use super::jobs::Job;
+use super::material::{Arguments, Properties, TileMaterial};
+use super::rows::{Rows, first_bits};
+use super::sink::{Layout, Sink, Source};
+use super::stage::{
+    Decompose, Invariants, Judge, Outputs, Respond, RespondByInvariants, Stages, Stress, StressByInvariants,
+};
+use super::svd_tile::SvdTile;
+use super::workspace::{Scratch, Workspace};
+use crate::lanes::{Backend, NonTemporal};
+use crate::point::Filter;
+use crate::status::Status;
 
-/// Places of a row, more than points: rows as far apart as a power of two would compete for the same places
-/// of the innermost cache, and loads would wait for stores to addresses that only look the same.
-pub(super) const ROW: usize = 80;
+/// Material and settings that all tiles of a call share.
+#[derive(Clone, Copy)]
+pub(super) struct Call<'a, E> {
+    pub(super) material: &'a dyn TileMaterial<E>,
+    pub(super) properties: Properties,
+    pub(super) filter: Filter,
+    pub(super) backend: Backend,
+    pub(super) layout: Layout,
+    pub(super) streams: bool,
+    /// Whether decompositions are kept for later calls. The invariants then serve all points of a tile or
+    /// none, so that a decomposition is one of all points.
+    pub(super) keeps_svd: bool,
+}
 
-/// One component of each point of a tile.
-pub(super) type Row<E> = [E; ROW];
-
-/// Rows of a tile: N components of each of its points.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub struct Rows<E, const N: usize>(pub(crate) [Row<E>; N]);
-
-impl<E: Scalar, const N: usize> Rows<E, N> {
-    pub(crate) fn zero() -> Self {
-        Self([[E::default(); ROW]; N])
+impl<'a, E: Stages> Call<'a, E> {
+    /// A tile of points with these deformation gradients.
+    pub(super) fn points<'t>(self, job: Job<'t, E>, F: &'t [E]) -> Tile<'t, E, 0>
+    where
+        'a: 't,
+    {
+        let Job { workspace, start, count } = job;
+        let Workspace { F: lines, svd, scratch, .. } = workspace;
+        let F = Source::new(self.backend, self.layout, F, lines);
+        Tile { call: self, start, count, F, rest: Source::NONE, svd, is_decomposed: false, scratch }
     }
 
-    /// Component k of the points from `at` on.
-    #[inline(always)]
-    pub(crate) fn get<R: Lanes<Scalar = E>>(&self, k: usize, at: usize) -> R {
-        R::load(&self.0[k][at..])
+    /// A sink for the points that are not served yet.
+    pub(super) fn sink<'t>(&self, to: &'t mut [E], served: u64) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: None, served }
     }
 
-    /// All components of the points from `at` on.
-    #[inline(always)]
-    pub(crate) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
-        let mut numbers = [R::splat(0.0); N];
-        for k in 0..N {
-            numbers[k] = self.get(k, at);
-        }
-        numbers
+    /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
+    pub(super) fn fence(&self) -> Option<NonTemporal> {
+        (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
     }
 
-    #[inline(always)]
-    pub(crate) fn set<R: Lanes<Scalar = E>>(&mut self, k: usize, at: usize, value: R) {
-        value.store(&mut self.0[k][at..]);
-    }
-
-    #[inline(always)]
-    pub(crate) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, values: [R; N]) {
-        for k in 0..N {
-            self.set(k, at, values[k]);
-        }
+    /// A sink for outputs that may be larger than the caches, with the [`fence`](Self::fence) of this tile.
+    pub(super) fn large_sink<'t>(
+        &self,
+        to: &'t mut [E],
+        fence: Option<&'t NonTemporal>,
+        served: u64,
+    ) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, non_temporal: fence, served }
     }
 }
 
-/// Runs a block for each group of lanes of a tile that holds one of the first points, `at` being the first of
-/// the group.
-///
-/// A macro and no function with a closure: a long closure is a function of its own to the compiler, and not
-/// compiled for the instructions of a back end unless it chooses to inline it.
-macro_rules! for_each_group {
-    ($R:ty, $count:expr, |$at:ident| $body:block) => {
-        let mut $at = 0;
-        while $at < $count {
-            // Always true, since the lanes of every back end divide the tile; said for the bounds checks'
-            // sake.
-            if $at + <$R as $crate::lanes::Lanes>::LANES <= $crate::batch::tile::TILE $body
-            $at += <$R as $crate::lanes::Lanes>::LANES;
-        }
-    };
+/// A tile of points, or of elements with the REST components of their shapes at rest, and its memory.
+pub(super) struct Tile<'t, E, const REST: usize> {
+    pub(super) call: Call<'t, E>,
+    /// Number of the first point.
+    pub(super) start: usize,
+    /// Number of points.
+    pub(super) count: usize,
+    pub(super) F: Source<'t, E, 9>,
+    pub(super) rest: Source<'t, E, REST>,
+    pub(super) svd: &'t mut SvdTile<E>,
+    /// Whether [`svd`](Self::svd) is the decomposition of F.
+    pub(super) is_decomposed: bool,
+    pub(super) scratch: &'t mut Scratch<E>,
 }
-pub(crate) use for_each_group;
 
-/// The lowest `count` bits.
-#[inline]
-pub(crate) fn first_bits(count: usize) -> u64 {
-    if count >= 64 { u64::MAX } else { (1 << count) - 1 }
+impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
+    /// Energies.
+    pub(super) fn energies(&mut self, energies: &mut [E]) -> Status<u64> {
+        let has_energy = self.call.properties.has_energy_by_invariants;
+        let in_range = if has_energy { self.invariants() } else { 0 };
+        let served = self.energies_by_invariants(in_range, energies);
+        if served == first_bits(self.count) {
+            return Status::default();
+        }
+        self.decompose();
+        self.energies_by_stretches(served, energies) & !served
+    }
+
+    /// Stresses of points, or gradients of elements.
+    pub(super) fn stresses(&mut self, to: &mut [E]) -> Status<u64> {
+        let call = self.call;
+        // The decomposition of an earlier call costs nothing.
+        let mut served = if self.is_decomposed { 0 } else { self.invariants() };
+        if served != 0 {
+            let arguments = self.arguments(&self.scratch.invariants);
+            let gradients = &mut self.scratch.gradients;
+            served &= !call.material.tile_gradients_by_invariants(arguments, gradients).refused;
+            let kernel = StressByInvariants {
+                F: self.F,
+                gradients: &self.scratch.gradients,
+                has_second_invariant: call.properties.has_second_invariant,
+                rest: self.rest,
+                count: self.count,
+                line: &mut self.scratch.line,
+                to: call.sink(to, 0),
+            };
+            served &= E::stress_by_invariants(call.backend, kernel);
+            served = self.accepted(served);
+        }
+        if served == first_bits(self.count) {
+            return Status::default();
+        }
+        self.decompose();
+        let refused = self.gradients();
+        let Scratch { gradients, line, .. } = &mut *self.scratch;
+        let kernel = Stress {
+            points: self.svd,
+            gradients: &gradients.0,
+            rest: self.rest,
+            count: self.count,
+            line,
+            to: call.sink(to, served),
+        };
+        (refused | E::stress(call.backend, kernel)) & !served
+    }
+
+    /// Stresses and tangents, or gradients and stiffnesses of elements; energies, too, if there is room for
+    /// them.
+    pub(super) fn respond(
+        &mut self,
+        form: <E as Outputs<REST>>::Form,
+        first: &mut [E],
+        second: &mut [E],
+        mut energies: Option<&mut [E]>,
+    ) -> Status<u64> {
+        let call = self.call;
+        let Properties { has_energy_by_invariants, has_second_invariant, curvature, has_pole, .. } =
+            call.properties;
+        let fence = call.fence();
+        let mut served =
+            if energies.is_none() || has_energy_by_invariants { self.derivatives_by_invariants() } else { 0 };
+        if let Some(energies) = energies.as_deref_mut() {
+            served = self.energies_by_invariants(served, energies);
+        }
+        if served != 0 {
+            let Scratch { invariants, derivatives, line, short_line, .. } = &mut *self.scratch;
+            let kernel = RespondByInvariants {
+                F: self.F,
+                invariants,
+                derivatives,
+                has_second_invariant,
+                curvature,
+                rest: self.rest,
+                count: self.count,
+                line,
+                short_line,
+                first: call.sink(first, 0),
+                second: call.large_sink(second, fence.as_ref(), 0),
+            };
+            served &= E::respond_by_invariants(call.backend, form, kernel);
+            served = self.accepted(served);
+        }
+        if served == first_bits(self.count) {
+            return Status::default();
+        }
+        self.decompose();
+        let mut status = self.blocks();
+        if let Some(energies) = energies {
+            status = status | self.energies_by_stretches(served, energies);
+        }
+        let (points, rest, count) = (&*self.svd, self.rest, self.count);
+        let Scratch { blocks, line, .. } = &mut *self.scratch;
+        let to = call.sink(first, served);
+        let kernel = Stress { points, gradients: &blocks.0, rest, count, line, to };
+        let stressed = E::stress(call.backend, kernel);
+        let to = call.large_sink(second, fence.as_ref(), served);
+        let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
+        (E::respond(call.backend, form, kernel) | stressed | status) & !served
+    }
+
+    /// Decomposes F, unless that has been done.
+    pub(super) fn decompose(&mut self) {
+        if !self.is_decomposed {
+            let is_signed = self.call.properties.ends_at_zero_volume;
+            let kernel = Decompose { F: self.F, count: self.count, is_signed, points: self.svd };
+            E::decompose(self.call.backend, kernel);
+            self.is_decomposed = true;
+        }
+    }
+
+    /// Gradients of the energy in the stretches of a decomposed tile.
+    pub(super) fn gradients(&mut self) -> Status<u64> {
+        let arguments = self.arguments(&self.svd.stretches);
+        self.call.material.tile_gradients(arguments, &mut self.scratch.gradients)
+    }
+
+    /// The filtered blocks of a decomposed tile.
+    pub(super) fn blocks(&mut self) -> Status<u64> {
+        let Call { material, properties: Properties { has_pole, .. }, filter, backend, .. } = self.call;
+        let arguments = self.arguments(&self.svd.stretches);
+        let blocks = &mut self.scratch.blocks;
+        let refused = material.tile_blocks(arguments, blocks);
+        refused | E::judge(backend, Judge { points: self.svd, blocks, count: self.count, filter, has_pole })
+    }
+
+    /// The invariants, if the energy is one of them. Returns the points in range: none for any other.
+    fn invariants(&mut self) -> u64 {
+        let Properties { has_invariants, has_second_invariant, .. } = self.call.properties;
+        if !has_invariants {
+            return 0;
+        }
+        let invariants = &mut self.scratch.invariants;
+        let kernel = Invariants { F: self.F, count: self.count, has_second_invariant, invariants };
+        let in_range = E::invariants(self.call.backend, kernel);
+        self.accepted(in_range)
+    }
+
+    /// Derivatives by the invariants, where they give the tangents. Returns these points.
+    fn derivatives_by_invariants(&mut self) -> u64 {
+        // What a filter changes is seen in the principal frames alone.
+        if self.call.filter != Filter::None {
+            return 0;
+        }
+        let in_range = self.invariants();
+        if in_range == 0 {
+            return 0;
+        }
+        let arguments = self.arguments(&self.scratch.invariants);
+        let derivatives = &mut self.scratch.derivatives;
+        let status = self.call.material.tile_derivatives_by_invariants(arguments, derivatives);
+        self.accepted(in_range & !(status.refused | status.nonfinite))
+    }
+
+    /// Energies of the points that the invariants serve, which it returns.
+    fn energies_by_invariants(&mut self, in_range: u64, energies: &mut [E]) -> u64 {
+        if in_range == 0 {
+            return 0;
+        }
+        let arguments = self.arguments(&self.scratch.invariants);
+        let densities = &mut self.scratch.energies;
+        let status = self.call.material.tile_energies_by_invariants(arguments, densities);
+        energies.copy_from_slice(&densities.0[0][..energies.len()]);
+        self.accepted(in_range & !(status.refused | status.nonfinite))
+    }
+
+    /// Energies of the points of a decomposed tile that are not served yet, and the status of all.
+    fn energies_by_stretches(&mut self, served: u64, energies: &mut [E]) -> Status<u64> {
+        let arguments = self.arguments(&self.svd.stretches);
+        let densities = &mut self.scratch.energies;
+        let status = self.call.material.tile_energies(arguments, densities);
+        for (point, energy) in energies.iter_mut().enumerate().filter(|(point, _)| served >> point & 1 == 0) {
+            *energy = densities.0[0][point];
+        }
+        status
+    }
+
+    /// The points that the invariants serve, given those that they can serve.
+    fn accepted(&self, served: u64) -> u64 {
+        if self.call.keeps_svd && served != first_bits(self.count) { 0 } else { served }
+    }
+
+    fn arguments<'r>(&self, rows: &'r Rows<E, 3>) -> Arguments<'r, E> {
+        Arguments { backend: self.call.backend, start: self.start, count: self.count, rows }
+    }
 }

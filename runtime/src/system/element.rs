@@ -24,7 +24,7 @@
 use std::ops::Add;
 
 use crate::batch::TileMaterial;
-use crate::batch::element::{ElementTile, TILE};
+use crate::batch::element::{Elements, TILE};
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::{Filter, Matrix3, stretches_in_range, svd};
@@ -96,7 +96,7 @@ impl Add for Evaluated {
 /// Elements of one material, evaluated together, with the results of the last evaluation.
 #[derive(Clone, Debug)]
 pub(crate) struct ElementGroup {
-    tile: ElementTile,
+    elements: Elements,
     pub(crate) energies: [f64; TILE],
     pub(crate) gradients: [[[f64; 3]; 4]; TILE],
 }
@@ -105,7 +105,7 @@ impl ElementGroup {
     /// Elements of which the first is number `start` of the material's.
     pub(crate) fn new(start: usize, elements: &[Tetrahedron]) -> Self {
         Self {
-            tile: ElementTile::new(Backend::best(), start, elements.iter().map(|element| element.shape)),
+            elements: Elements::new(Backend::best(), start, elements.iter().map(|element| element.shape)),
             energies: [0.0; TILE],
             gradients: [[[0.0; 3]; 4]; TILE],
         }
@@ -113,7 +113,7 @@ impl ElementGroup {
 
     /// F of an element, as evaluated last.
     pub(crate) fn deformation_gradient(&self, lane: usize) -> Matrix3<f64> {
-        self.tile.deformation_gradient(lane)
+        self.elements.deformation_gradient(lane)
     }
 
     /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as
@@ -125,10 +125,10 @@ impl ElementGroup {
         positions: &[[f64; 3]],
     ) -> (Status<u64>, f64) {
         let corners = elements.iter().map(|element| element.nodes.map(|node| positions[node]));
-        let mut status = self.tile.evaluate(material, corners, &mut self.energies);
+        let mut status = self.elements.evaluate(material, corners, &mut self.energies);
         let mut min_det = f64::INFINITY;
         for lane in 0..elements.len() {
-            let F = self.tile.deformation_gradient(lane);
+            let F = self.elements.deformation_gradient(lane);
             min_det = min_det.min(determinant(&F));
             // The energy of a refused element need not be finite.
             let is_refused = status.refused >> lane & 1 == 1;
@@ -146,7 +146,7 @@ impl ElementGroup {
         elements: &[Tetrahedron],
     ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        of_derivatives(self.tile.gradients(material, gradients))
+        of_derivatives(self.elements.gradients(material, gradients))
     }
 
     /// Gradients, and second derivatives after the filter.
@@ -160,7 +160,7 @@ impl ElementGroup {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
-        of_derivatives(self.tile.stiffnesses(material, filter, gradients, stiffnesses))
+        of_derivatives(self.elements.stiffnesses(material, filter, gradients, stiffnesses))
     }
 }
 
