@@ -4,9 +4,9 @@
 //! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF
 //! as a block-diagonal map between the frames ([`Tangent`]; `point/tangent.rs` derives it), made
 //! semidefinite on request ([`project()`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where
-//! there is one. Bodies that hardly deform start from the displacement gradient F − I instead
-//! ([`small_strain`]), and codes that have their own elements find other [`measures`] of stress here, with
-//! their tangents, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
+//! there is one. A [`DisplacementGradient`] F − I in the place of F keeps the digits of bodies that hardly
+//! deform, and codes that have their own elements find other [`measures`] of stress here, with their
+//! tangents, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
 //! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
@@ -23,6 +23,7 @@ use crate::quotient::pole_floor;
 use crate::status::Status;
 
 mod deflation;
+mod deformation;
 mod dense;
 mod gradient;
 pub(crate) mod invariants;
@@ -30,7 +31,7 @@ pub(crate) mod matrix;
 pub mod measures;
 pub mod plane;
 mod project;
-pub mod small_strain;
+mod small_strain;
 mod stress;
 pub(crate) mod svd;
 mod tangent;
@@ -40,6 +41,8 @@ mod tests;
 #[cfg(test)]
 mod twice;
 
+pub use deformation::Deformation;
+use deformation::Evaluate;
 pub use dense::{DensePoint, evaluate_dense};
 pub use gradient::{SvdGradient, svd_gradient};
 use invariants::{invariants, stress_by_invariants};
@@ -47,15 +50,31 @@ use invariants::{invariants, stress_by_invariants};
 pub(crate) use matrix::multiply;
 use matrix::three;
 pub use project::{Filter, project};
-pub use small_strain::{
-    evaluate_energy_from_displacement, evaluate_from_displacement, evaluate_stress_from_displacement,
-};
+pub use small_strain::DisplacementGradient;
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
 pub use tangent::{Assemble, Tangent, assemble_blocks};
 
 /// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix3<R> = [[R; 3]; 3];
+
+/// Energy density of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyPoint<R: Real> {
+    /// Energy density ψ, Pa.
+    pub energy: R,
+    /// Validity of the energy.
+    pub status: Status<R::Mask>,
+}
+
+/// Stress at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressPoint<R: Real> {
+    /// First Piola stress P, Pa.
+    pub stress: Matrix3<R>,
+    /// Validity of the stress.
+    pub status: Status<R::Mask>,
+}
 
 /// Stress and tangent at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,87 +98,95 @@ impl<R: Real> Point<R> {
     }
 }
 
-/// The energy density ψ(F), Pa, and its status. Computes no derivative, and for an energy of I1, I2 and J
-/// alone, well inside its domain, no decomposition.
+/// The energy density ψ, Pa, at a deformation. Computes no derivative, and for an energy of I1, I2 and J
+/// alone, well inside its domain, no decomposition of F.
 #[inline(always)]
 #[must_use]
-pub fn evaluate_energy<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    F: &Matrix3<R>,
-) -> (R, Status<R::Mask>) {
-    let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
-    if material.has_energy_by_invariants() {
-        let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
-        by_invariants = material.energy_by_invariants(invariants);
-        served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
-        if !(!served).any() {
-            return (by_invariants, Status::clean());
-        }
-    }
-    let svd = decompose(material, F);
-    let energy = material.energy(svd.stretches);
-    let refused = !material.admits(svd.stretches) & !served;
-    let nonfinite = !energy_is_finite(svd.stretches, energy) & !served;
-    (R::select(served, by_invariants, energy), Status { refused, nonfinite, ..Status::clean() })
+pub fn evaluate_energy<D: Deformation>(
+    material: &(impl Response<D::Real> + ?Sized),
+    deformation: D,
+) -> EnergyPoint<D::Real> {
+    deformation.energy(material)
 }
 
-/// The first Piola stress P(F), Pa, and its status. Computes no second derivative, and for an energy of I1,
-/// I2 and J alone, well inside its domain, no decomposition.
+/// The first Piola stress P, Pa, at a deformation. Computes no second derivative, and for an energy of I1, I2
+/// and J alone, well inside its domain, no decomposition of F.
 #[inline(always)]
 #[must_use]
-pub fn evaluate_stress<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    F: &Matrix3<R>,
-) -> (Matrix3<R>, Status<R::Mask>) {
-    let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
-    if material.has_invariants() {
-        let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
-        let gradient = material.gradient_by_invariants(invariants);
-        by_invariants = stress_by_invariants::<R, true>(F, gradient);
-        served = is_in_range & material.admits_invariants(invariants) & entries_are_finite(&by_invariants);
-        if !(!served).any() {
-            return (by_invariants, Status::clean());
-        }
-    }
-    let svd = decompose(material, F);
-    let P = stress(&svd, material.gradient(svd.stretches));
-    let refused = !material.admits(svd.stretches) & !served;
-    let nonfinite = !stress_is_finite(svd.stretches, &P) & !served;
-    let P = three!(i => three!(j => R::select(served, by_invariants[i][j], P[i][j])));
-    (P, Status { refused, nonfinite, ..Status::clean() })
+pub fn evaluate_stress<D: Deformation>(
+    material: &(impl Response<D::Real> + ?Sized),
+    deformation: D,
+) -> StressPoint<D::Real> {
+    deformation.stress(material)
 }
 
-/// Stress and tangent at F, the tangent filtered.
+/// Stress and tangent at a deformation, the tangent filtered.
 ///
 /// Outside the domain of the energy the status is `refused` and the results mean nothing. Where it is not
 /// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to
 /// any dF with ‖dF‖ ≤ 1.
 #[inline(always)]
 #[must_use]
-pub fn evaluate<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>, filter: Filter) -> Point<R> {
-    let svd = decompose(material, F);
-    let mut point = respond(&svd, &material.blocks(svd.stretches), material.has_pole(), filter);
-    point.status.refused = !material.admits(svd.stretches);
-    point
+pub fn evaluate<D: Deformation>(
+    material: &(impl Response<D::Real> + ?Sized),
+    deformation: D,
+    filter: Filter,
+) -> Point<D::Real> {
+    deformation.point(material, filter)
 }
 
-/// Energy density, stress and filtered tangent at F: [`evaluate_energy`] and [`evaluate`] with one
-/// decomposition of F.
-///
-/// What the energy and its derivatives have in common is computed once.
-#[inline(always)]
-#[must_use]
-pub fn evaluate_with_energy<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    F: &Matrix3<R>,
-    filter: Filter,
-) -> (R, Point<R>) {
-    let svd = decompose(material, F);
-    let (energy, blocks) = material.energy_and_blocks(svd.stretches);
-    let mut point = respond(&svd, &blocks, material.has_pole(), filter);
-    point.status.refused = !material.admits(svd.stretches);
-    point.status.nonfinite = point.status.nonfinite | !energy_is_finite(svd.stretches, energy);
-    (energy, point)
+impl<R: Real> Evaluate for &Matrix3<R> {
+    type Real = R;
+
+    #[inline(always)]
+    fn energy(self, material: &(impl Response<R> + ?Sized)) -> EnergyPoint<R> {
+        let F = self;
+        let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
+        if material.has_energy_by_invariants() {
+            let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
+            by_invariants = material.energy_by_invariants(invariants);
+            served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
+            if !(!served).any() {
+                return EnergyPoint { energy: by_invariants, status: Status::clean() };
+            }
+        }
+        let svd = decompose(material, F);
+        let energy = material.energy(svd.stretches);
+        let refused = !material.admits(svd.stretches) & !served;
+        let nonfinite = !energy_is_finite(svd.stretches, energy) & !served;
+        let energy = R::select(served, by_invariants, energy);
+        EnergyPoint { energy, status: Status { refused, nonfinite, ..Status::clean() } }
+    }
+
+    #[inline(always)]
+    fn stress(self, material: &(impl Response<R> + ?Sized)) -> StressPoint<R> {
+        let F = self;
+        let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
+        if material.has_invariants() {
+            let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
+            let gradient = material.gradient_by_invariants(invariants);
+            by_invariants = stress_by_invariants::<R, true>(F, gradient);
+            served =
+                is_in_range & material.admits_invariants(invariants) & entries_are_finite(&by_invariants);
+            if !(!served).any() {
+                return StressPoint { stress: by_invariants, status: Status::clean() };
+            }
+        }
+        let svd = decompose(material, F);
+        let P = stress(&svd, material.gradient(svd.stretches));
+        let refused = !material.admits(svd.stretches) & !served;
+        let nonfinite = !stress_is_finite(svd.stretches, &P) & !served;
+        let P = three!(i => three!(j => R::select(served, by_invariants[i][j], P[i][j])));
+        StressPoint { stress: P, status: Status { refused, nonfinite, ..Status::clean() } }
+    }
+
+    #[inline(always)]
+    fn point(self, material: &(impl Response<R> + ?Sized), filter: Filter) -> Point<R> {
+        let svd = decompose(material, self);
+        let mut point = respond(&svd, &material.blocks(svd.stretches), material.has_pole(), filter);
+        point.status.refused = !material.admits(svd.stretches);
+        point
+    }
 }
 
 /// Stress and filtered tangent from the derivatives of the energy in the stretches; the status leaves

@@ -2,17 +2,20 @@
 //!
 //! In `piola` it is inlined wherever it is called, for the sake of speed. A judge calls it at many places.
 
-#![expect(non_snake_case, reason = "F and H as in the literature")]
+#![expect(non_snake_case, reason = "F as in the literature")]
 
 use piola::Real;
-use piola::Status;
 use piola::material::Response;
-use piola::point::{self, DensePoint, Filter, Matrix3, Point, Svd};
+use piola::point::{self, Deformation, DensePoint, EnergyPoint, Filter, Matrix3, Point, StressPoint, Svd};
 
 /// [`point::evaluate`].
 #[inline(never)]
-pub fn evaluate<R: Real>(material: &dyn Response<R>, F: &Matrix3<R>, filter: Filter) -> Point<R> {
-    point::evaluate(material, F, filter)
+pub fn evaluate<D: Deformation>(
+    material: &dyn Response<D::Real>,
+    deformation: D,
+    filter: Filter,
+) -> Point<D::Real> {
+    point::evaluate(material, deformation, filter)
 }
 
 /// [`point::evaluate_dense`].
@@ -23,32 +26,20 @@ pub fn evaluate_dense<R: Real>(material: &dyn Response<R>, F: &Matrix3<R>, filte
 
 /// [`point::evaluate_energy`].
 #[inline(never)]
-pub fn evaluate_energy<R: Real>(material: &dyn Response<R>, F: &Matrix3<R>) -> (R, Status<R::Mask>) {
-    point::evaluate_energy(material, F)
+pub fn evaluate_energy<D: Deformation>(
+    material: &dyn Response<D::Real>,
+    deformation: D,
+) -> EnergyPoint<D::Real> {
+    point::evaluate_energy(material, deformation)
 }
 
 /// [`point::evaluate_stress`].
 #[inline(never)]
-pub fn evaluate_stress<R: Real>(material: &dyn Response<R>, F: &Matrix3<R>) -> (Matrix3<R>, Status<R::Mask>) {
-    point::evaluate_stress(material, F)
-}
-
-/// [`point::evaluate_energy_from_displacement`].
-#[inline(never)]
-pub fn evaluate_energy_from_displacement<R: Real>(
-    material: &dyn Response<R>,
-    H: &Matrix3<R>,
-) -> (R, Status<R::Mask>) {
-    point::evaluate_energy_from_displacement(material, H)
-}
-
-/// [`point::evaluate_stress_from_displacement`].
-#[inline(never)]
-pub fn evaluate_stress_from_displacement<R: Real>(
-    material: &dyn Response<R>,
-    H: &Matrix3<R>,
-) -> (Matrix3<R>, Status<R::Mask>) {
-    point::evaluate_stress_from_displacement(material, H)
+pub fn evaluate_stress<D: Deformation>(
+    material: &dyn Response<D::Real>,
+    deformation: D,
+) -> StressPoint<D::Real> {
+    point::evaluate_stress(material, deformation)
 }
 
 /// [`point::svd()`].

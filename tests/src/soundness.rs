@@ -16,7 +16,7 @@ use std::fmt;
 use piola::StatusCell;
 use piola::batch::{Batch, MatrixForm, TileMaterial};
 use piola::material::{Blocks, Response};
-use piola::point::{Filter, Matrix3, decompose};
+use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint, decompose};
 
 use crate::bits::{Precision, widen};
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
@@ -107,8 +107,8 @@ impl std::error::Error for Fault {}
 /// # Errors
 /// The first fault found.
 pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
-    let (energy, energy_status) = evaluate_energy(material, F);
-    let (stress, stress_status) = evaluate_stress(material, F);
+    let EnergyPoint { energy, status: energy_status } = evaluate_energy(material, F);
+    let StressPoint { stress, status: stress_status } = evaluate_stress(material, F);
     let finite_input = F.iter().flatten().all(|x| x.is_finite());
     let mut answer = Answer::Clean;
     for filter in FILTERS {
@@ -226,8 +226,8 @@ pub const ORDINARY: f64 = 30.0;
 pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> {
     let Subject { double: material, single, .. } = subject;
     let material: &dyn Response<f64> = &**material;
-    let (_, energy) = evaluate_energy(&**single, F);
-    let (_, stress) = evaluate_stress(&**single, F);
+    let energy = evaluate_energy(&**single, F).status;
+    let stress = evaluate_stress(&**single, F).status;
     let tangent = evaluate(&**single, F, Filter::None).status;
     let stretches = decompose(material, &widen(F)).stretches;
     let is_flagged = energy.nonfinite || stress.nonfinite || tangent.nonfinite || tangent.bounded;

@@ -234,10 +234,10 @@ impl Measure<'_> {
                 return None;
             }
             let result = match quantity {
-                Quantity::Energy => Some(vec![compiled::evaluate_energy(material, &deformation).0]),
-                Quantity::Stress => {
-                    Some(compiled::evaluate_stress(material, &deformation).0.into_iter().flatten().collect())
-                }
+                Quantity::Energy => Some(vec![compiled::evaluate_energy(material, &deformation).energy]),
+                Quantity::Stress => Some(
+                    compiled::evaluate_stress(material, &deformation).stress.into_iter().flatten().collect(),
+                ),
                 Quantity::Tangent => Some(method.tangent(material, &deformation).concat()),
                 Quantity::Projected => {
                     method.projected(material, &deformation, clamp).map(|matrix| matrix.concat())

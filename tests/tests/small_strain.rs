@@ -6,8 +6,7 @@
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
 use piola::interpreter::Interpreted;
-use piola::point::Filter;
-use piola::point::{self, Matrix3};
+use piola::point::{self, DisplacementGradient, EnergyPoint, Filter, Matrix3, StressPoint};
 use piola::random::Random;
 use piola::{Inversion, Material, Real};
 use piola_tests::compiled;
@@ -46,9 +45,10 @@ impl Worst {
             let expected = point::stress(&svd, exact_material.gradient(svd.stretches));
 
             let rounded = displacement.map(|row| row.map(R::splat));
-            let (stress, status) = compiled::evaluate_stress_from_displacement(material, &rounded);
+            let near = DisplacementGradient(&rounded);
+            let StressPoint { stress, status } = compiled::evaluate_stress(material, near);
             assert!(!status.refused && !status.nonfinite && !status.bounded);
-            let through = compiled::evaluate_stress(material, &plus_identity(&rounded)).0;
+            let through = compiled::evaluate_stress(material, &plus_identity(&rounded)).stress;
 
             let tangent =
                 compiled::evaluate(f64::of(subject), &plus_identity(&displacement), Filter::None).tangent;
@@ -62,7 +62,7 @@ impl Worst {
             };
             // The oracle of ψ keeps 96 digits, of which the square of the strain takes its own.
             if magnitude > 1e-30 && is_free_of_stress(exact_material, subject.moduli.mu) {
-                let (energy, status) = compiled::evaluate_energy_from_displacement(material, &rounded);
+                let EnergyPoint { energy, status } = compiled::evaluate_energy(material, near);
                 assert!(!status.refused && !status.nonfinite);
                 let one = Exact::splat(1.0);
                 let expected_energy = exact_material.energy(svd.stretches) - exact_material.energy([one; 3]);

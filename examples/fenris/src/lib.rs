@@ -3,11 +3,10 @@
 
 use fenris::nalgebra::{DMatrixViewMut, DVectorView, Matrix3 as Columns, U3, Vector3};
 use fenris_solid::{HyperelasticMaterial, deformation_gradient};
-use piola::Status;
 use piola::material::Response;
 use piola::point::{
-    Filter, Matrix3, evaluate_dense, evaluate_energy, evaluate_energy_from_displacement, evaluate_stress,
-    evaluate_stress_from_displacement,
+    DisplacementGradient, EnergyPoint, Filter, Matrix3, StressPoint, evaluate_dense, evaluate_energy,
+    evaluate_stress,
 };
 
 /// A material of piola as fenris asks for one.
@@ -53,7 +52,8 @@ impl<T: Number, M: Response<T> + Clone + 'static> HyperelasticMaterial<T, U3> fo
 
     /// ψ(F) − ψ(I), with all digits at small strain.
     fn compute_energy_density_du(&self, u_grad: &Columns<T>, own: &Option<M>) -> T {
-        energy_or_infinity(evaluate_energy_from_displacement(self.at(own), &rows(&u_grad.transpose())))
+        let H = rows(&u_grad.transpose());
+        energy_or_infinity(evaluate_energy(self.at(own), DisplacementGradient(&H)))
     }
 
     fn compute_stress_tensor(&self, F: &Columns<T>, own: &Option<M>) -> Columns<T> {
@@ -61,7 +61,8 @@ impl<T: Number, M: Response<T> + Clone + 'static> HyperelasticMaterial<T, U3> fo
     }
 
     fn compute_stress_tensor_du(&self, u_grad: &Columns<T>, own: &Option<M>) -> Columns<T> {
-        stress_or_nan(evaluate_stress_from_displacement(self.at(own), &rows(&u_grad.transpose())))
+        let H = rows(&u_grad.transpose());
+        stress_or_nan(evaluate_stress(self.at(own), DisplacementGradient(&H)))
     }
 
     fn compute_stress_contraction(
@@ -110,12 +111,12 @@ impl<T: Number, M: Response<T> + Clone + 'static> HyperelasticMaterial<T, U3> fo
     }
 }
 
-fn energy_or_infinity<T: Number>((energy, status): (T, Status)) -> T {
+fn energy_or_infinity<T: Number>(EnergyPoint { energy, status }: EnergyPoint<T>) -> T {
     if status.is_clean() { energy } else { number(f64::INFINITY) }
 }
 
-fn stress_or_nan<T: Number>((P, status): (Matrix3<T>, Status)) -> Columns<T> {
-    if status.is_clean() { columns(&P) } else { Columns::repeat(number(f64::NAN)) }
+fn stress_or_nan<T: Number>(StressPoint { stress, status }: StressPoint<T>) -> Columns<T> {
+    if status.is_clean() { columns(&stress) } else { Columns::repeat(number(f64::NAN)) }
 }
 
 fn number<T: Number>(value: f64) -> T {

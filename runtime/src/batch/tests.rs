@@ -222,7 +222,7 @@ fn check_point<E: Number>(
     let unfiltered = evaluate(material, F, Filter::None).tangent.to_matrix();
     let stiff = norm(unfiltered.into_iter().flatten());
     let stress = stiff * size;
-    worst.see(found.energies[p], evaluate_energy(material, F).0, stress * size);
+    worst.see(found.energies[p], evaluate_energy(material, F).energy, stress * size);
     for k in 0..9 {
         worst.see(found.P[9 * p + k], point.stress[k / 3][k % 3], stress);
         worst.see(found.P_with_tangent[9 * p + k], point.stress[k / 3][k % 3], stress);

@@ -62,12 +62,12 @@ impl<M: Material> Subject for M {
 
 /// Energy density ψ(F), Pa.
 pub(super) fn energy(material: &dyn Subject, F: &Matrix3<f64>) -> f64 {
-    point::evaluate_energy(material, F).0
+    point::evaluate_energy(material, F).energy
 }
 
 /// First Piola stress P(F), Pa.
 pub(super) fn stress(material: &dyn Subject, F: &Matrix3<f64>) -> Matrix3<f64> {
-    point::evaluate_stress(material, F).0
+    point::evaluate_stress(material, F).stress
 }
 
 /// Unfiltered tangent dP/dF, Pa.

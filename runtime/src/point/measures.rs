@@ -156,8 +156,8 @@
 //! and c°.
 //!
 //! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters,
-//! τ = P + P Hᵀ keeps the digits of
-//! [`evaluate_stress_from_displacement`](super::evaluate_stress_from_displacement).
+//! τ = P + P Hᵀ keeps the digits of a stress
+//! that comes from the [`DisplacementGradient`](super::DisplacementGradient).
 //!
 //! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the
 //! range, the results are what division gives, infinity and NaN included; the status of the point does not

@@ -62,20 +62,26 @@
 use super::deflation::{Deflation, deflate, rotation};
 use super::matrix::{column, dot, multiply_symmetric, multiply_transposed};
 use super::{
-    Filter, Matrix3, Point, energy_is_finite, evaluate, evaluate_energy, evaluate_stress, stress_is_finite,
+    EnergyPoint, Evaluate, Filter, Matrix3, Point, StressPoint, energy_is_finite, evaluate, evaluate_energy,
+    evaluate_stress, stress_is_finite,
 };
 use crate::lanes::{Mask, Real};
 use crate::material::{PAIRS, Response};
 use crate::status::Status;
 
-/// The first Piola stress P, Pa, at F = I + H, and its status; H is the displacement gradient, dimensionless.
+/// Displacement gradient H = F − I, dimensionless: the deformation of bodies that hardly deform.
 ///
-/// Accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where [`evaluate_stress`] at I + H reaches u
-/// ‖dP/dF‖. Where ‖H‖ ≥ ½ in the Frobenius norm, the two are the same. The status is that of
-/// [`evaluate_stress`].
+/// Where ‖H‖ ≥ ½ in the Frobenius norm, results are those at F = I + H. Below,
+///
+/// * the **stress** is accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where that at F reaches u
+///   ‖dP/dF‖;
+/// * the **energy** is that above rest, ψ(I + H) − ψ(I), for any H. It is accurate to u (|ψ| + ‖P‖ ‖H‖) times
+///   a small number, where the difference of energies at F and at I has an error of u times the largest term
+///   of ψ, which does not vanish at rest;
+/// * the **tangent** is that at F.
 ///
 /// ```
-/// use piola::point::{evaluate_stress, evaluate_stress_from_displacement};
+/// use piola::point::{DisplacementGradient, evaluate_energy, evaluate_stress};
 ///
 /// /// Rubber.
 /// #[piola::material(domain(J > 0.0))]
@@ -85,101 +91,88 @@ use crate::status::Status;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let rubber = Rubber::new(1e6, 4e6)?;
-/// // A strain of 3·10⁻¹⁴ along the first axis.
-/// let H: [[f64; 3]; 3] = [[3e-14, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// let (P, status) = evaluate_stress_from_displacement(&rubber, &H);
-/// let expected = (2.0 * 1e6 + 4e6) * 3e-14;
-/// assert!(!status.refused && !status.nonfinite);
-/// // Linear elasticity differs by as much as the strain.
-/// assert!((P[0][0] - expected).abs() < 1e-13 * expected);
+/// // A strain of 3·10⁻¹⁴ along the first axis. Linear elasticity differs by as much as the strain.
+/// let strain = 3e-14;
+/// let expected = (2.0 * 1e6 + 4e6) * strain;
+/// let H: [[f64; 3]; 3] = [[strain, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+/// let near = evaluate_stress(&rubber, DisplacementGradient(&H));
+/// assert!(near.status.is_clean() && (near.stress[0][0] - expected).abs() < 1e-13 * expected);
+/// let energy = evaluate_energy(&rubber, DisplacementGradient(&H)).energy;
+/// assert!((energy - expected * strain / 2.0).abs() < 1e-13 * expected * strain);
 ///
-/// let F = [[1.0 + 3e-14, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let through_F = evaluate_stress(&rubber, &F).0[0][0];
-/// assert!((through_F - expected).abs() > 1e-3 * expected);
+/// let F = [[1.0 + strain, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert!((evaluate_stress(&rubber, &F).stress[0][0] - expected).abs() > 1e-3 * expected);
 /// # Ok(())
 /// # }
 /// ```
-#[inline(always)]
-#[must_use]
-pub fn evaluate_stress_from_displacement<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    H: &Matrix3<R>,
-) -> (Matrix3<R>, Status<R::Mask>) {
-    let is_small = is_small(H);
-    // Both ways are defined for each number of a batch by itself; only the work for a way that none takes is
-    // skipped, so that a number's result never depends on its neighbours.
-    if !is_small.any() {
-        return evaluate_stress(material, &plus_identity(H));
-    }
-    let near = stress_near_rest(material, H);
-    if !(!is_small).any() {
-        return near;
-    }
-    let far = evaluate_stress(material, &plus_identity(H));
-    let P = std::array::from_fn(|i| std::array::from_fn(|j| R::select(is_small, near.0[i][j], far.0[i][j])));
-    (P, (near.1 & is_small) | (far.1 & !is_small))
-}
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplacementGradient<'a, R>(pub &'a Matrix3<R>);
 
-/// The energy density above that of rest, ψ(I + H) − ψ(I), Pa, and its status; H is the displacement
-/// gradient, dimensionless.
-///
-/// Accurate to u (|ψ| + ‖P‖ ‖H‖) times a small number, where the difference of [`evaluate_energy`] at I + H
-/// and at I has an error of u times the largest term of ψ, which does not vanish at rest. Where ‖H‖ ≥ ½ in
-/// the Frobenius norm it is that difference. The status is that of [`evaluate_energy`].
-///
-/// ```
-/// use piola::point::evaluate_energy_from_displacement;
-///
-/// /// Rubber.
-/// #[piola::material(domain(J > 0.0))]
-/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-/// }
-///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let rubber = Rubber::new(1e6, 4e6)?;
-/// let H: [[f64; 3]; 3] = [[3e-14, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// let (energy, status) = evaluate_energy_from_displacement(&rubber, &H);
-/// let expected = 0.5 * (2.0 * 1e6 + 4e6) * 3e-14 * 3e-14;
-/// assert!(!status.refused && !status.nonfinite);
-/// // Linear elasticity differs by as much as the strain.
-/// assert!((energy - expected).abs() < 1e-13 * expected);
-/// # Ok(())
-/// # }
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn evaluate_energy_from_displacement<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    H: &Matrix3<R>,
-) -> (R, Status<R::Mask>) {
-    let one = R::splat(1.0);
-    let is_small = is_small(H);
-    let far = |H| {
-        let (energy, status) = evaluate_energy(material, H);
-        (energy - material.energy([one; 3]), status)
-    };
-    if !is_small.any() {
-        return far(&plus_identity(H));
-    }
-    let (strains, _) = principal_strains(H);
-    let mut energy = R::splat(0.0);
-    for start in [0.0, 0.5] {
-        for [x, weight] in GAUSS {
-            for t in [start + 0.25 * (1.0 - x), start + 0.25 * (1.0 + x)] {
-                let gradient = material.gradient_at_strains(strains.map(|s| s * R::splat(t)));
-                energy = dot(gradient, strains).mul_add(R::splat(0.25 * weight), energy);
+// Both ways are defined for each number of a batch by itself; only the work for a way that none takes is
+// skipped, so that a number's result never depends on its neighbours.
+impl<R: Real> Evaluate for DisplacementGradient<'_, R> {
+    type Real = R;
+
+    #[inline(always)]
+    fn energy(self, material: &(impl Response<R> + ?Sized)) -> EnergyPoint<R> {
+        let (one, Self(H)) = (R::splat(1.0), self);
+        let is_small = is_small(H);
+        let far = |F| {
+            let EnergyPoint { energy, status } = evaluate_energy(material, F);
+            EnergyPoint { energy: energy - material.energy([one; 3]), status }
+        };
+        if !is_small.any() {
+            return far(&plus_identity(H));
+        }
+        let (strains, _) = principal_strains(H);
+        let mut energy = R::splat(0.0);
+        for start in [0.0, 0.5] {
+            for [x, weight] in GAUSS {
+                for t in [start + 0.25 * (1.0 - x), start + 0.25 * (1.0 + x)] {
+                    let gradient = material.gradient_at_strains(strains.map(|s| s * R::splat(t)));
+                    energy = dot(gradient, strains).mul_add(R::splat(0.25 * weight), energy);
+                }
             }
         }
+        let refused = !material.admits(strains.map(|s| one + s));
+        let nonfinite = !energy_is_finite(strains, energy);
+        let near = EnergyPoint { energy, status: Status { refused, nonfinite, ..Status::clean() } };
+        if !(!is_small).any() {
+            return near;
+        }
+        let far = far(&plus_identity(H));
+        EnergyPoint {
+            energy: R::select(is_small, near.energy, far.energy),
+            status: (near.status & is_small) | (far.status & !is_small),
+        }
     }
-    let refused = !material.admits(strains.map(|s| one + s));
-    let nonfinite = !energy_is_finite(strains, energy);
-    let near = (energy, Status { refused, nonfinite, ..Status::clean() });
-    if !(!is_small).any() {
-        return near;
+
+    #[inline(always)]
+    fn stress(self, material: &(impl Response<R> + ?Sized)) -> StressPoint<R> {
+        let Self(H) = self;
+        let is_small = is_small(H);
+        if !is_small.any() {
+            return evaluate_stress(material, &plus_identity(H));
+        }
+        let near = stress_near_rest(material, H);
+        if !(!is_small).any() {
+            return near;
+        }
+        let far = evaluate_stress(material, &plus_identity(H));
+        let entry = |i: usize, j: usize| R::select(is_small, near.stress[i][j], far.stress[i][j]);
+        StressPoint {
+            stress: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
+            status: (near.status & is_small) | (far.status & !is_small),
+        }
     }
-    let far = far(&plus_identity(H));
-    (R::select(is_small, near.0, far.0), (near.1 & is_small) | (far.1 & !is_small))
+
+    /// The status is the union of those of stress and tangent.
+    #[inline(always)]
+    fn point(self, material: &(impl Response<R> + ?Sized), filter: Filter) -> Point<R> {
+        let point = evaluate(material, &plus_identity(self.0), filter);
+        let StressPoint { stress, status } = evaluate_stress(material, self);
+        Point { stress, status: point.status | status, ..point }
+    }
 }
 
 /// Positive abscissae and their weights of Gauss's rule with eight points on −1 … 1.
@@ -189,22 +182,6 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.796_666_477_413_626_7, 0.222_381_034_453_374_48],
     [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
 ];
-
-/// Stress and tangent at F = I + H, the stress as from [`evaluate_stress_from_displacement`], the tangent
-/// filtered.
-///
-/// The tangent is that of [`evaluate`] at I + H. The status is the union of both statuses.
-#[inline(always)]
-#[must_use]
-pub fn evaluate_from_displacement<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    H: &Matrix3<R>,
-    filter: Filter,
-) -> Point<R> {
-    let point = evaluate(material, &plus_identity(H), filter);
-    let (stress, status) = evaluate_stress_from_displacement(material, H);
-    Point { stress, status: point.status | status, ..point }
-}
 
 /// Whether ‖H‖ < ½.
 #[inline(always)]
@@ -221,10 +198,7 @@ fn plus_identity<R: Real>(H: &Matrix3<R>) -> Matrix3<R> {
 
 /// P = S + H S for ‖H‖ < ½; anything where H is larger.
 #[inline(always)]
-fn stress_near_rest<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    H: &Matrix3<R>,
-) -> (Matrix3<R>, Status<R::Mask>) {
+fn stress_near_rest<R: Real>(material: &(impl Response<R> + ?Sized), H: &Matrix3<R>) -> StressPoint<R> {
     let one = R::splat(1.0);
     let (strains, V) = principal_strains(H);
     let stretches = strains.map(|s| one + s);
@@ -237,7 +211,7 @@ fn stress_near_rest<R: Real>(
 
     let refused = !material.admits(stretches);
     let nonfinite = !stress_is_finite(strains, &P);
-    (P, Status { refused, nonfinite, ..Status::clean() })
+    StressPoint { stress: P, status: Status { refused, nonfinite, ..Status::clean() } }
 }
 
 /// s1 ≥ s2 ≥ s3, exactly in floating point, and the directions V at rest as columns, for ‖H‖ < ½.

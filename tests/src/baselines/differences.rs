@@ -31,8 +31,8 @@ pub fn tangent<R: Real<Mask = bool>>(material: &impl Material, F: &Matrix3<R>, s
             above[k][l] = F[k][l] + h;
             below[k][l] = F[k][l] - h;
             let inverse = R::splat(1.0) / (above[k][l] - below[k][l]);
-            let (P_above, _) = evaluate_stress(material, &above);
-            let (P_below, _) = evaluate_stress(material, &below);
+            let P_above = evaluate_stress(material, &above).stress;
+            let P_below = evaluate_stress(material, &below).stress;
             for i in 0..3 {
                 for j in 0..3 {
                     dP_dF[3 * i + j][3 * k + l] = (P_above[i][j] - P_below[i][j]) * inverse;

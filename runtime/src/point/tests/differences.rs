@@ -39,9 +39,9 @@ fn check_material(material: &impl Material, stretches: [f64; 3], random: &mut Ra
     let power = flat(&point.stress).iter().zip(flat(&dF)).map(|(p, f)| p * f).sum();
     // Both functions are of order 10 here and rounded 20 times or so.
     let rounding = 200.0 * f64::EPSILON;
-    let energy = |h: f64| [evaluate_energy(material, &moved(&F, h, &dF)).0];
+    let energy = |h: f64| [evaluate_energy(material, &moved(&F, h, &dF)).energy];
     check_slope(energy, [power], rounding, &format!("stress at {stretches:?}"));
-    let stress = |h: f64| flat(&evaluate_stress(material, &moved(&F, h, &dF)).0);
+    let stress = |h: f64| flat(&evaluate_stress(material, &moved(&F, h, &dF)).stress);
     check_slope(stress, flat(&point.tangent.apply(&dF)), rounding, &format!("tangent at {stretches:?}"));
 }
 

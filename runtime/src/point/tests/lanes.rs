@@ -24,10 +24,10 @@ fn is_set(mask: <Two as Real>::Mask, k: usize) -> bool {
 #[track_caller]
 fn check(material: &impl Material, pair: [&Matrix3<f64>; 2], filter: Filter) {
     let both = std::array::from_fn(|i| std::array::from_fn(|j| Two::load(&pair.map(|F| F[i][j]))));
-    compare(pair.map(|F| evaluate(material, F, filter)), &evaluate::<Two>(material, &both, filter));
+    compare(pair.map(|F| evaluate(material, F, filter)), &evaluate(material, &both, filter));
     compare(
-        pair.map(|H| evaluate_from_displacement(material, H, filter)),
-        &evaluate_from_displacement::<Two>(material, &both, filter),
+        pair.map(|H| evaluate(material, DisplacementGradient(H), filter)),
+        &evaluate(material, DisplacementGradient(&both), filter),
     );
 }
 

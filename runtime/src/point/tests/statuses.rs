@@ -20,13 +20,14 @@ fn check<R: Real<Mask = bool> + Into<f64>>(
         assert!(is_finite || status.nonfinite || status.refused, "unflagged at {F:?} or {H:?}: {status:?}");
         said.push(status.nonfinite);
     };
-    let (energy, status) = evaluate_energy(material, F);
+    let EnergyPoint { energy, status } = evaluate_energy(material, F);
     see(status, finite(&energy));
-    for (P, status) in [evaluate_stress(material, F), evaluate_stress_from_displacement(material, H)] {
-        see(status, P.iter().flatten().all(finite));
+    let H = DisplacementGradient(H);
+    for StressPoint { stress, status } in [evaluate_stress(material, F), evaluate_stress(material, H)] {
+        see(status, stress.iter().flatten().all(finite));
     }
     for filter in FILTERS {
-        for point in [evaluate(material, F, filter), evaluate_from_displacement(material, H, filter)] {
+        for point in [evaluate(material, F, filter), evaluate(material, H, filter)] {
             let dP = point.tangent.apply(&[[R::splat(-1.0 / 3.0); 3]; 3]);
             let all_finite = point.stress.iter().chain(&dP).flatten().all(finite)
                 && point.tangent.to_matrix().iter().flatten().all(finite);

@@ -181,7 +181,7 @@ struct Differences<M> {
 impl<M: Material, E: Number> AtPoint<E> for Differences<M> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        let (P, _) = piola::point::evaluate_stress(&self.material, F);
+        let P = piola::point::evaluate_stress(&self.material, F).stress;
         (P, differences::tangent(&self.material, F, self.step))
     }
 }
