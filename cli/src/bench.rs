@@ -8,7 +8,7 @@ mod ranking;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use piola::message::number;
+use piola::__private::message::number;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};

@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use piola::message::printable;
+use piola::__private::message::printable;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::Ended;
 use piola_scenes::run::{Closed, run};

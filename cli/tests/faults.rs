@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
 const KILLS: usize = 4;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use piola::interpreter::{ParameterValues, Value};
+use piola::__private::interpreter::{ParameterValues, Value};
 use piola::material::{Argument, Text};
 use piola_codegen::emit::condition_text;
 use piola_codegen::read::parse::{Declaration, identifiers, indexed_list};

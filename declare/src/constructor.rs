@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use piola::__private::interpreter::{ParameterValues, Program, Programs, Value};
 use piola::__private::{
     Values, check_parameters, defined_at_rest, extends, same_length, stable_at_rest, stress_free_at_rest,
 };
-use piola::interpreter::{Interpreted, ParameterValues, Program, Programs, Value};
+use piola::interpreter::Interpreted;
 use piola::material::{Description, Form, MaterialError, Text};
 use piola::{Inversion, Spline, Univariate};
 use piola_codegen::model::Model;

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::interpreter::{ByInvariants, Calls, Interpreted, Programs, Value, Variant, Volume};
+use piola::__private::interpreter::{ByInvariants, Calls, Programs, Value, Variant, Volume};
+use piola::interpreter::Interpreted;
 #[cfg(doc)]
 use piola::material::Fittable;
 use piola::material::{

@@ -1,8 +1,9 @@
 //! Derivatives by the parameters, and the conditions that keep these admissible, for fits.
 
 use piola::__private::by_values;
+use piola::__private::interpreter::{ParameterValues, Program, Value};
 use piola::Univariate;
-use piola::interpreter::{Interpreted, ParameterValues, Program, Value};
+use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::emit::condition_text;

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use piola::interpreter::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
+use piola::__private::interpreter::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
 use piola_codegen::algebra::expr::Elementary as Function;
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};

@@ -8,12 +8,12 @@
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
+use piola::__private::random::Random;
 use piola::batch::{Batch, MatrixForm, Stages, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
 use piola::material::{Constraint, Declared, Fittable, MaterialError, PerPoint, Response};
 use piola::point::Filter;
-use piola::random::Random;
 use piola::{Inversion, Real, Status, StatusCell};
 use piola_declare::Energy;
 use piola_materials::{

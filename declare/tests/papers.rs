@@ -6,11 +6,11 @@
 
 #![expect(non_snake_case, reason = "parameters as in the papers")]
 
+use piola::__private::random::Random;
 use piola::batch::{Batch, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::Filter;
-use piola::random::Random;
 use piola::{Inversion, Material, Spline, StatusCell, material};
 use piola_declare::Energy;
 

@@ -24,7 +24,7 @@ pub(crate) mod lateral;
 use std::fmt;
 use std::str::FromStr;
 
-use piola::message::{number, quoted};
+use piola::__private::message::{number, quoted};
 
 use crate::specimen::{self, Specimen};
 use lateral::Side;

@@ -17,7 +17,7 @@
 use std::fmt;
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
-use piola::message::{number, quoted};
+use piola::__private::message::{number, quoted};
 
 use crate::curve::{Mode, Response, ResponseError, Volume, respond};
 use crate::specimen::Specimen;

@@ -36,8 +36,8 @@ mod map;
 mod path;
 pub mod wave;
 
+use piola::__private::message::number;
 use piola::material::Moduli;
-use piola::message::number;
 
 use crate::Specimen;
 use criteria::{Criterion, Judgement};

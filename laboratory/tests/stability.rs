@@ -1,9 +1,9 @@
 //! Where energies of the catalogue keep the inequalities of a stable solid, beside searches and what is
 //! published of them.
 
+use piola::__private::random::Random;
 use piola::Material;
 use piola::material::{Blocks, Moduli};
-use piola::random::Random;
 use piola_laboratory::Specimen;
 use piola_laboratory::stability::criteria::{Criterion, Judgement};
 use piola_laboratory::stability::wave::slowest;

@@ -1,37 +1,10 @@
 //! Parameters for given small-strain moduli.
 
-use piola::Inversion;
 use piola::material::{Description, MaterialError, Moduli, Parameter};
-
-use crate::Entry;
 
 /// The shear modulus does not depend on a parameter that changes it by no more than this share: a few
 /// roundings.
 const ROUNDING: f64 = 1e-12;
-
-impl Entry {
-    /// The typical parameters, rescaled to these small-strain moduli: [`matching`].
-    ///
-    /// ```
-    /// use piola::Inversion;
-    /// use piola::material::Moduli;
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let entry = piola_materials::find("stable_neo_hookean").ok_or("not in the catalogue")?;
-    /// let values = entry.matching(Moduli::from_young_poisson(1e6, 0.45)?)?;
-    /// let moduli = entry.moduli(&[&values[0], &values[1]], Inversion::Refuse)?;
-    /// assert!((moduli.young() / 1e6 - 1.0).abs() < 1e-14);
-    /// assert!((moduli.poisson() - 0.45).abs() < 1e-14);
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// [`MaterialError`] if the material refuses the parameters, as for moduli that are not positive.
-    pub fn matching(&self, wanted: Moduli) -> Result<Vec<Vec<f64>>, MaterialError> {
-        matching(&self.description, |values| self.moduli(values, Inversion::Refuse), wanted)
-    }
-}
 
 /// The typical parameters of a declaration, rescaled to the small-strain moduli `wanted`; `moduli` are those
 /// of the material with the values of its parameters, one slice for each.
@@ -40,6 +13,21 @@ impl Entry {
 /// and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for Young's
 /// modulus. An energy is proportional to these together, so that its shape, exponents and limits included,
 /// stays that of the typical material.
+///
+/// ```
+/// use piola::Inversion::Refuse;
+/// use piola::material::Moduli;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let entry = piola_materials::find("stable_neo_hookean").ok_or("not in the catalogue")?;
+/// let wanted = Moduli::from_young_poisson(1e6, 0.45)?;
+/// let values = piola_materials::matching(&entry.description, |values| entry.moduli(values, Refuse), wanted)?;
+/// let moduli = entry.moduli(&[&values[0], &values[1]], Refuse)?;
+/// assert!((moduli.young() / 1e6 - 1.0).abs() < 1e-14);
+/// assert!((moduli.poisson() - 0.45).abs() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 /// [`MaterialError`] if the material refuses the parameters, as for moduli that are not positive, or because

@@ -1,5 +1,12 @@
-//! Names that generated code uses: no part of the public interface, and free to change with every version.
+//! Names that generated code and the other crates of piola use: no part of the public interface, and free to
+//! change with every version.
 
+#[cfg(feature = "batch")]
+pub use crate::batch::{
+    material::{Arguments, Properties},
+    rows::Rows,
+    svd_tile::SvdTile,
+};
 pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;
@@ -13,3 +20,22 @@ pub use serde;
 pub use std::{borrow::Cow::Borrowed, option::Option, result::Result, vec::Vec};
 
 pub use crate::Real;
+
+/// Programs as the compiler of declarations fills them in.
+#[cfg(all(feature = "interpreter", not(test)))]
+pub mod interpreter {
+    pub use crate::interpreter::domain::Volume;
+    pub use crate::interpreter::material::{ByInvariants, Calls, Programs, Variant};
+    pub use crate::interpreter::parameters::{ParameterValues, Value};
+    pub use crate::interpreter::program::*;
+}
+
+/// Quotations in the messages of all crates.
+pub mod message {
+    pub use crate::message::*;
+}
+
+/// Samples for the contract and for tests.
+pub mod random {
+    pub use crate::random::Random;
+}

@@ -1,7 +1,7 @@
 //! Materials whose energies are programs found at run time.
 //!
 //! The compiler of declarations orders an energy and its derivatives into operations. `#[piola::material]`
-//! writes these as Rust; the crate `piola-declare` keeps them as a [`Program`] and makes an [`Interpreted`]
+//! writes these as Rust; the crate `piola-declare` keeps them as a `Program` and makes an [`Interpreted`]
 //! material of it, which executes the operations one after the other. The operations are the same ones in the
 //! same order, so that results are the same, bit by bit, for every kind of real number and on every back end.
 //!
@@ -13,19 +13,11 @@
 //! How a declaration becomes a program is not known here, nor what an energy means.
 
 mod compute;
-mod domain;
+pub(crate) mod domain;
 mod execute;
-mod material;
-mod parameters;
-mod program;
+pub(crate) mod material;
+pub(crate) mod parameters;
+pub(crate) mod program;
 mod registers;
 
-#[doc(hidden)]
-pub use domain::Volume;
 pub use material::Interpreted;
-#[doc(hidden)] // how the compiler fills them in: no part of the interface
-pub use material::{ByInvariants, Calls, Programs, Variant};
-#[doc(hidden)]
-pub use parameters::{ParameterValues, Value};
-#[doc(hidden)]
-pub use program::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};

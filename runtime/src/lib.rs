@@ -92,12 +92,10 @@ pub mod lanes;
 pub mod material;
 #[cfg(feature = "bodies")]
 pub mod mesh;
-#[doc(hidden)] // how errors quote what they were given: no part of the interface
-pub mod message;
+mod message;
 pub mod point;
 mod quotient;
-#[doc(hidden)] // samples for the contract and for tests: no part of the interface
-pub mod random;
+mod random;
 mod status;
 #[cfg(feature = "bodies")]
 pub mod step;

@@ -37,8 +37,7 @@ pub use fittable::{Constraint, Fittable, Limit};
 pub use mixed::Mixed;
 pub use parameter::{Graded, ParameterValue, PerElement, PerLane, PerPoint, PerPointError};
 pub use response::Response;
-#[doc(hidden)] // how whole tiles are handed to an interpreter: no part of the interface
-pub use response::{ResponseKind, Tile};
+pub(crate) use response::{ResponseKind, Tile};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];

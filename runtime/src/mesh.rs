@@ -13,4 +13,5 @@ pub use io::{
     NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, turned,
 };
-pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh, lumped_masses};
+pub(crate) use tet::lumped_masses;
+pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh};

@@ -1,7 +1,6 @@
 //! Numbers and foreign text in messages: short, and harmless to a terminal.
 //!
-//! Errors of all crates quote what they were given through these functions. They are no part of the
-//! interface.
+//! Errors of all crates quote what they were given through these functions.
 
 /// Characters of a quotation beyond which it is cut.
 const LONGEST: usize = 40;
@@ -12,7 +11,7 @@ const MOST_NAMES: usize = 20;
 /// take a line of zeros.
 ///
 /// ```
-/// # use piola::message::number;
+/// # use piola::__private::message::number;
 /// assert_eq!([0.25, 1e308, -1e-9].map(number), ["0.25", "1e308", "-1e-9"]);
 /// ```
 #[must_use]
@@ -25,7 +24,7 @@ pub fn number(x: f64) -> String {
 /// A word of a file or a name: escaped as by [`printable`], and cut where it is long.
 ///
 /// ```
-/// # use piola::message::quoted;
+/// # use piola::__private::message::quoted;
 /// assert_eq!(quoted("left\u{1b}[2J side"), "left\\u{1b}[2J side");
 /// assert_eq!(quoted(&"x".repeat(1000)), format!("{}…", "x".repeat(40)));
 /// ```
@@ -54,7 +53,7 @@ pub fn printable(text: &str) -> String {
 /// Names one after the other, each [`quoted`]; of many the first ones and how many more there are.
 ///
 /// ```
-/// # use piola::message::names;
+/// # use piola::__private::message::names;
 /// assert_eq!(names(["left", "right"]), "left, right");
 /// assert!(names(["x"; 100]).ends_with("x, x and 80 more"));
 /// ```

@@ -25,7 +25,6 @@ use crate::status::Status;
 mod deflation;
 mod deformation;
 mod dense;
-mod gradient;
 pub(crate) mod invariants;
 pub(crate) mod matrix;
 pub mod measures;
@@ -44,7 +43,6 @@ mod twice;
 pub use deformation::Deformation;
 use deformation::Evaluate;
 pub use dense::{DensePoint, evaluate_dense};
-pub use gradient::{SvdGradient, svd_gradient};
 use invariants::{invariants, stress_by_invariants};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
@@ -53,7 +51,9 @@ pub use project::{Filter, project};
 pub use small_strain::DisplacementGradient;
 pub use stress::stress;
 pub use svd::{Svd, svd, svd_signed_by_determinant};
-pub use tangent::{Assemble, Tangent, assemble_blocks};
+pub use tangent::Tangent;
+#[cfg(feature = "batch")]
+pub(crate) use tangent::{Assemble, assemble_blocks};
 
 /// A 3×3 matrix as its rows: entry (i, j) is `m[i][j]`.
 pub type Matrix3<R> = [[R; 3]; 3];

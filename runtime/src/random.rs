@@ -8,7 +8,7 @@
 /// A stream of pseudorandom numbers.
 ///
 /// ```
-/// let mut random = piola::random::Random::new(7);
+/// let mut random = piola::__private::random::Random::new(7);
 /// let x = random.uniform(-1.0, 1.0);
 /// assert_eq!(x, -0.22034050321745702);
 /// ```

@@ -1,10 +1,10 @@
 //! Lists whose lengths are known at run time, beside the same energies with lengths that the compiler knows.
 #![cfg(feature = "batch")]
 
+use piola::__private::random::Random;
 use piola::batch::{Batch, MatrixForm};
 use piola::lanes::Backend;
 use piola::material::{Argument, Blocks, Declared, Fittable, Form, Limit, MaterialError};
-use piola::random::Random;
 use piola::{Inversion, Material, material};
 
 /// Ogden's sum.

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::PathBuf;
 
+use piola::__private::message::{number, quoted};
 use piola::material::{MaterialError, Text};
 use piola::mesh::ReadError;
-use piola::message::{number, quoted};
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
 use piola_declare::Mistakes;

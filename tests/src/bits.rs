@@ -9,7 +9,7 @@
 use piola::Real;
 use piola::point::Matrix3;
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// A real type of one machine number, read and written by its bits.
 pub trait Precision: Real<Mask = bool> + PartialOrd {

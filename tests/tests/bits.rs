@@ -20,9 +20,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use piola::__private::random::Random;
 use piola::Inversion;
 use piola::point::Matrix3;
-use piola::random::Random;
 use piola_tests::bits::Family;
 use piola_tests::energies::{self, ENERGIES, Format, Subject};
 use piola_tests::soundness::{Answer, Fault, check, check_elements, check_single, check_single_accuracy};

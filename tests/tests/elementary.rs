@@ -7,9 +7,9 @@
 
 use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 
+use piola::__private::random::Random;
 use piola::Real;
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
-use piola::random::Random;
 use piola_tests::bits::Precision;
 use piola_tests::multiprecision::Multiprecision;
 

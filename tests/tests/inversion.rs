@@ -1,11 +1,11 @@
 //! An extended energy restores a point: a free element, however collapsed or inverted, ends at a rotation of
 //! its rest shape.
 
+use piola::__private::random::Random;
 use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::mesh::TetMesh;
 use piola::point::svd;
-use piola::random::Random;
 use piola::step::{Damping, Simulation, SimulationSettings, StepError};
 use piola::system::{Body, Part, Pins};
 use piola_tests::energies::{ENERGIES, Judged};

@@ -3,10 +3,10 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
+use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::point::plane::{Matrix2, in_space, plane_strain, plane_stress};
 use piola::point::{Filter, evaluate};
-use piola::random::Random;
 use piola_tests::energies::ENERGIES;
 
 /// Runs a check on every material of the catalogue in every treatment of inversion, each read from its

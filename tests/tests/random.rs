@@ -9,8 +9,8 @@
 
 use std::collections::BTreeMap;
 
+use piola::__private::random::Random;
 use piola::Inversion;
-use piola::random::Random;
 use piola_codegen::model::model;
 use piola_tests::declared::declarations;
 use piola_tests::energies::{ENERGIES, Format, Subject};

@@ -5,9 +5,9 @@
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
+use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::point::{self, DisplacementGradient, EnergyPoint, Filter, Matrix3, StressPoint};
-use piola::random::Random;
 use piola::{Inversion, Material, Real};
 use piola_tests::compiled;
 use piola_tests::energies::{ENERGIES, Format, Subject};

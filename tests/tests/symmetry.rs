@@ -6,10 +6,10 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
+use piola::__private::random::Random;
 use piola::batch::{Batch, MatrixForm};
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola::random::Random;
 use piola::{Inversion, StatusCell};
 use piola_tests::energies::ENERGIES;
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use piola::__private::message::number;
 use piola::Inversion;
-use piola::message::number;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};

@@ -6,10 +6,10 @@
 use fenris::nalgebra::{DMatrix, DMatrixViewMut, DVector, DVectorView, Matrix3, Vector3};
 use fenris_optimize::calculus::{approximate_gradient_fd, approximate_jacobian_fd};
 use fenris_solid::HyperelasticMaterial;
+use piola::__private::random::Random;
 use piola::Inversion;
 use piola::interpreter::Interpreted;
 use piola::point::Filter;
-use piola::random::Random;
 use piola_declare::Energy;
 use piola_fenris::PiolaMaterial;
 use piola_materials::DECLARATIONS;

@@ -14,8 +14,8 @@ use fenris::nalgebra::{DMatrix, DVector, Matrix3, U3, Vector3};
 use fenris::quadrature::{self, QuadraturePair3d};
 use fenris_solid::materials::{LameParameters, NeoHookeanMaterial, StVKMaterial};
 use fenris_solid::{HyperelasticMaterial, MaterialEllipticOperator};
+use piola::__private::random::Random;
 use piola::point::Filter;
-use piola::random::Random;
 use piola_fenris::PiolaMaterial;
 use piola_materials::{NeoHookean, StVenantKirchhoff};
 

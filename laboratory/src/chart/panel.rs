@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use piola::message::number;
+use piola::__private::message::number;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use piola::message::quoted;
+use piola::__private::message::quoted;
 
 use super::trial::TrialError;
 use crate::data::{Agreement, Fault, short};

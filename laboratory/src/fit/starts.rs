@@ -1,6 +1,6 @@
 //! Starting points of descents.
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 use super::FitSettings;
 use super::outcome::Standing;

@@ -118,17 +118,11 @@ impl Backend {
         kernel.run::<E::In<Portable>>()
     }
 
-    /// Copies a slice by [`Lanes::store_non_temporal`], for benchmarks: the traffic of a kernel's output
-    /// alone.
-    ///
-    /// ```
-    /// let (from, mut to) = ([1.0, 2.0, 3.0], [0.0; 3]);
-    /// piola::lanes::Backend::best().store_non_temporal(&from, &mut to);
-    /// assert_eq!(to, from);
-    /// ```
+    /// Copies a slice by [`Lanes::store_non_temporal`], for tests of the memory that it writes.
     ///
     /// # Panics
     /// If the lengths differ.
+    #[doc(hidden)]
     pub fn store_non_temporal<E: Scalar>(self, from: &[E], to: &mut [E]) {
         struct Copy<'a, E>(&'a [E], &'a mut [E]);
         impl<E: Scalar> Kernel<E> for Copy<'_, E> {

@@ -29,7 +29,6 @@ macro_rules! with_responses {
 pub(super) use with_responses;
 
 /// A response that many points compute together: see [`Material::respond_together`].
-#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResponseKind {
     /// [`Material::energy`], one number.
@@ -55,7 +54,6 @@ impl ResponseKind {
 }
 
 /// Points that compute a response together: see [`Material::respond_together`].
-#[doc(hidden)]
 #[derive(Debug)]
 pub struct Tile<'a, E> {
     /// Vector instructions of the kernels.

@@ -220,8 +220,7 @@ impl TetMesh {
 ///
 /// # Panics
 /// If a tetrahedron names a node that does not exist.
-#[must_use]
-pub fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
+pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.positions.len()];
     for ((nodes, shape), density) in mesh.tets.iter().zip(shapes).zip(densities) {
         for &node in nodes {

@@ -191,7 +191,7 @@ impl<R: Real> Blocks<R> {
 /// Takes the 3×3 blocks of a symmetric matrix from [`assemble_blocks`].
 ///
 /// A trait and no closure, because lanes want everything inlined, and nothing can force a closure to be.
-pub trait Assemble<R> {
+pub(crate) trait Assemble<R> {
     /// Takes K between (a, x) and (c, y) as `block[x][y]`, a ≤ c.
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>);
 }
@@ -206,7 +206,7 @@ pub trait Assemble<R> {
 /// rest shape, K is the stiffness between three nodes of a tetrahedron; the fourth node's rows are minus
 /// their sum. About 560 multiplications and additions.
 #[inline(always)]
-pub fn assemble_blocks<R: Real>(
+pub(crate) fn assemble_blocks<R: Real>(
     U: &Matrix3<R>,
     W: &Matrix3<R>,
     blocks: &Blocks<R>,

@@ -29,8 +29,9 @@ use super::spring::Spring;
 /// for stage in 0..steps.begin(dt) {
 ///     steps.begin_stage(stage);
 ///     let [tau, sigma] = steps.stage().lengths();
-///     let (start, velocity) = (steps.stage().start()[0][1], steps.stage().velocities()[0][1]);
-///     steps.in_stage().end[0][1] = start + tau * (velocity + sigma * g);
+///     // The acceleration is linear in the position, with the slope 1/(τ σ).
+///     let [_, a] = steps.stage().motion(0, [0.0; 3]);
+///     steps.in_stage().end[0][1] = tau * sigma * (g - a[1]);
 ///     steps.end_stage(stage);
 /// }
 /// steps.finish();
@@ -314,18 +315,6 @@ pub struct InStage<'a> {
 }
 
 impl Stage {
-    /// s, m, of each node.
-    #[must_use]
-    pub fn start(&self) -> &[[f64; 3]] {
-        &self.start
-    }
-
-    /// w, m/s, of each node.
-    #[must_use]
-    pub fn velocities(&self) -> &[[f64; 3]] {
-        &self.velocities
-    }
-
     /// τ and σ, s.
     #[must_use]
     pub fn lengths(&self) -> [f64; 2] {

@@ -2,10 +2,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use piola::__private::random::Random;
 use piola::Inversion;
 use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
-use piola::random::Random;
 use piola::step::{
     Damping, Filtering, Integrator, LineSearchSettings, LinearSolver, NewtonSettings, SimulationSettings,
 };

@@ -7,7 +7,7 @@
 //! The checksum is the CRC-32 of zip files, over the text of `content` as it stands there. It guards against
 //! accidents, not against malice.
 
-use piola::message::printable;
+use piola::__private::message::printable;
 use piola_declare::LARGEST_TEXT;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::ser::Error as _;

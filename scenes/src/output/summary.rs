@@ -6,7 +6,7 @@ use std::ops::AddAssign;
 
 use serde::{Deserialize, Serialize};
 
-use piola::message::number;
+use piola::__private::message::number;
 use piola::step::Integrator;
 
 use crate::material::Parameters;

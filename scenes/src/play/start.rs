@@ -1,6 +1,6 @@
 //! The nodes in frame 0.
 
-use piola::random::Random;
+use piola::__private::random::Random;
 use piola::system::Pins;
 
 use crate::geometry::Geometry;

@@ -1,6 +1,6 @@
 //! Mutations of texts: what a disk, an editor, or somebody with a grudge does to a file.
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// Values that readers stumble over.
 const VALUES: &[&str] = &[

@@ -9,7 +9,7 @@ use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-use piola::random::Random;
+use piola::__private::random::Random;
 use piola_hostile::mutation::mutated;
 use piola_hostile::{FORMATS, Format, seeds};
 use piola_scenes::scene::HORSE;

@@ -9,7 +9,7 @@ use piola::batch::{Batch, Layout, LengthError, MatrixForm, Stages, Tetrahedra};
 use piola::lanes::Scalar;
 
 use super::task::{CORNERS, Task};
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// Inputs and outputs of a task, for a multiple of 64 points.
 #[derive(Debug)]

@@ -5,7 +5,7 @@
 use piola::batch::REST;
 use piola::point::Filter;
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// A method of [`Batch`](piola::batch::Batch) to be timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -244,7 +244,7 @@ mod tests {
     use super::*;
     use crate::baselines::matrix::to_world;
     use crate::baselines::testing::{IDENTITY, convert, error, exact};
-    use piola::random::Random;
+    use piola::__private::random::Random;
 
     const THRESHOLD: f64 = 1e-6;
 

@@ -31,7 +31,7 @@ mod tests {
     use super::*;
     use crate::baselines::matrix::{cofactor, dot, multiply_transposed, scale_columns, to_world, transpose};
     use crate::baselines::testing::{IDENTITY, SHEARED, convert, error};
-    use piola::random::Random;
+    use piola::__private::random::Random;
 
     /// Backward error ‖F − U diag(λ) Vᵀ‖/‖F‖ and distance of U and V from rotations, in units of u; the
     /// larger one.

@@ -3,7 +3,7 @@
 //! An energy is a sum of a few terms, each of moderate depth and with sane constants, as a paper might print
 //! them. An energy without the word `prestressed` has only terms whose stress vanishes at rest.
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 use super::polynomial::Function;
 

@@ -1,6 +1,6 @@
 //! Stretches at which digits are easily lost.
 
-use piola::random::Random;
+use piola::__private::random::Random;
 
 /// Triples λ1 ≥ λ2 ≥ |λ3|: rest, equal, close, flat, a line, large, and random ones, `count` of them chosen
 /// by chance. With `signed`, λ3 may be negative.

@@ -4,9 +4,9 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use piola::__private::pole_floor;
+use piola::__private::random::Random;
 use piola::Real;
 use piola::material::PAIRS;
-use piola::random::Random;
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::interpret::{self, evaluate};
 use piola_codegen::model::{Model, Variant};
