@@ -93,7 +93,7 @@ pub use material::TileMaterial;
 pub use quadrature::Quadrature;
 pub use sink::Layout;
 pub use stage::Stages;
-pub use tetrahedra::{NoSuchNode, Tetrahedra};
+pub use tetrahedra::Tetrahedra;
 
 #[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;

@@ -93,6 +93,8 @@ pub mod material;
 #[cfg(feature = "bodies")]
 pub mod mesh;
 mod message;
+#[cfg(feature = "batch")]
+mod no_such_node;
 pub mod point;
 mod quotient;
 mod random;
@@ -106,6 +108,8 @@ pub mod univariate;
 pub use dynamic::DynMaterial;
 pub use lanes::Real;
 pub use material::{Inversion, Material};
+#[cfg(feature = "batch")]
+pub use no_such_node::NoSuchNode;
 pub use piola_macros::material;
 pub use status::{Status, StatusCell, Survey};
 pub use univariate::{Spline, Univariate};

@@ -6,7 +6,8 @@ use std::ffi::{CStr, CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use piola::batch::{LengthError, NoSuchNode};
+use piola::NoSuchNode;
+use piola::batch::LengthError;
 use piola::material::{MaterialError, PerPointError};
 use piola::mesh::MeshError;
 use piola::step::{NewtonError, SetupError, StepError};

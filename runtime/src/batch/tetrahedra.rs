@@ -1,8 +1,7 @@
 //! Linear tetrahedra of a mesh: which nodes they join, and how the positions of these become edges.
 
-use std::fmt;
-
 use super::sink::Lines;
+use crate::NoSuchNode;
 use crate::lanes::Scalar;
 
 /// The nodes of linear tetrahedra, four of each, seen to exist once for many calls.
@@ -19,7 +18,7 @@ impl<'a> Tetrahedra<'a> {
     /// [`NoSuchNode`] for the first node that does not exist.
     pub fn new(nodes: usize, corners: &'a [[usize; 4]]) -> Result<Self, NoSuchNode> {
         match corners.as_flattened().iter().position(|&node| node >= nodes) {
-            Some(at) => Err(NoSuchNode { tetrahedron: at / 4, node: corners.as_flattened()[at], nodes }),
+            Some(at) => Err(NoSuchNode { element: Some(at / 4), node: corners.as_flattened()[at], nodes }),
             None => Ok(Self { nodes, corners }),
         }
     }
@@ -65,29 +64,6 @@ pub(super) fn set_edges<E: Scalar>(edges: &mut Lines<E, 9>, lane: usize, [x0, x1
         edges.set(lane, 3 * a + 2, x3[a] - x0[a]);
     }
 }
-
-/// A tetrahedron that names a node which does not exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoSuchNode {
-    /// The tetrahedron, from 0.
-    pub tetrahedron: usize,
-    /// The missing node.
-    pub node: usize,
-    /// Number of nodes.
-    pub nodes: usize,
-}
-
-impl fmt::Display for NoSuchNode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { tetrahedron, node, nodes } = self;
-        write!(
-            f,
-            "tetrahedron {tetrahedron} (from 0) names node {node}: the {nodes} nodes are numbered from 0"
-        )
-    }
-}
-
-impl std::error::Error for NoSuchNode {}
 
 #[cfg(test)]
 mod tests {
@@ -249,8 +225,8 @@ mod tests {
     fn nodes_that_do_not_exist_and_lengths_that_do_not_fit_are_errors() {
         let corners = [[0, 1, 2, 3], [1, 2, 3, 4]];
         let error = Tetrahedra::new(4, &corners).expect_err("node 4");
-        assert_eq!(error, NoSuchNode { tetrahedron: 1, node: 4, nodes: 4 });
-        assert_eq!(error.to_string(), "tetrahedron 1 (from 0) names node 4: the 4 nodes are numbered from 0");
+        assert_eq!(error, NoSuchNode { element: Some(1), node: 4, nodes: 4 });
+        assert_eq!(error.to_string(), "element 1 names node 4: the 4 nodes are numbered from 0");
         let tetrahedra = Tetrahedra::new(5, &corners).expect("nodes that exist");
         let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
         let call = |positions: usize, rest: usize| {

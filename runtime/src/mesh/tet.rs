@@ -4,6 +4,8 @@
 
 use std::fmt;
 
+use crate::NoSuchNode;
+
 /// Tetrahedral mesh at rest, in f64.
 ///
 /// ```
@@ -104,7 +106,7 @@ impl TetMesh {
         for (tet, nodes) in self.tets.iter().enumerate() {
             let (element, count) = (self.tag(tet), self.positions.len());
             if let Some(&node) = nodes.iter().find(|&&node| node >= count) {
-                return Err(MeshError::NoSuchNode { element, node, nodes: count });
+                return Err(NoSuchNode { element: Some(element), node, nodes: count }.into());
             }
             let shape = rest_shape(nodes.map(|node| self.positions[node]));
             shapes.push(shape.map_err(|fault| match fault {
@@ -296,14 +298,7 @@ pub enum MeshError {
         node: usize,
     },
     /// A tetrahedron names a node that does not exist.
-    NoSuchNode {
-        /// Tag of the tetrahedron.
-        element: usize,
-        /// The missing node, from 0.
-        node: usize,
-        /// Number of nodes.
-        nodes: usize,
-    },
+    NoSuchNode(NoSuchNode),
     /// A node belongs to no tetrahedron; it would have no mass.
     UnusedNode {
         /// The node, from 0.
@@ -335,9 +330,7 @@ impl fmt::Display for MeshError {
         match self {
             Self::Empty => write!(f, "the mesh has no tetrahedra"),
             Self::NotFinite { node } => write!(f, "the position of node {node} (from 0) is not finite"),
-            Self::NoSuchNode { element, node, nodes } => {
-                write!(f, "element {element} names node {node} (from 0), but there are {nodes} nodes")
-            }
+            Self::NoSuchNode(error) => error.fmt(f),
             Self::UnusedNode { node } => write!(
                 f,
                 "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
@@ -362,7 +355,7 @@ impl fmt::Display for MeshError {
     }
 }
 
-impl std::error::Error for MeshError {}
+crate::chained::wraps!(MeshError { NoSuchNode(NoSuchNode) });
 
 pub(crate) fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
@@ -414,7 +407,7 @@ mod tests {
     fn errors_name_the_culprit() {
         check(|mesh| mesh.tets.clear(), "the mesh has no tetrahedra");
         check(|mesh| mesh.positions[2][1] = f64::NAN, "the position of node 2 (from 0) is not finite");
-        check(|mesh| mesh.tets[0][3] = 9, "element 1 names node 9 (from 0), but there are 4 nodes");
+        check(|mesh| mesh.tets[0][3] = 9, "element 1 names node 9: the 4 nodes are numbered from 0");
         check(
             |mesh| mesh.positions.push([1.0; 3]),
             "node 4 (from 0) belongs to no tetrahedron and would have no mass; \

@@ -14,6 +14,7 @@
 //! smallest eigenvalue of K is the largest of (K + σM)⁻¹M, the better separated from the others the smaller σ
 //! is.
 
+use crate::NoSuchNode;
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
 use crate::system::linear::lanczos::{add, dot, largest, norm};
@@ -119,7 +120,7 @@ impl Equilibrium {
         let terms = simulation.all_terms();
         terms.linearise(positions, &mut blocks);
         if let Some(node) = blocks.missing() {
-            return Err(NewtonError::NoSuchNode { node, nodes: positions.len() });
+            return Err(NoSuchNode { element: None, node, nodes: positions.len() }.into());
         }
         let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
         let mut stiffness = NodalStiffness::new(body, &pairs)?;

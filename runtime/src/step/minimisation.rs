@@ -1,5 +1,6 @@
 //! Newton's method for a body on one machine: its variables are the nodal positions.
 
+use crate::NoSuchNode;
 use crate::lanes::Real;
 use crate::point::Filter;
 use crate::system::assemble::Elastic;
@@ -149,7 +150,7 @@ impl Minimisation for StageMinimisation<'_> {
         let Self { objective, workspace, x, .. } = self;
         objective.terms.linearise(x, objective.blocks);
         if let Some(node) = objective.blocks.missing() {
-            return Err(NewtonError::NoSuchNode { node, nodes: x.len() });
+            return Err(NoSuchNode { element: None, node, nodes: x.len() }.into());
         }
         workspace.join(objective.body, objective.blocks)?;
         let tangents = workspace.solver.linearise(objective, filter);

@@ -5,6 +5,7 @@
 use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
 use super::simulation::SetupError;
 use super::spring::Spring;
+use crate::NoSuchNode;
 
 /// State of nodes, and the stages by which an [`Integrator`] advances it, for any minimiser: the one of
 /// [`Simulation`](super::Simulation), or of a body divided among machines.
@@ -65,7 +66,7 @@ impl StagedSteps {
     pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Result<Self, SetupError> {
         let nodes = positions.len();
         if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
-            return Err(SetupError::NoSuchNode { node, nodes });
+            return Err(NoSuchNode { element: None, node, nodes }.into());
         }
         let mut pinned = pinned.to_vec();
         pinned.sort_unstable();
@@ -291,7 +292,7 @@ impl StagedSteps {
     fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
         let nodes = self.state.x.len();
         if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
-            return Err(SetupError::NoSuchNode { node, nodes });
+            return Err(NoSuchNode { element: None, node, nodes }.into());
         }
         let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
         if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
@@ -329,7 +330,10 @@ mod tests {
     #[test]
     fn wrong_input_is_refused() {
         let build = |pinned: &[usize]| StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], pinned);
-        assert_eq!(build(&[1]).unwrap_err(), SetupError::NoSuchNode { node: 1, nodes: 1 });
+        assert_eq!(
+            build(&[1]).unwrap_err(),
+            SetupError::NoSuchNode(NoSuchNode { element: None, node: 1, nodes: 1 })
+        );
         let mut steps = build(&[]).expect("no pins");
         let expected = Err(SetupError::Length { expected: 1, found: 2 });
         assert_eq!(steps.set_positions(&[[0.0; 3]; 2]), expected);

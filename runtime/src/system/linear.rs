@@ -19,6 +19,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
+use crate::NoSuchNode;
+
 pub(crate) mod block_jacobi;
 pub(crate) mod conjugate_gradients;
 pub(crate) mod dense;
@@ -200,12 +202,7 @@ pub enum LinearError {
     /// The eigenvalues of a small matrix cannot be computed.
     NoEigenvalues,
     /// A pin names a node that does not exist.
-    NoSuchNode {
-        /// The missing node.
-        node: usize,
-        /// Number of nodes.
-        nodes: usize,
-    },
+    NoSuchNode(NoSuchNode),
 }
 
 impl fmt::Display for LinearError {
@@ -214,9 +211,7 @@ impl fmt::Display for LinearError {
             Self::NotPositive { column } => {
                 write!(f, "the matrix is not positive definite (pivot of column {column})")
             }
-            Self::NoSuchNode { node, nodes } => {
-                write!(f, "there is no node {node}: the {nodes} nodes are numbered from 0")
-            }
+            Self::NoSuchNode(error) => error.fmt(f),
             Self::Length { slice, found, expected } => {
                 write!(f, "`{slice}` has {found} entries; the matrix demands {expected}")
             }
@@ -235,7 +230,7 @@ impl fmt::Display for LinearError {
     }
 }
 
-impl std::error::Error for LinearError {}
+crate::chained::wraps!(LinearError { NoSuchNode(NoSuchNode) });
 
 #[cfg(test)]
 mod tests {

@@ -14,6 +14,7 @@ use super::linear::{LinearError, fits};
 use super::memory::{filled, reserved};
 use super::nodal_stiffness::NodalStiffness;
 use super::pins::Pins;
+use crate::NoSuchNode;
 
 /// Lower triangle of a [`NodalStiffness`], N/m, without the rows and columns of pinned nodes, in compressed
 /// columns: the form of SciPy's `csc_matrix` and of most sparse solvers.
@@ -43,7 +44,7 @@ impl LowerTriangle {
         let (graph, pattern) = (stiffness.graph(), stiffness.matrix().pattern());
         let nodes = graph.rows();
         if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
-            return Err(LinearError::NoSuchNode { node, nodes });
+            return Err(LinearError::NoSuchNode(NoSuchNode { element: None, node, nodes }));
         }
         let blocks = pattern.len();
         u32::try_from(9 * blocks).map_err(|_| LinearError::OutOfMemory)?;

@@ -24,7 +24,7 @@ const FORBIDDEN: [(&str, &[&str]); 8] = [
 
 /// Modules of the runtime from the bottom up: each may need those on the floors below.
 const RUNTIME: [&[&str]; 12] = [
-    &["chained", "lanes", "message", "random"],
+    &["chained", "lanes", "message", "no_such_node", "random"],
     &["mesh"],
     &["status"],
     &["quotient"],

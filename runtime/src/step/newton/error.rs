@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::NoSuchNode;
 use crate::message::number;
 use crate::step::solver::SolveError;
 use crate::system::LinearError;
@@ -34,12 +35,7 @@ pub enum NewtonError {
         term: usize,
     },
     /// A term names a node that does not exist.
-    NoSuchNode {
-        /// The node, from 0.
-        node: usize,
-        /// Number of nodes.
-        nodes: usize,
-    },
+    NoSuchNode(NoSuchNode),
     /// The matrix is not positive definite with any multiple of inertia added.
     NotPositive {
         /// The node in whose unknowns a pivot fails.
@@ -85,9 +81,7 @@ impl fmt::Display for NewtonError {
                 "term {term} (from 0) has no finite energy before the step or where the pins move; set positions that it admits, \
                  or take shorter time steps"
             ),
-            Self::NoSuchNode { node, nodes } => {
-                write!(f, "a term names node {node} (from 0), but there are {nodes} nodes")
-            }
+            Self::NoSuchNode(error) => write!(f, "second derivatives of a term: {error}"),
             Self::NotPositive { node, shift } => write!(
                 f,
                 "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added; \
@@ -108,7 +102,7 @@ impl fmt::Display for NewtonError {
     }
 }
 
-crate::chained::wraps!(NewtonError { Linear(LinearError) });
+crate::chained::wraps!(NewtonError { NoSuchNode(NoSuchNode), Linear(LinearError) });
 
 impl From<SolveError> for NewtonError {
     fn from(error: SolveError) -> Self {

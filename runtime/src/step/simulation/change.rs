@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::NoSuchNode;
 use crate::batch::TileMaterial;
 use crate::step::minimisation::NewtonWorkspace;
 use crate::step::solver::{Choice, SparseSolver};
@@ -55,7 +56,7 @@ impl Simulation {
     pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
         let nodes = self.body.rest().len();
         if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
-            return Err(SetupError::NoSuchNode { node, nodes });
+            return Err(NoSuchNode { element: None, node, nodes }.into());
         }
         self.workspace.set_pins(&self.body, pins)?;
         self.steps.set_pinned(pins.nodes());

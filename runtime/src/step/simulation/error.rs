@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::NoSuchNode;
 use crate::message::number;
 use crate::step::newton::NewtonError;
 use crate::system::LinearError;
@@ -11,12 +12,7 @@ use crate::system::LinearError;
 #[non_exhaustive]
 pub enum SetupError {
     /// A pin or spring names a node that does not exist.
-    NoSuchNode {
-        /// The node, from 0.
-        node: usize,
-        /// Number of nodes.
-        nodes: usize,
-    },
+    NoSuchNode(NoSuchNode),
     /// A motion is prescribed for a node that is not pinned.
     NotPinned {
         /// The node, from 0.
@@ -51,7 +47,7 @@ pub enum SetupError {
 impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoSuchNode { node, nodes } => write!(f, "there is no node {node} (from 0) among {nodes}"),
+            Self::NoSuchNode(error) => error.fmt(f),
             Self::NotPinned { node } => {
                 write!(f, "node {node} (from 0) is not pinned, so its motion cannot be prescribed")
             }
@@ -68,7 +64,7 @@ impl fmt::Display for SetupError {
     }
 }
 
-crate::chained::wraps!(SetupError { Linear(LinearError) });
+crate::chained::wraps!(SetupError { NoSuchNode(NoSuchNode), Linear(LinearError) });
 
 /// Reason why a step failed. The state before the step is untouched.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! Motions: falls, pins, springs and recoveries. The children test the rest.
 
 use super::*;
+use crate::NoSuchNode;
 use crate::batch::TileMaterial;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::point::Filter;
@@ -190,7 +191,7 @@ fn a_spring_stretches_until_forces_balance() {
     body.set_springs(&[Spring::on_node(0, [0.0; 3], 1.0), Spring::on_node(11, [0.0; 3], 0.0)])
         .expect("nodes");
     let error = body.set_springs(&[Spring::on_node(99, target, 1.0)]).expect_err("no such node");
-    assert!(matches!(error, SetupError::NoSuchNode { node: 99, .. }));
+    assert!(matches!(error, SetupError::NoSuchNode(NoSuchNode { node: 99, .. })));
     assert_eq!(body.springs().len(), 2, "the springs before are still there");
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
+use crate::NoSuchNode;
 use crate::mesh::{Anchor, TetMesh};
 use crate::random::Random;
 use crate::step::{LinearSolver, NewtonError, NewtonSettings, Simulation, SimulationSettings, StepError};
@@ -181,7 +182,10 @@ fn terms_that_refuse_a_state_or_name_no_node_fail_the_step_and_change_nothing() 
         }
     }
     let lost = error(&mut simulation, Arc::new(Lost));
-    assert_eq!(lost, StepError::Newton(NewtonError::NoSuchNode { node: 12, nodes: 12 }));
+    assert_eq!(
+        lost,
+        StepError::Newton(NewtonError::NoSuchNode(NoSuchNode { element: None, node: 12, nodes: 12 }))
+    );
     simulation.set_terms(Vec::new());
     simulation.step(1e-3).expect("a free fall");
 }

@@ -160,7 +160,7 @@ fn what_does_not_fit_is_an_error() {
         NodalStiffness::of_body(&body).expect("small")
     });
     let error = LowerTriangle::new(&small, &Pins::at([9])).expect_err("eight nodes");
-    assert_eq!(error, LinearError::NoSuchNode { node: 9, nodes: 8 });
+    assert_eq!(error, LinearError::NoSuchNode(NoSuchNode { element: None, node: 9, nodes: 8 }));
     assert_eq!(error.to_string(), "there is no node 9: the 8 nodes are numbered from 0");
     let mut matrix = LowerTriangle::new(&small, &Pins::none()).expect("small");
     let error = LinearError::Length { slice: "stiffness", found: large.len(), expected: small.len() };

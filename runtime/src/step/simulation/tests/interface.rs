@@ -23,7 +23,7 @@ fn nonsense_is_refused_with_a_reason() {
 
     let error =
         Simulation::new(body(), &Pins::at([8]), SimulationSettings::default()).expect_err("no such node");
-    assert_eq!(error.to_string(), "there is no node 8 (from 0) among 8");
+    assert_eq!(error.to_string(), "there is no node 8: the 8 nodes are numbered from 0");
     let mut simulation =
         Simulation::new(body(), &Pins::at([1]), SimulationSettings::default()).expect("a simulation");
     assert_eq!(simulation.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));

@@ -1,0 +1,27 @@
+//! Names of nodes that do not exist, which every module that takes nodes refuses.
+
+use std::fmt;
+
+/// A node that does not exist is named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoSuchNode {
+    /// The tetrahedron that names it, if one does: its tag in a mesh with tags, else its index from 0.
+    pub element: Option<usize>,
+    /// The missing node.
+    pub node: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+}
+
+impl fmt::Display for NoSuchNode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { element, node, nodes } = self;
+        match element {
+            Some(element) => write!(f, "element {element} names node {node}")?,
+            None => write!(f, "there is no node {node}")?,
+        }
+        write!(f, ": the {nodes} nodes are numbered from 0")
+    }
+}
+
+impl std::error::Error for NoSuchNode {}
