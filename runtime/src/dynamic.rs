@@ -5,25 +5,51 @@ use crate::batch::TileMaterial as Tiles;
 use crate::lanes::Scalar;
 use crate::material::{Material, Response};
 
-/// A material whose type is known at run time only: `Box<dyn DynMaterial<f64>>`.
+/// A material of any type: the bound to write wherever one is taken or kept, except for
+/// [`contract`](crate::contract), which takes a [`Material`].
 ///
-/// Every [`Material`] is one, in `f64` and `f32`. The functions of [`point`](crate::point) take it, and with
-/// feature `batch` so does `Batch`.
+/// Every [`Material`] is one, in `f64` and `f32`, and `dyn DynMaterial<f64>` is one whose type is known at
+/// run time only. Points and batches take it by reference, bodies by value; a part of a body takes it in a
+/// `Box`.
 ///
 /// ```
-/// use piola::{DynMaterial, material};
-/// use piola::point::{Filter, evaluate};
+/// use piola::DynMaterial;
+/// use piola::point::{Filter, Point, evaluate};
+///
+/// fn sheared(material: &dyn DynMaterial<f64>) -> Point<f64> {
+///     evaluate(material, &[[1.0, 0.1, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], Filter::None)
+/// }
+///
+/// # #[cfg(feature = "batch")]
+/// fn energies(material: &dyn DynMaterial<f64>, F: &[f64], to: &mut [f64]) -> Result<(), Box<dyn std::error::Error>> {
+///     piola::batch::Batch::new(material).energies(F, to)?;
+///     Ok(())
+/// }
+///
+/// # #[cfg(feature = "bodies")]
+/// # mod bodies {
+/// # use piola::DynMaterial;
+/// use piola::mesh::TetMesh;
+/// use piola::system::{Body, BodyError, Part};
+///
+/// fn body(mesh: &TetMesh, material: impl DynMaterial<f64> + 'static) -> Result<Body, BodyError> {
+///     Body::new(mesh, material, 1000.0)
+/// }
+///
+/// fn boxed(mesh: &TetMesh, material: Box<dyn DynMaterial<f64>>) -> Result<Body, BodyError> {
+///     Body::from_parts(mesh, vec![Part { group: None, material, density: 1000.0 }])
+/// }
+/// # }
 ///
 /// /// μ Σ(λ − 1)².
-/// #[material]
+/// #[piola::material]
 /// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
 ///     mu * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
 /// }
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let materials: Vec<Box<dyn DynMaterial<f64>>> = vec![Box::new(Springs::new(1.0)?), Box::new(Springs::new(2.0)?)];
-/// let F = [[1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// assert_eq!(evaluate(&*materials[1], &F, Filter::None).stress[0][0], 2.0);
+/// assert!(sheared(&*materials[0]).status.is_clean());
 /// # Ok(())
 /// # }
 /// ```

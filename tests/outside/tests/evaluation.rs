@@ -1,6 +1,6 @@
 //! Stress of a sum, at single points and through a trait object.
 
-use piola::batch::{Batch, TileMaterial};
+use piola::batch::Batch;
 use piola::point::{Filter, evaluate};
 
 type Result = std::result::Result<(), Box<dyn std::error::Error>>;
@@ -45,9 +45,8 @@ fn a_boxed_material_is_that_of_its_type() -> Result {
 fn a_batch_gives_the_stress_of_the_point() -> Result {
     for material in outside::boxed()? {
         let point = evaluate(&*material, &F, Filter::None).stress;
-        let tiles: &dyn TileMaterial<f64> = &*material;
         let mut stress = [0.0; 9];
-        let survey = Batch::new(tiles).stresses(F.as_flattened(), &mut stress)?;
+        let survey = Batch::new(&*material).stresses(F.as_flattened(), &mut stress)?;
         assert!(survey.is_clean());
         let scale = largest(&stress);
         for (one, other) in stress.iter().zip(point.as_flattened()) {
